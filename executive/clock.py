@@ -1,0 +1,55 @@
+"""Mission time for simulated worlds: free-running while the robot acts, real while someone thinks."""
+
+import time
+
+from executive.errors import ExecutiveError
+from executive.events import Inbox
+from executive.interfaces import World
+
+PACE_S = 0.02
+"""While a person or a model thinks and the robot still moves, the world catches up this often."""
+
+
+class SimulatedClock:
+    """Advances a world inside `wait`; with nothing moving it sleeps, or jumps to the deadline."""
+
+    def __init__(self, inbox: Inbox, world: World) -> None:
+        """Start at 0."""
+        self._inbox = inbox
+        self._world = world
+        self._now = 0.0
+
+    def now(self) -> float:
+        """The mission time (seconds)."""
+        return self._now
+
+    def restart(self) -> None:
+        """Call this moment 0."""
+        self._now = 0.0
+
+    def wait(self, deadline: float | None) -> None:
+        """Let time pass until an event is in the inbox or the deadline is reached.
+
+        Raises:
+            ExecutiveError: if nothing is under way that could ever end the wait.
+        """
+        while not self._inbox.has_events and (deadline is None or self._now < deadline):
+            left = float("inf") if deadline is None else deadline - self._now
+            if self._inbox.awaits_real:
+                self._wait_in_real_time(left)
+            elif self._world.busy:
+                self._now += self._world.advance(left)
+            elif deadline is not None:
+                self._now = deadline
+            else:
+                raise ExecutiveError("the mission waits for nothing: no request, no deadline")
+
+    def _wait_in_real_time(self, left: float) -> None:
+        longest = min(left, PACE_S) if self._world.busy else left
+        began = time.monotonic()
+        self._inbox.wait(None if longest == float("inf") else longest)
+        passed = time.monotonic() - began
+        caught_up = 0.0
+        while self._world.busy and caught_up < passed:
+            caught_up += self._world.advance(passed - caught_up)
+        self._now += passed

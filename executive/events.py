@@ -1,0 +1,127 @@
+"""Everything that can wake the executive, and the one box where it waits to be read.
+
+Slow things (a drive, a grasp, a picture, a reply, an answer) are opened here as a request, go on
+elsewhere, and end as an `Ended` event. The Inbox is the only thing that threads share.
+"""
+
+import queue
+from collections import deque
+from dataclasses import dataclass
+
+from executive.types import Result
+
+
+@dataclass(frozen=True, slots=True)
+class Started:
+    """A command was given; the mission begins."""
+
+    words: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ended:
+    """The request with this number ended, well or not."""
+
+    request: int
+    result: Result
+
+
+@dataclass(frozen=True, slots=True)
+class DeadlinePassed:
+    """The time that some behaviour waited for has come (mission time, seconds)."""
+
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class StopRequested:
+    """Someone wants the robot at rest: Ctrl-C, SIGTERM, or the word "stop"."""
+
+    by: str
+
+
+Event = Started | Ended | DeadlinePassed | StopRequested
+
+
+class Inbox:
+    """Events on their way to the thread that ticks.
+
+    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant); the
+    rest belongs to the thread that ticks.
+    """
+
+    def __init__(self) -> None:
+        """Make an empty box with nothing under way."""
+        self._queue: queue.SimpleQueue[Event] = queue.SimpleQueue()
+        self._taken: deque[Event] = deque()
+        self._open: dict[int, bool] = {}
+        self._last = 0
+
+    def open(self, *, real: bool = False) -> int:
+        """Number a new request; `real` if a person or a model, not the simulator, will end it."""
+        self._last += 1
+        self._open[self._last] = real
+        return self._last
+
+    def drop(self, request: int) -> None:
+        """Forget a cancelled request: its end, should it still come, is not delivered."""
+        self._open.pop(request, None)
+
+    def post(self, event: Event) -> None:
+        """Put an event in the box and wake whoever waits."""
+        self._queue.put(event)
+
+    def end(self, request: int, result: Result) -> None:
+        """Post the end of a request."""
+        self.post(Ended(request, result))
+
+    @property
+    def awaits_real(self) -> bool:
+        """Whether something that takes real time (a person, a model) is under way."""
+        return any(self._open.values())
+
+    @property
+    def awaits_anything(self) -> bool:
+        """Whether any request is under way."""
+        return bool(self._open)
+
+    def is_open(self, request: int) -> bool:
+        """Whether this request was neither ended (and its end taken) nor dropped."""
+        return request in self._open
+
+    def wait(self, seconds: float | None) -> bool:
+        """Sleep until an event is there or the time (real seconds; None: no limit) is up."""
+        if self._collect():
+            return True
+        try:
+            self._taken.append(self._queue.get(timeout=seconds))
+        except queue.Empty:
+            return False
+        return self._collect()
+
+    @property
+    def has_events(self) -> bool:
+        """Whether `take_all` would return anything now."""
+        return self._collect()
+
+    def take_all(self) -> tuple[Event, ...]:
+        """Empty the box, oldest first; ends of dropped requests are left out."""
+        self._collect()
+        events = tuple(self._taken)
+        self._taken.clear()
+        for event in events:
+            if isinstance(event, Ended):
+                del self._open[event.request]
+        return events
+
+    def _collect(self) -> bool:
+        """Move what was posted to the taken side, less the ends of dropped requests."""
+        while True:
+            try:
+                self._taken.append(self._queue.get_nowait())
+            except queue.Empty:
+                break
+        self._taken = deque(
+            e for e in self._taken if not isinstance(e, Ended) or e.request in self._open
+        )
+        return bool(self._taken)

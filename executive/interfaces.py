@@ -1,0 +1,229 @@
+"""Every seam of the system. An adapter for a real robot, camera or model implements one of these.
+
+All slow work has one shape: a method that starts it returns a request number at once, its end comes
+as an `Ended` event with that number, and `cancel` calls it off. Nothing here blocks but `Clock.wait`.
+"""
+
+from typing import Protocol
+
+from executive.records import Record
+from executive.types import (
+    ChatRequest,
+    Detection,
+    Frame,
+    Goal,
+    Place,
+    Question,
+    RankRequest,
+    Scored,
+    Candidate,
+    Verdict,
+)
+
+
+class Robot(Protocol):
+    """A mobile manipulator that pursues one goal at a time.
+
+    Starting a goal while another is under way replaces it: the earlier request ends as Failed.
+    """
+
+    def start(self, goal: Goal) -> int:
+        """Pursue a goal; ends Succeeded, or Failed with a reason that a person understands."""
+        ...
+
+    def cancel(self, request: int) -> None:
+        """Give up the goal and brake to rest; its end is not delivered."""
+        ...
+
+    def views(self, place: str) -> int:
+        """How many head poses it takes to see all of a place (at least 1)."""
+        ...
+
+    @property
+    def holding(self) -> bool:
+        """Whether both fingers touch a thing."""
+        ...
+
+
+class Camera(Protocol):
+    """A colour and depth camera."""
+
+    def capture(self) -> int:
+        """Take a picture; ends Captured, or Failed."""
+        ...
+
+    def cancel(self, request: int) -> None:
+        """Forget the picture."""
+        ...
+
+
+class Detector(Protocol):
+    """Recognises things in a picture."""
+
+    def detect(self, frame: Frame) -> tuple[Detection, ...]:
+        """All known things in the picture, surest first."""
+        ...
+
+
+class LanguageModel(Protocol):
+    """A model that writes, and may be able to score."""
+
+    @property
+    def name(self) -> str:
+        """What to call it in logs."""
+        ...
+
+    @property
+    def context_tokens(self) -> int:
+        """Size of its context window (tokens)."""
+        ...
+
+    @property
+    def can_rank(self) -> bool:
+        """Whether `rank` is available (it needs the model's token probabilities)."""
+        ...
+
+    def chat(self, request: ChatRequest) -> int:
+        """Write a reply; ends Replied, or Failed."""
+        ...
+
+    def rank(self, request: RankRequest) -> int:
+        """Score the options; ends Scored, or Failed."""
+        ...
+
+    def cancel(self, request: int) -> None:
+        """Stop generating within one token; the reply is not delivered."""
+        ...
+
+    def count_tokens(self, text: str) -> int:
+        """How many tokens the text takes, by the model's own tokenizer."""
+        ...
+
+    def close(self) -> None:
+        """Free the model and end its thread."""
+        ...
+
+
+class User(Protocol):
+    """The person, or who stands in for them."""
+
+    def ask(self, question: Question) -> int:
+        """Put a question; ends Answered, or Failed if no answer can come."""
+        ...
+
+    def cancel(self, request: int) -> None:
+        """Withdraw the question."""
+        ...
+
+    def tell(self, text: str) -> None:
+        """Say something that needs no answer."""
+        ...
+
+
+class Knowledge(Protocol):
+    """The ontology: which things there are, what they are called, where they usually are."""
+
+    def places(self) -> tuple[Place, ...]:
+        """Every piece of furniture of the home, in the home file's order."""
+        ...
+
+    def objects_named(self, words: str) -> tuple[str, ...]:
+        """The objects that the words may mean: none, one, or all members of a class ("fruit")."""
+        ...
+
+    def nearest_names(self, words: str) -> tuple[str, ...]:
+        """Known names that look most like the words, best first (at most 3)."""
+        ...
+
+    def usual_places(self, name: str) -> tuple[str, ...]:
+        """Default locations recorded for the object or its nearest class; those in this home only."""
+        ...
+
+    def places_named(self, words: str) -> tuple[str, ...]:
+        """Furniture that the words name, in their order; a room stands for its furniture."""
+        ...
+
+
+class Advisor(Protocol):
+    """Puts questions about places to a language model and lets only real places through.
+
+    The paper's prompting, output parser, memory and consistency verification. `among` holds the
+    default locations if the ontology has several, else it is empty: every place is allowed.
+    """
+
+    def inquiry(self, name: str, among: tuple[str, ...]) -> ChatRequest:
+        """`general_pos`, or `multiple_pos` when `among` is given."""
+        ...
+
+    def furniture(self, name: str, room: str, among: tuple[str, ...]) -> ChatRequest:
+        """`furniture`: which furniture of this room?"""
+        ...
+
+    def again(self, name: str, among: tuple[str, ...]) -> ChatRequest:
+        """`again`: the reply named no real place; choose from the list."""
+        ...
+
+    def summarize(self, name: str, reply: str) -> ChatRequest:
+        """`summarize`: the reply was not in the output format."""
+        ...
+
+    def remember(self, request: ChatRequest, reply: str) -> None:
+        """Keep the exchange for the next prompts (if this system has a memory)."""
+        ...
+
+    def read(self, reply: str) -> tuple[str, ...] | None:
+        """The names in a reply, or None if it is not in the output format."""
+        ...
+
+    def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
+        """Hold names against the ontology (the existence check)."""
+        ...
+
+    def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
+        """Score every allowed place instead of asking for a list."""
+        ...
+
+    def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
+        """Places with probabilities (they sum to 1), likeliest first."""
+        ...
+
+
+class World(Protocol):
+    """A simulated world whose time the clock drives."""
+
+    @property
+    def busy(self) -> bool:
+        """Whether anything moves or is due; if not, time may pass without computing it."""
+        ...
+
+    def advance(self, at_most: float) -> float:
+        """Let at most so many seconds pass, less if something ends earlier; return how many."""
+        ...
+
+    def close(self) -> None:
+        """Free the simulator."""
+        ...
+
+
+class Clock(Protocol):
+    """Mission time (seconds since the mission began)."""
+
+    def now(self) -> float:
+        """The time."""
+        ...
+
+    def restart(self) -> None:
+        """Call this moment 0."""
+        ...
+
+    def wait(self, deadline: float | None) -> None:
+        """Let time pass until an event is in the inbox or the deadline is reached."""
+        ...
+
+
+class Recorder(Protocol):
+    """Keeps what happened. Never raises: a sink that fails is dropped and the mission goes on."""
+
+    def record(self, record: Record) -> None:
+        """Stamp the record with the time and pass it on; may be called from the ticking thread only."""
+        ...

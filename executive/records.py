@@ -1,0 +1,203 @@
+"""What is written down: one typed record for each thing that a reader may ask about later.
+
+Whoever makes something worth keeping hands one of these to the Recorder, which stamps it with the
+mission time and passes it to every sink.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from executive.events import Event
+from executive.types import (
+    Color,
+    Detection,
+    Frame,
+    Outcome,
+    Pose,
+    Replied,
+    Scored,
+    Vector3,
+)
+
+# --- the tree ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class NodeShape:
+    """One behaviour of the tree; `path` is the names from the root, joined by slashes, unique."""
+
+    path: str
+    parent: str
+    """Path of the parent; empty for the root."""
+    name: str
+    kind: str
+    """`sequence`, `selector`, `decorator` or `behaviour`."""
+    class_name: str
+
+
+@dataclass(frozen=True, slots=True)
+class TreeShape:
+    """All behaviours, parents before children, written once a mission."""
+
+    nodes: tuple[NodeShape, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class NodeState:
+    """A behaviour after a tick: `status` is INVALID, RUNNING, SUCCESS or FAILURE."""
+
+    path: str
+    status: str
+    message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """The whole tree after one tick, what caused it, and what the mission knows."""
+
+    number: int
+    cause: str
+    tip: str
+    nodes: tuple[NodeState, ...]
+    situation: dict[str, Any]
+    duration_s: float
+    """Wall time of the tick itself."""
+
+
+# --- talk, thought, events --------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class EventTaken:
+    """An event as the executive took it from its inbox."""
+
+    event: Event
+
+
+@dataclass(frozen=True, slots=True)
+class LlmCall:
+    """One finished call of the language model, with request, reply, tokens and times."""
+
+    result: Replied | Scored
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """What the verification let through of a reply, and what it kept out."""
+
+    label: str
+    accepted: tuple[str, ...]
+    rooms: tuple[str, ...]
+    dropped: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """Something said: speaker is `person` or `robot`."""
+
+    speaker: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A line for the log: level is `debug`, `info`, `warning` or `error`."""
+
+    level: str
+    text: str
+
+
+# --- what was seen, and the world for the eye of the reader -------------------------------------------
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Picture:
+    """A camera frame, as taken."""
+
+    frame: Frame
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Seen:
+    """What was recognised in the picture with this number."""
+
+    frame_number: int
+    detections: tuple[Detection, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """One rigid primitive of an entity, in the entity's frame.
+
+    `kind` is `box` (size = full lengths x, y, z), `cylinder` (size = diameter, diameter, length
+    along z), `sphere` (size = three times the diameter) or `mesh` (size = scale, `mesh` = OBJ file).
+    """
+
+    kind: str
+    size: Vector3
+    color: Color
+    pose: Pose = field(default_factory=Pose)
+    mesh: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Entity:
+    """A visible thing: its shapes move with the frame `frame_id`."""
+
+    name: str
+    frame_id: str
+    shapes: tuple[Shape, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """The home and the robot as the simulator draws them: for the viewer only, never for the robot."""
+
+    entities: tuple[Entity, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """Where the frame `child` is in the frame `parent`."""
+
+    parent: str
+    child: str
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Transforms:
+    """The frames that moved since the last record."""
+
+    transforms: tuple[Transform, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """The way that the robot means to drive: points in `map` (metres)."""
+
+    points: tuple[Vector3, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Finished:
+    """The mission is over."""
+
+    outcome: Outcome
+
+
+Record = (
+    TreeShape
+    | Tick
+    | EventTaken
+    | LlmCall
+    | Verified
+    | Utterance
+    | Note
+    | Picture
+    | Seen
+    | Scene
+    | Transforms
+    | Path
+    | Finished
+)

@@ -1,0 +1,363 @@
+"""The nouns of the executive: immutable values with their units and frames.
+
+Frames follow REP-103 and REP-105: metres, radians, x forward, y left, z up; `map` is fixed to the
+home, `base_link` to the robot, `camera_optical` to the camera (x right, y down, z forward).
+Quaternions are (x, y, z, w).
+"""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector3 = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+Color = tuple[float, float, float, float]
+"""Red, green, blue, opacity in [0, 1]."""
+
+
+# --- what is asked, and what came of it -----------------------------------------------------------
+
+
+class Kind(StrEnum):
+    """What the person wants done with the thing."""
+
+    FIND = "find"
+    TAKE = "take"
+    BRING = "bring"
+
+
+class Source(StrEnum):
+    """Who an answer came from."""
+
+    ONTOLOGY = "ontology"
+    LLM = "llm"
+    USER = "user"
+    MEMORY = "memory"
+
+
+class Status(StrEnum):
+    """How a mission ended."""
+
+    DONE = "done"
+    NOT_DONE = "not_done"
+    NOT_UNDERSTOOD = "not_understood"
+    STOPPED = "stopped"
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A request that was understood: do `kind` to whatever `target` names."""
+
+    kind: Kind
+    target: str
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A place where the thing may be, who says so, and how likely (None where nobody said)."""
+
+    place: str
+    source: Source
+    probability: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One mission's result: what `--json` prints and `outcome.json` keeps."""
+
+    command: str
+    kind: Kind | None
+    target: str | None
+    object: str | None
+    status: Status
+    reason: str
+    source: Source | None
+    location: str | None
+    inquiries: int
+    visited: tuple[str, ...]
+    llm_calls: int
+    candidates: tuple[Candidate, ...]
+    mission_time_s: float
+    thinking_time_s: float
+    wall_time_s: float
+    run_dir: str | None
+
+
+# --- space ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """A rigid transform: where a child frame is in its parent (metres, unit quaternion)."""
+
+    position: Vector3 = (0.0, 0.0, 0.0)
+    orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A piece of furniture that things may be on or in, as the home file names it."""
+
+    name: str
+    kind: str
+    """Its class in the ontology: `Table`, `Cabinet`, `Shelf`, ..."""
+    room: str
+    """Name of the room that it stands in."""
+    room_kind: str
+    """The room's class in the ontology: `Kitchen`, `Bedroom`, ..."""
+
+
+# --- what the robot can be asked to do --------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class DriveTo:
+    """Go and stand before a piece of furniture, `person` or `delivery`."""
+
+    place: str
+
+
+@dataclass(frozen=True, slots=True)
+class LookAt:
+    """Point the head at a place; `view` counts from 0 to `Robot.views(place) - 1`."""
+
+    place: str
+    view: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pick:
+    """Grasp the detected thing and lift it."""
+
+    detection: "Detection"
+
+
+@dataclass(frozen=True, slots=True)
+class PutDown:
+    """Place the held thing on a free spot of this place."""
+
+    place: str
+
+
+@dataclass(frozen=True, slots=True)
+class Halt:
+    """Come to rest, whatever is under way; a held thing stays held."""
+
+
+Goal = DriveTo | LookAt | Pick | PutDown | Halt
+
+
+# --- seeing -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Intrinsics:
+    """A pinhole camera without distortion (pixels)."""
+
+    width: int
+    height: int
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """One picture: colour, depth, and where the camera was.
+
+    Attributes:
+        number: counts the pictures of one robot from 0.
+        color: (height, width, 3) uint8, RGB.
+        depth: (height, width) float32, metres along the optical axis; infinite where nothing was hit.
+        intrinsics: the camera's.
+        pose: `camera_optical` in `map`.
+    """
+
+    number: int
+    color: NDArray[np.uint8]
+    depth: NDArray[np.float32]
+    intrinsics: Intrinsics
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A rectangle in an image (pixels, from the top left corner)."""
+
+    left: int
+    top: int
+    width: int
+    height: int
+
+
+def _no_points() -> NDArray[np.float32]:
+    return np.empty((0, 3), dtype=np.float32)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Detection:
+    """A thing recognised in a picture.
+
+    Attributes:
+        label: an object's name as in the ontology.
+        confidence: in [0, 1].
+        box: in the picture.
+        mask: (box.height, box.width) bool, the thing's pixels inside the box.
+        points: (n, 3) float32, its visible surface in `map` (metres); empty until located by depth.
+    """
+
+    label: str
+    confidence: float
+    box: Box
+    mask: NDArray[np.bool_]
+    points: NDArray[np.float32] = field(default_factory=_no_points)
+
+    @property
+    def position(self) -> Vector3 | None:
+        """Middle of the visible surface in `map` (metres), or None before it is located."""
+        if not len(self.points):
+            return None
+        x, y, z = (float(v) for v in np.median(self.points, axis=0))
+        return x, y, z
+
+
+# --- talking ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """One turn of a chat: role is `system`, `user` or `assistant`."""
+
+    role: str
+    content: str
+
+
+@dataclass(frozen=True, slots=True)
+class ChatRequest:
+    """Ask the language model to write.
+
+    `label` names the prompt (the paper's labels); `schema` is the JSON schema that the reply should
+    follow, for models that can be held to one.
+    """
+
+    label: str
+    messages: tuple[Message, ...]
+    schema: dict[str, Any] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RankRequest:
+    """Ask the language model how likely each of `options` is as its next words.
+
+    The score of an option is log P(option | messages) - log P(option | neutral): `neutral` is the
+    same chat with the thing left open, so that what is merely a common phrase does not win.
+    `places` are the places that the options stand for, in the same order.
+    """
+
+    label: str
+    messages: tuple[Message, ...]
+    neutral: tuple[Message, ...]
+    options: tuple[str, ...]
+    places: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Usage:
+    """What one call cost: tokens in (of them evaluated, the rest cached), tokens out, seconds."""
+
+    model: str = ""
+    input_tokens: int = 0
+    evaluated_tokens: int = 0
+    output_tokens: int = 0
+    first_token_s: float = 0.0
+    total_s: float = 0.0
+    parameters: dict[str, float | int | str] = field(default_factory=dict)
+
+
+class QuestionKind(StrEnum):
+    """What a question is after."""
+
+    WHICH_OBJECT = "which_object"
+    WHERE_IS = "where_is"
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """Something that only the person can say.
+
+    `about` is the object or the class in question; `options` are the known answers, if they are few.
+    """
+
+    kind: QuestionKind
+    about: str
+    text: str
+    options: tuple[str, ...] = ()
+
+
+# --- what comes back: the end of anything that was started -------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Succeeded:
+    """The robot did it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """It could not be done, and why, as a clause for the person: "the way is blocked"."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Captured:
+    """The camera took this picture."""
+
+    frame: Frame
+
+
+@dataclass(frozen=True, slots=True)
+class Replied:
+    """The language model wrote this."""
+
+    request: ChatRequest
+    text: str
+    usage: Usage
+    finish_reason: str = "stop"
+
+
+@dataclass(frozen=True, slots=True)
+class Scored:
+    """The language model's calibrated log-likelihood of each option, in the request's order."""
+
+    request: RankRequest
+    scores: tuple[float, ...]
+    usage: Usage
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """The person said this."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What is left of a reply's names after they were held against the ontology.
+
+    `furniture` exists (and is allowed), in the order of the reply; `rooms` exist and still have to be
+    expanded into furniture; `dropped` are the names of nothing here.
+    """
+
+    furniture: tuple[str, ...]
+    rooms: tuple[str, ...] = ()
+    dropped: tuple[str, ...] = ()
+
+
+Result = Succeeded | Failed | Captured | Replied | Scored | Answered
