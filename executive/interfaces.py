@@ -8,6 +8,7 @@ from typing import Protocol
 
 from executive.records import Record
 from executive.types import (
+    Candidate,
     ChatRequest,
     Detection,
     Frame,
@@ -16,7 +17,6 @@ from executive.types import (
     Question,
     RankRequest,
     Scored,
-    Candidate,
     Verdict,
 )
 

@@ -19,7 +19,7 @@ from executive.types import (
     Vector3,
 )
 
-# --- the tree ---------------------------------------------------------------------------------------
+# --- the tree ---
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class Tick:
     """Wall time of the tick itself."""
 
 
-# --- talk, thought, events --------------------------------------------------------------------------
+# --- talk, thought, events ---
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +107,7 @@ class Note:
     text: str
 
 
-# --- what was seen, and the world for the eye of the reader -------------------------------------------
+# --- what was seen, and the world for the eye of the reader ---
 
 
 @dataclass(frozen=True, slots=True, eq=False)

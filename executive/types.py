@@ -18,7 +18,7 @@ Color = tuple[float, float, float, float]
 """Red, green, blue, opacity in [0, 1]."""
 
 
-# --- what is asked, and what came of it -----------------------------------------------------------
+# --- what is asked, and what came of it ---
 
 
 class Kind(StrEnum):
@@ -87,7 +87,7 @@ class Outcome:
     run_dir: str | None
 
 
-# --- space ----------------------------------------------------------------------------------------
+# --- space ---
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,7 @@ class Place:
     """The room's class in the ontology: `Kitchen`, `Bedroom`, ..."""
 
 
-# --- what the robot can be asked to do --------------------------------------------------------------
+# --- what the robot can be asked to do ---
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +151,7 @@ class Halt:
 Goal = DriveTo | LookAt | Pick | PutDown | Halt
 
 
-# --- seeing -----------------------------------------------------------------------------------------
+# --- seeing ---
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,7 +226,7 @@ class Detection:
         return x, y, z
 
 
-# --- talking ----------------------------------------------------------------------------------------
+# --- talking ---
 
 
 @dataclass(frozen=True, slots=True)
@@ -299,7 +299,7 @@ class Question:
     options: tuple[str, ...] = ()
 
 
-# --- what comes back: the end of anything that was started -------------------------------------------
+# --- what comes back: the end of anything that was started ---
 
 
 @dataclass(frozen=True, slots=True)
