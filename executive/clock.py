@@ -1,4 +1,4 @@
-"""Mission time for simulated worlds: free-running while the robot acts, real while someone thinks."""
+"""Mission time for simulated worlds: free-running while the robot acts, real while one thinks."""
 
 import time
 

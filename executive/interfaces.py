@@ -1,15 +1,16 @@
 """Every seam of the system. An adapter for a real robot, camera or model implements one of these.
 
-All slow work has one shape: a method that starts it returns a request number at once, its end comes
-as an `Ended` event with that number, and `cancel` calls it off. Nothing here blocks but `Clock.wait`.
+All slow work has one shape: a method that starts it returns a request number at once, its end
+comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
 """
 
 from typing import Protocol
 
-from executive.records import Record
+from executive.records import NodeState, Record, TreeShape
 from executive.types import (
     Candidate,
     ChatRequest,
+    Command,
     Detection,
     Frame,
     Goal,
@@ -48,12 +49,8 @@ class Robot(Protocol):
 class Camera(Protocol):
     """A colour and depth camera."""
 
-    def capture(self) -> int:
-        """Take a picture; ends Captured, or Failed."""
-        ...
-
-    def cancel(self, request: int) -> None:
-        """Forget the picture."""
+    def capture(self) -> Frame:
+        """The picture of this moment; takes some milliseconds."""
         ...
 
 
@@ -62,6 +59,18 @@ class Detector(Protocol):
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
         """All known things in the picture, surest first."""
+        ...
+
+
+class Eyes(Protocol):
+    """A camera and a detector together: takes a picture and says what is in it, and where."""
+
+    def see(self) -> int:
+        """Take a picture and recognise; ends Saw, or Failed."""
+        ...
+
+    def cancel(self, request: int) -> None:
+        """Forget the picture."""
         ...
 
 
@@ -136,7 +145,7 @@ class Knowledge(Protocol):
         ...
 
     def usual_places(self, name: str) -> tuple[str, ...]:
-        """Default locations recorded for the object or its nearest class; those in this home only."""
+        """Default locations of the object or its nearest class, as far as this home has them."""
         ...
 
     def places_named(self, words: str) -> tuple[str, ...]:
@@ -188,6 +197,48 @@ class Advisor(Protocol):
         ...
 
 
+class Interpreter(Protocol):
+    """Reads what a person says."""
+
+    def command(self, words: str) -> Command | None:
+        """The request in the words, or None if there is none."""
+        ...
+
+    def declines(self, answer: str) -> bool:
+        """Whether an answer says that the person does not know or will not say."""
+        ...
+
+
+class Tree(Protocol):
+    """The behaviour tree of one mission."""
+
+    def shape(self) -> TreeShape:
+        """All behaviours, parents before children."""
+        ...
+
+    def tick(self) -> None:
+        """Let the tree decide once. It raises what a behaviour raises."""
+        ...
+
+    @property
+    def status(self) -> str:
+        """INVALID before the first tick, then RUNNING, SUCCESS or FAILURE."""
+        ...
+
+    @property
+    def tip(self) -> str:
+        """Path of the behaviour that decided the last tick."""
+        ...
+
+    def states(self) -> tuple[NodeState, ...]:
+        """Every behaviour after the last tick."""
+        ...
+
+    def stop(self) -> None:
+        """Interrupt whatever is running, so that it cancels what it started."""
+        ...
+
+
 class World(Protocol):
     """A simulated world whose time the clock drives."""
 
@@ -225,5 +276,5 @@ class Recorder(Protocol):
     """Keeps what happened. Never raises: a sink that fails is dropped and the mission goes on."""
 
     def record(self, record: Record) -> None:
-        """Stamp the record with the time and pass it on; may be called from the ticking thread only."""
+        """Stamp the record with the time and pass it on; called from the ticking thread only."""
         ...

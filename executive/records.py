@@ -130,7 +130,7 @@ class Shape:
     """One rigid primitive of an entity, in the entity's frame.
 
     `kind` is `box` (size = full lengths x, y, z), `cylinder` (size = diameter, diameter, length
-    along z), `sphere` (size = three times the diameter) or `mesh` (size = scale, `mesh` = OBJ file).
+    along z), `sphere` (size = thrice the diameter) or `mesh` (size = scale, `mesh` = OBJ file).
     """
 
     kind: str
@@ -151,7 +151,7 @@ class Entity:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """The home and the robot as the simulator draws them: for the viewer only, never for the robot."""
+    """The home and the robot as the simulator draws them: for viewers, never for the robot."""
 
     entities: tuple[Entity, ...]
 

@@ -173,7 +173,7 @@ class Frame:
     Attributes:
         number: counts the pictures of one robot from 0.
         color: (height, width, 3) uint8, RGB.
-        depth: (height, width) float32, metres along the optical axis; infinite where nothing was hit.
+        depth: (height, width) float32, metres along the optical axis; infinite where nothing is.
         intrinsics: the camera's.
         pose: `camera_optical` in `map`.
     """
@@ -290,7 +290,7 @@ class QuestionKind(StrEnum):
 class Question:
     """Something that only the person can say.
 
-    `about` is the object or the class in question; `options` are the known answers, if they are few.
+    `about` is the object or class in question; `options` are the known answers, if they are few.
     """
 
     kind: QuestionKind
@@ -319,6 +319,14 @@ class Captured:
     """The camera took this picture."""
 
     frame: Frame
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Saw:
+    """The picture with this number, and what was recognised in it, surest first."""
+
+    frame_number: int
+    detections: tuple[Detection, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -351,8 +359,8 @@ class Answered:
 class Verdict:
     """What is left of a reply's names after they were held against the ontology.
 
-    `furniture` exists (and is allowed), in the order of the reply; `rooms` exist and still have to be
-    expanded into furniture; `dropped` are the names of nothing here.
+    `furniture` exists (and is allowed), in the order of the reply; `rooms` exist and have yet to
+    be expanded into furniture; `dropped` are the names of nothing here.
     """
 
     furniture: tuple[str, ...]
@@ -360,4 +368,4 @@ class Verdict:
     dropped: tuple[str, ...] = ()
 
 
-Result = Succeeded | Failed | Captured | Replied | Scored | Answered
+Result = Succeeded | Failed | Captured | Saw | Replied | Scored | Answered

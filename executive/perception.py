@@ -1,0 +1,95 @@
+"""From pictures to things in the map: pure functions over arrays, and the Eyes that use them."""
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from executive.events import Inbox
+from executive.interfaces import Camera, Detector, Recorder
+from executive.records import Picture, Seen
+from executive.types import Detection, Frame, Intrinsics, Pose, Saw
+
+
+class Eyes:
+    """A camera and a detector: takes a picture, recognises, and finds where things are by depth.
+
+    It all happens within `see` (some tens of milliseconds), so that nothing moves in between.
+    """
+
+    def __init__(
+        self, camera: Camera, detector: Detector, inbox: Inbox, recorder: Recorder
+    ) -> None:
+        """Look through `camera` with `detector`."""
+        self._camera = camera
+        self._detector = detector
+        self._inbox = inbox
+        self._recorder = recorder
+
+    def see(self) -> int:
+        """Take a picture and recognise; ends Saw."""
+        request = self._inbox.open()
+        frame = self._camera.capture()
+        self._recorder.record(Picture(frame))
+        found = tuple(locate(d, frame) for d in self._detector.detect(frame))
+        self._recorder.record(Seen(frame.number, found))
+        self._inbox.end(request, Saw(frame.number, found))
+        return request
+
+    def cancel(self, request: int) -> None:
+        """Forget the picture."""
+        self._inbox.drop(request)
+
+
+def locate(detection: Detection, frame: Frame) -> Detection:
+    """The detection with its visible surface in `map`.
+
+    Pixels at the rim of the mask mix the thing with what is behind it, so the mask is shrunk by one
+    pixel where enough is left.
+    """
+    box = detection.box
+    mask = detection.mask
+    inner = cv2.erode(mask.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=0).astype(bool)
+    if inner.sum() >= 30:
+        mask = inner
+    rows, columns = np.nonzero(mask)
+    points = back_project(frame, rows + box.top, columns + box.left)
+    return replace(detection, points=points)
+
+
+def back_project(
+    frame: Frame, rows: NDArray[np.intp], columns: NDArray[np.intp]
+) -> NDArray[np.float32]:
+    """Points in `map` (n, 3; metres) seen at these pixels; pixels without depth are left out."""
+    depth = frame.depth[rows, columns]
+    hit = np.isfinite(depth)
+    in_camera = rays(frame.intrinsics, rows[hit], columns[hit]) * depth[hit, None]
+    return transform(frame.pose, in_camera).astype(np.float32)
+
+
+def rays(
+    intrinsics: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.intp]
+) -> NDArray[np.float64]:
+    """Directions (n, 3) in `camera_optical` through the middle of pixels, with z = 1."""
+    return np.stack(
+        [
+            (columns + 0.5 - intrinsics.cx) / intrinsics.fx,
+            (rows + 0.5 - intrinsics.cy) / intrinsics.fy,
+            np.ones(len(rows)),
+        ],
+        axis=-1,
+    )
+
+
+def transform(pose: Pose, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points (n, 3) from the child frame of `pose` to its parent frame."""
+    x, y, z, w = pose.orientation
+    rotation = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    return points @ rotation.T + np.asarray(pose.position)

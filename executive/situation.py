@@ -1,0 +1,156 @@
+"""What this mission knows so far: the one place that behaviours read from and write to."""
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from executive.events import DeadlinePassed, Ended, Event, Started, StopRequested
+from executive.types import (
+    Candidate,
+    Command,
+    Detection,
+    Outcome,
+    Replied,
+    Result,
+    Scored,
+    Source,
+    Status,
+)
+
+
+@dataclass
+class Consultation:
+    """One exchange with the language model about where a thing may be."""
+
+    reply: str = ""
+    """What it last wrote."""
+    names: tuple[str, ...] = ()
+    """The places that the reply names, not yet verified."""
+    furniture: list[str] = field(default_factory=list)
+    """Places that passed the verification."""
+    rooms: list[str] = field(default_factory=list)
+    """Rooms that passed, still to be expanded into furniture."""
+    room: str = ""
+    """The room that is being expanded."""
+
+
+@dataclass
+class Situation:
+    """Facts of one mission, in the order in which they become known.
+
+    Events are folded in by the loop before each tick; everything else is set by behaviours.
+    """
+
+    words: str = ""
+    command: Command | None = None
+    options: tuple[str, ...] = ()
+    """Objects that the target may mean."""
+    object: str | None = None
+    among: tuple[str, ...] = ()
+    """The ontology's default locations for the object."""
+    consultation: Consultation = field(default_factory=Consultation)
+    candidates: tuple[Candidate, ...] = ()
+    candidate: Candidate | None = None
+    """Where the robot is going or looking now."""
+    view: int = 0
+    visited: list[str] = field(default_factory=list)
+    unreached: dict[str, str] = field(default_factory=dict)
+    """Places that the robot could not get to, and why."""
+    detection: Detection | None = None
+    """The thing, as last seen."""
+    found: Candidate | None = None
+    """Where the thing was seen."""
+    away: bool = False
+    """Whether the robot has left the person."""
+    inquiries: int = 0
+    person_silent: bool = False
+    """Whether the person cannot or will not help."""
+    llm_calls: int = 0
+    thinking_time_s: float = 0.0
+    status: Status = Status.NOT_DONE
+    reason: str = ""
+    """What is told at the end: what was done, or why it was not."""
+    stopped_by: str = ""
+    results: dict[int, Result] = field(default_factory=dict)
+    """Ends of requests that no behaviour has read yet."""
+    deadlines: dict[str, float] = field(default_factory=dict)
+    """When (mission time, s) the behaviours that wait will wait no longer."""
+
+    def fold(self, event: Event) -> None:
+        """Take in what happened."""
+        match event:
+            case Started(words):
+                self.words = words
+            case Ended(request, result):
+                self.results[request] = result
+                if isinstance(result, Replied | Scored):
+                    self.llm_calls += 1
+            case StopRequested(by):
+                self.stopped_by = by
+                self.status = Status.STOPPED
+                self.reason = f"stopped by {by}"
+            case DeadlinePassed():
+                pass
+
+    @property
+    def next_deadline(self) -> float | None:
+        """The earliest time (mission time, s) at which a tick is due without an event."""
+        return min(self.deadlines.values(), default=None)
+
+    @property
+    def search_so_far(self) -> str:
+        """Where the thing was looked for in vain, as a clause; empty if nowhere."""
+        clauses = []
+        if self.visited:
+            seen = ", ".join(dict.fromkeys(self.visited))
+            clauses.append(f"I did not find the {self.object} at {seen}")
+        clauses += [f"I could not get to {place}: {why}" for place, why in self.unreached.items()]
+        return "; ".join(clauses)
+
+    def snapshot(self) -> dict[str, Any]:
+        """Everything that fits in a log line: plain values, no pictures."""
+        return {
+            "command": asdict(self.command) if self.command else None,
+            "options": list(self.options),
+            "object": self.object,
+            "among": list(self.among),
+            "consultation": asdict(self.consultation),
+            "candidates": [asdict(c) for c in self.candidates],
+            "candidate": asdict(self.candidate) if self.candidate else None,
+            "view": self.view,
+            "visited": list(self.visited),
+            "unreached": dict(self.unreached),
+            "sighting": list(self.detection.position or ()) if self.detection else None,
+            "found": asdict(self.found) if self.found else None,
+            "inquiries": self.inquiries,
+            "llm_calls": self.llm_calls,
+            "status": self.status,
+            "reason": self.reason,
+            "deadlines": dict(self.deadlines),
+        }
+
+    def outcome(self, *, mission_time_s: float, wall_time_s: float, run_dir: str | None) -> Outcome:
+        """The mission's result."""
+        return Outcome(
+            command=self.words,
+            kind=self.command.kind if self.command else None,
+            target=self.command.target if self.command else None,
+            object=self.object,
+            status=self.status,
+            reason=self.reason,
+            source=self.found.source if self.found else None,
+            location=self.found.place if self.found else None,
+            inquiries=self.inquiries,
+            visited=tuple(self.visited),
+            llm_calls=self.llm_calls,
+            candidates=self.candidates,
+            mission_time_s=round(mission_time_s, 3),
+            thinking_time_s=round(self.thinking_time_s, 3),
+            wall_time_s=round(wall_time_s, 3),
+            run_dir=run_dir,
+        )
+
+
+def candidates_from(places: Iterable[str], source: Source) -> tuple[Candidate, ...]:
+    """Candidates without probabilities, in the given order."""
+    return tuple(Candidate(place, source) for place in places)

@@ -1,0 +1,265 @@
+"""Where may it be? The ontology's one place, else the language model's verified list, else ask.
+
+The flow of the paper's section "Integrated use of ontological knowledge base and LLM", with its
+consistency verification spelled out as behaviours, so that every step is seen in the log.
+"""
+
+from abc import abstractmethod
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+from py_trees.decorators import FailureIsSuccess
+
+from executive.interfaces import Advisor, LanguageModel
+from executive.records import Verified
+from executive.situation import Consultation, candidates_from
+from executive.types import ChatRequest, Replied, Result, Scored, Source
+from trees.nodes import Action, Check, EachOf, Step, fallback, sequence
+from trees.person import AskWhere
+from trees.team import Team
+
+
+def resolve_location(team: Team) -> Behaviour:
+    """An object -> `situation.candidates`, likeliest first, with who said so."""
+    sources: list[Behaviour] = [OntologyKnowsPlace("ontology knows one place", team)]
+    if team.model is not None:
+        elicit = rank_places if team.rules.elicit == "rank" else generate_places
+        sources.append(elicit(team))
+    return fallback("which places", *sources, AskWhere("ask where", team))
+
+
+def rank_places(team: Team) -> Behaviour:
+    """The model scores the known places: it cannot invent any."""
+    return RankPlaces("llm ranks places", team)
+
+
+def generate_places(team: Team) -> Behaviour:
+    """The model writes a list, of which only real places are kept (the paper's way)."""
+    begin = BeginConsultation("begin", team)
+    return sequence(
+        "llm lists places",
+        begin,
+        Inquire("inquire", team),
+        fallback(
+            "read or summarize",
+            ReadReply("read", team),
+            sequence("repair", Summarize("summarize", team), ReadReply("read again", team)),
+        ),
+        fallback(
+            "verify or ask again",
+            existence_check(team),
+            sequence("retry", Again("again", team), ReadReply("read", team), existence_check(team)),
+        ),
+        AdoptFurniture("adopt", team),
+    )
+
+
+def existence_check(team: Team) -> Behaviour:
+    """Keep what exists, expand rooms into their furniture; fail if nothing is left."""
+    thought = team.situation
+
+    def choose(room: str) -> None:
+        thought.consultation.room = room
+
+    return sequence(
+        "existence check",
+        VerifyNames("names exist", team),
+        EachOf(
+            "each room",
+            lambda: tuple(thought.consultation.rooms),
+            choose,
+            FailureIsSuccess(
+                "if it helps",
+                sequence(
+                    "expand room",
+                    AskFurniture("furniture", team),
+                    ReadReply("read", team),
+                    VerifyFurniture("furniture exists", team),
+                ),
+            ),
+        ),
+        Check("something is left", team, lambda: bool(thought.consultation.furniture)),
+    )
+
+
+class OntologyKnowsPlace(Step):
+    """Succeeds if the ontology has exactly one default location for the object."""
+
+    def update(self) -> Status:
+        """Look it up; several are kept to narrow down what the model may say."""
+        assert self.situation.object
+        usual = self.team.knowledge.usual_places(self.situation.object)
+        if len(usual) == 1:
+            self.situation.candidates = candidates_from(usual, Source.ONTOLOGY)
+            return self.succeed(usual[0])
+        self.situation.among = usual
+        return self.fail(f"the ontology has {len(usual) or 'no'} places for it")
+
+
+class BeginConsultation(Step):
+    """Forgets what earlier exchanges left."""
+
+    def update(self) -> Status:
+        """Begin with nothing."""
+        self.situation.consultation = Consultation()
+        return Status.SUCCESS
+
+
+class ModelAction(Action):
+    """One call of the language model."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Give the model as long as the rules allow."""
+        super().__init__(name, team, team.rules.model_s)
+        assert team.model is not None
+        assert team.advisor is not None
+        self.model: LanguageModel = team.model
+        self.advisor: Advisor = team.advisor
+        self._began = 0.0
+
+    def initialise(self) -> None:
+        """Mark the time, and start."""
+        self._began = self.team.clock.now()
+        super().initialise()
+
+    def terminate(self, new_status: Status) -> None:
+        """Count the time spent thinking."""
+        self.situation.thinking_time_s += self.team.clock.now() - self._began
+        super().terminate(new_status)
+
+    def cancel(self, request: int) -> None:
+        """Stop the model."""
+        self.model.cancel(request)
+
+    def out_of_time(self) -> Status:
+        """Say that the model did not answer."""
+        return self.fail(f"the language model did not answer within {self._patience_s:g} s")
+
+
+class RankPlaces(ModelAction):
+    """Has every allowed place scored, and keeps the likeliest."""
+
+    def start(self) -> int:
+        """Ask for the scores."""
+        assert self.situation.object
+        return self.model.rank(self.advisor.ranking(self.situation.object, self.situation.among))
+
+    def ended(self, result: Result) -> Status:
+        """Keep as many as are worth a visit; all of them if the ontology named them."""
+        if not isinstance(result, Scored):
+            return self.failed(result)
+        ranked = self.advisor.ranked(result)
+        if not self.situation.among:
+            ranked = ranked[: self.team.rules.top]
+        self.situation.candidates = ranked
+        return self.succeed(", ".join(f"{c.place} {c.probability:.2f}" for c in ranked))
+
+
+class Chat(ModelAction):
+    """Asks the model to write, and keeps the reply."""
+
+    @abstractmethod
+    def request(self) -> ChatRequest:
+        """What to ask."""
+
+    def start(self) -> int:
+        """Ask."""
+        return self.model.chat(self.request())
+
+    def ended(self, result: Result) -> Status:
+        """Keep the reply, and remember the exchange."""
+        if not isinstance(result, Replied):
+            return self.failed(result)
+        self.advisor.remember(result.request, result.text)
+        self.situation.consultation.reply = result.text
+        return self.succeed(result.text)
+
+    @property
+    def thing(self) -> str:
+        """Name of the object that is looked for."""
+        assert self.situation.object
+        return self.situation.object
+
+
+class Inquire(Chat):
+    """`general_pos` where the ontology knows no place, `multiple_pos` where it knows several."""
+
+    def request(self) -> ChatRequest:
+        """Ask for the likely places."""
+        return self.advisor.inquiry(self.thing, self.situation.among)
+
+
+class Summarize(Chat):
+    """`summarize`: put the last reply into the output format."""
+
+    def request(self) -> ChatRequest:
+        """Ask for the same in the right form."""
+        return self.advisor.summarize(self.thing, self.situation.consultation.reply)
+
+
+class Again(Chat):
+    """`again`: no place of the last reply exists."""
+
+    def request(self) -> ChatRequest:
+        """Ask for places from the list."""
+        return self.advisor.again(self.thing, self.situation.among)
+
+
+class AskFurniture(Chat):
+    """`furniture`: a room was named; which furniture in it?"""
+
+    def request(self) -> ChatRequest:
+        """Ask for the room at hand."""
+        room = self.situation.consultation.room
+        return self.advisor.furniture(self.thing, room, self.situation.among)
+
+
+class ReadReply(Step):
+    """Preprocessing: the names in the reply, if it keeps to the output format."""
+
+    def update(self) -> Status:
+        """Read it."""
+        assert self.team.advisor
+        names = self.team.advisor.read(self.situation.consultation.reply)
+        if names is None:
+            return self.fail("the language model's reply is not in the output format")
+        self.situation.consultation.names = names
+        return self.succeed(", ".join(names))
+
+
+class VerifyNames(Step):
+    """Existence check: unknown names are dropped, rooms are set aside to be expanded."""
+
+    takes_rooms = True
+
+    def update(self) -> Status:
+        """Hold the names against the ontology."""
+        assert self.team.advisor
+        consultation, among = self.situation.consultation, self.situation.among
+        verdict = self.team.advisor.verify(consultation.names, among)
+        new = [name for name in verdict.furniture if name not in consultation.furniture]
+        consultation.furniture.extend(new)
+        if self.takes_rooms:
+            consultation.rooms = list(verdict.rooms)
+        self.team.recorder.record(
+            Verified(self.name, verdict.furniture, verdict.rooms, verdict.dropped)
+        )
+        if not (verdict.furniture or (verdict.rooms and self.takes_rooms)):
+            return self.fail("the language model named no place that exists here")
+        return self.succeed(f"dropped: {', '.join(verdict.dropped) or 'nothing'}")
+
+
+class VerifyFurniture(VerifyNames):
+    """Existence check of a room's furniture: rooms are not expanded a second time."""
+
+    takes_rooms = False
+
+
+class AdoptFurniture(Step):
+    """What passed becomes the list of candidates."""
+
+    def update(self) -> Status:
+        """Keep the model's order."""
+        furniture = self.situation.consultation.furniture
+        self.situation.candidates = candidates_from(furniture, Source.LLM)
+        return self.succeed(", ".join(furniture))

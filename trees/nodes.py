@@ -1,0 +1,196 @@
+"""The kinds of behaviour that the subtrees are made of, beyond py_trees' own.
+
+Rule of the house: a behaviour is RUNNING only while something that it started is under way, because
+the tree is ticked by events. A loop therefore goes on within one tick, and waiting has a deadline.
+"""
+
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+from py_trees.composites import Selector, Sequence
+from py_trees.decorators import Decorator
+
+from executive.types import Failed, Result
+from trees.team import Team
+
+
+def sequence(name: str, *children: Behaviour) -> Sequence:
+    """All children in order, until one fails."""
+    return Sequence(name, memory=True, children=list(children))
+
+
+def fallback(name: str, *children: Behaviour) -> Selector:
+    """The first child that succeeds."""
+    return Selector(name, memory=True, children=list(children))
+
+
+class Step(Behaviour):
+    """Decides at once, from what is known: a condition, or a change of the situation."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Keep the team at hand."""
+        super().__init__(name)
+        self.team = team
+        self.situation = team.situation
+
+    @abstractmethod
+    def update(self) -> Status:
+        """Decide."""
+
+    def succeed(self, message: str = "") -> Status:
+        """Succeed, and say in the log what with."""
+        self.feedback_message = message
+        return Status.SUCCESS
+
+    def fail(self, reason: str) -> Status:
+        """Fail, and keep why, for the log and for the person."""
+        self.feedback_message = reason
+        self.situation.reason = reason
+        return Status.FAILURE
+
+
+class Check(Step):
+    """A condition that a function of the situation decides."""
+
+    def __init__(self, name: str, team: Team, holds: Callable[[], bool]) -> None:
+        """Name the condition as it reads when true."""
+        super().__init__(name, team)
+        self._holds = holds
+
+    def update(self) -> Status:
+        """Succeed if it holds."""
+        return Status.SUCCESS if self._holds() else Status.FAILURE
+
+
+class Action(Step):
+    """Starts something slow, waits for its end, and cancels it when pre-empted or out of time.
+
+    `start` returns the request's number; `ended` turns the result into a status, and may start
+    anew by returning `self.start_again()`. After `patience_s` (mission time) the action fails.
+    """
+
+    def __init__(self, name: str, team: Team, patience_s: float) -> None:
+        """Wait no longer than `patience_s` for each start."""
+        super().__init__(name, team)
+        self._patience_s = patience_s
+        self._request: int | None = None
+
+    @abstractmethod
+    def start(self) -> int:
+        """Start it; return the number of the request."""
+
+    @abstractmethod
+    def ended(self, result: Result) -> Status:
+        """Take in its end."""
+
+    @abstractmethod
+    def cancel(self, request: int) -> None:
+        """Call it off."""
+
+    def out_of_time(self) -> Status:
+        """Say that it took too long."""
+        return self.fail(f"{self.name} took longer than {self._patience_s:g} s")
+
+    def initialise(self) -> None:
+        """Start."""
+        self.start_again()
+
+    def start_again(self) -> Status:
+        """Start, once more."""
+        self._request = self.start()
+        self.situation.deadlines[self.name] = self.team.clock.now() + self._patience_s
+        return Status.RUNNING
+
+    def update(self) -> Status:
+        """Look whether it ended."""
+        assert self._request is not None
+        result = self.situation.results.pop(self._request, None)
+        if result is None:
+            if self.team.clock.now() < self.situation.deadlines[self.name]:
+                return Status.RUNNING
+            self.cancel(self._request)
+            return self.out_of_time()
+        self._request, request = None, self._request
+        status = self.ended(result)
+        assert status != Status.RUNNING or self._request not in (None, request)
+        return status
+
+    def terminate(self, new_status: Status) -> None:
+        """Cancel what is still under way."""
+        self.situation.deadlines.pop(self.name, None)
+        if new_status == Status.INVALID and self._request is not None:
+            self.cancel(self._request)
+        self._request = None
+
+    def failed(self, result: Result) -> Status:
+        """Fail for the reason in a result that is no success."""
+        return self.fail(result.reason if isinstance(result, Failed) else f"got {result}")
+
+
+class _Loop(Decorator):
+    """Runs its child for one item after another, going on to the next within the same tick."""
+
+    ends_on: Status
+    """The child's status that ends the loop, with the same status."""
+    exhausted: Status
+    """The status when all items were gone through."""
+
+    def __init__(
+        self,
+        name: str,
+        items: Callable[[], Iterable[Any]],
+        choose: Callable[[Any], None],
+        child: Behaviour,
+    ) -> None:
+        """`items` is called once at the start; `choose` puts each into the situation."""
+        super().__init__(name, child)
+        self._items = items
+        self._choose = choose
+        self._rest: Iterator[Any] = iter(())
+
+    def tick(self) -> Iterator[Behaviour]:
+        """Tick the child for the item at hand, and for the next ones as long as it decides."""
+        if self.status != Status.RUNNING:
+            self._rest = iter(tuple(self._items()))
+            if not self._next():
+                self.stop(self.exhausted)
+                yield self
+                return
+        while True:
+            yield from self.decorated.tick()
+            status = self.decorated.status
+            if status == Status.RUNNING:
+                self.status = status
+                break
+            if status == self.ends_on or not self._next():
+                self.stop(status if status == self.ends_on else self.exhausted)
+                break
+        yield self
+
+    def update(self) -> Status:
+        """Unused: `tick` decides."""
+        return self.status
+
+    def _next(self) -> bool:
+        for item in self._rest:
+            self._choose(item)
+            self.feedback_message = str(item)
+            return True
+        return False
+
+
+class FirstOf(_Loop):
+    """A fallback over data: succeeds with the first item for which the child succeeds."""
+
+    ends_on = Status.SUCCESS
+    exhausted = Status.FAILURE
+
+
+class EachOf(_Loop):
+    """A sequence over data: succeeds when the child succeeded for every item."""
+
+    ends_on = Status.FAILURE
+    exhausted = Status.SUCCESS

@@ -1,0 +1,169 @@
+"""Leaves that talk with the person."""
+
+from abc import abstractmethod
+
+from py_trees.common import Status
+
+from executive.records import Utterance
+from executive.situation import candidates_from
+from executive.types import Answered, Failed, Question, QuestionKind, Result, Source
+from trees.nodes import Action, Step
+from trees.team import Team
+
+
+class Ask(Action):
+    """Puts a question, and puts it again while the answer makes no sense."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Wait for each answer as long as the rules allow."""
+        super().__init__(name, team, team.rules.answer_s)
+        self._tries = 0
+
+    @abstractmethod
+    def question(self) -> Question:
+        """What to ask."""
+
+    @abstractmethod
+    def understood(self, answer: str) -> bool:
+        """Take the answer in, if it makes sense."""
+
+    @abstractmethod
+    def unresolved(self) -> str:
+        """What stays unknown without an answer, as a clause."""
+
+    def initialise(self) -> None:
+        """Ask for the first time."""
+        self._tries = 0
+        super().initialise()
+
+    def start(self) -> int:
+        """Ask."""
+        question = self.question()
+        self._tries += 1
+        self.situation.inquiries += 1
+        self.team.recorder.record(Utterance("robot", question.text))
+        return self.team.user.ask(question)
+
+    def ended(self, result: Result) -> Status:
+        """Take the answer, ask again, or accept that there is none."""
+        if isinstance(result, Failed):
+            return self._no_help(result.reason)
+        assert isinstance(result, Answered)
+        self.team.recorder.record(Utterance("person", result.text))
+        if self.team.interpreter.declines(result.text):
+            return self._no_help("you could not tell me")
+        if self.understood(result.text):
+            return self.succeed(result.text)
+        if self._tries < self.team.rules.questions:
+            return self.start_again()
+        return self._no_help(f"I did not understand your answer '{result.text}'")
+
+    def out_of_time(self) -> Status:
+        """Nobody answered."""
+        return self._no_help(f"nobody answered within {self._patience_s:g} s")
+
+    def cancel(self, request: int) -> None:
+        """Withdraw the question."""
+        self.team.user.cancel(request)
+
+    def _no_help(self, why: str) -> Status:
+        self.situation.person_silent = True
+        return self.fail(f"{self.unresolved()}, and {why}")
+
+
+class AskWhichObject(Ask):
+    """Asks which thing is meant, where the words fit several or none."""
+
+    def question(self) -> Question:
+        """Offer the members of the class, or the nearest known names."""
+        assert self.situation.command
+        target = self.situation.command.target
+        if options := self.situation.options:
+            text = f"Which {target} do you mean: {_either(options)}?"
+        else:
+            options = self.team.knowledge.nearest_names(target)
+            text = f"I know no '{target}'. Do you mean {_either(options)}, or something else?"
+        return Question(QuestionKind.WHICH_OBJECT, target, text, options)
+
+    def understood(self, answer: str) -> bool:
+        """One object is enough; several narrow the next question down."""
+        named = self.team.knowledge.objects_named(answer)
+        if self.situation.options:
+            named = tuple(n for n in named if n in self.situation.options)
+        if len(named) > 1:
+            self.situation.options = named
+        elif named:
+            self.situation.object = named[0]
+        return len(named) == 1
+
+    def unresolved(self) -> str:
+        """Name the nearest known things."""
+        assert self.situation.command
+        target = self.situation.command.target
+        if self.situation.options:
+            return f"'{target}' may be {_either(self.situation.options)}"
+        nearest = _either(self.team.knowledge.nearest_names(target))
+        return f"I know no '{target}'; the nearest that I know is {nearest}"
+
+
+class AskWhere(Ask):
+    """Asks where the thing is."""
+
+    def question(self) -> Question:
+        """Say where it was looked for, if anywhere."""
+        name = self.situation.object or ""
+        text = f"Where is the {name}?"
+        if so_far := self.situation.search_so_far:
+            text = f"{so_far}. {text}"
+        if self._tries:
+            known = ", ".join(place.name for place in self.team.knowledge.places())
+            text = f"I know no such place. {text} I know: {known}."
+        return Question(QuestionKind.WHERE_IS, name, text)
+
+    def understood(self, answer: str) -> bool:
+        """Any places that exist become the candidates."""
+        places = self.team.knowledge.places_named(answer)
+        if places:
+            self.situation.candidates = candidates_from(places, Source.USER)
+        return bool(places)
+
+    def unresolved(self) -> str:
+        """Say what was tried."""
+        return self.situation.search_so_far or f"I do not know where the {self.situation.object} is"
+
+
+class Report(Step):
+    """Tells what was done."""
+
+    def __init__(self, name: str, team: Team, text: str) -> None:
+        """`text` may use {object}, {place} and {target}."""
+        super().__init__(name, team)
+        self._text = text
+
+    def update(self) -> Status:
+        """Say it, and keep it as the mission's reason."""
+        found = self.situation.found
+        said = self._text.format(
+            object=self.situation.object, place=found.place if found else "nowhere"
+        )
+        self.situation.reason = said
+        _tell(self.team, said)
+        return self.succeed(said)
+
+
+class Apologise(Step):
+    """Tells why it was not done."""
+
+    def update(self) -> Status:
+        """Say the reason that the failed behaviour left."""
+        _tell(self.team, f"Sorry: {self.situation.reason}.")
+        return self.succeed(self.situation.reason)
+
+
+def _tell(team: Team, text: str) -> None:
+    team.recorder.record(Utterance("robot", text))
+    team.user.tell(text)
+
+
+def _either(names: tuple[str, ...]) -> str:
+    return " or ".join((", ".join(names[:-1]), names[-1])) if len(names) > 1 else "".join(names)

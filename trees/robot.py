@@ -1,0 +1,136 @@
+"""Leaves that move the robot and use its eyes."""
+
+from abc import abstractmethod
+
+from py_trees.common import Status
+
+from executive.types import DriveTo, Failed, Goal, LookAt, Pick, PutDown, Result, Saw, Succeeded
+from trees.nodes import Action
+from trees.team import Team
+
+
+class RobotAction(Action):
+    """Pursues one goal of the robot."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Give the robot as long as the rules allow."""
+        super().__init__(name, team, team.rules.action_s)
+
+    @abstractmethod
+    def goal(self) -> Goal:
+        """What to pursue."""
+
+    def start(self) -> int:
+        """Hand the goal to the robot."""
+        goal = self.goal()
+        self.feedback_message = str(goal) if not isinstance(goal, Pick) else goal.detection.label
+        return self.team.robot.start(goal)
+
+    def ended(self, result: Result) -> Status:
+        """Succeed as the robot did."""
+        return Status.SUCCESS if isinstance(result, Succeeded) else self.failed(result)
+
+    def cancel(self, request: int) -> None:
+        """Brake."""
+        self.team.robot.cancel(request)
+
+
+class DriveToCandidate(RobotAction):
+    """Goes to the place where the thing may be."""
+
+    def goal(self) -> Goal:
+        """Drive to the candidate."""
+        assert self.situation.candidate
+        self.situation.away = True
+        return DriveTo(self.situation.candidate.place)
+
+
+class Visit(DriveToCandidate):
+    """Goes to a place for the first time: it counts as visited, or as out of reach."""
+
+    def ended(self, result: Result) -> Status:
+        """Count only a place that was reached."""
+        assert self.situation.candidate
+        place = self.situation.candidate.place
+        if isinstance(result, Succeeded):
+            self.situation.visited.append(place)
+        elif isinstance(result, Failed):
+            self.situation.unreached[place] = result.reason
+        return super().ended(result)
+
+
+class DriveBack(RobotAction):
+    """Goes to where things are asked for or delivered: `person` or `delivery`."""
+
+    def __init__(self, name: str, team: Team, place: str) -> None:
+        """Name the place."""
+        super().__init__(name, team)
+        self._place = place
+
+    def goal(self) -> Goal:
+        """Drive there."""
+        return DriveTo(self._place)
+
+    def ended(self, result: Result) -> Status:
+        """Be back with the person."""
+        self.situation.away = not isinstance(result, Succeeded)
+        return super().ended(result)
+
+
+class LookAtCandidate(RobotAction):
+    """Points the head at the next part of the place."""
+
+    def goal(self) -> Goal:
+        """Look at the view at hand."""
+        assert self.situation.candidate
+        return LookAt(self.situation.candidate.place, self.situation.view)
+
+
+class PickUp(RobotAction):
+    """Grasps the thing where it was seen, and lifts it."""
+
+    def goal(self) -> Goal:
+        """Pick what was detected."""
+        assert self.situation.detection
+        return Pick(self.situation.detection)
+
+
+class PutDownAt(RobotAction):
+    """Puts the held thing down."""
+
+    def __init__(self, name: str, team: Team, place: str) -> None:
+        """Name the place."""
+        super().__init__(name, team)
+        self._place = place
+
+    def goal(self) -> Goal:
+        """Put it there."""
+        return PutDown(self._place)
+
+
+class SeeTarget(Action):
+    """Takes a picture and succeeds if the thing is in it."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Give the eyes as long as the rules allow."""
+        super().__init__(name, team, team.rules.action_s)
+
+    def start(self) -> int:
+        """Look."""
+        return self.team.eyes.see()
+
+    def ended(self, result: Result) -> Status:
+        """Keep the surest detection of the thing, and where it was."""
+        if not isinstance(result, Saw):
+            return self.failed(result)
+        wanted = [d for d in result.detections if d.label == self.situation.object]
+        if not wanted:
+            self.feedback_message = f"no {self.situation.object} in view"
+            return Status.FAILURE
+        self.situation.detection = wanted[0]
+        self.situation.found = self.situation.candidate
+        return self.succeed(f"{wanted[0].label}, confidence {wanted[0].confidence:.2f}")
+
+    def cancel(self, request: int) -> None:
+        """Look no more."""
+        self.team.eyes.cancel(request)

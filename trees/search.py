@@ -1,0 +1,68 @@
+"""Go and look: candidates in order until the thing is seen, else ask the person and look there."""
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.types import Candidate
+from trees.location import resolve_location
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
+from trees.person import AskWhere
+from trees.robot import LookAtCandidate, SeeTarget, Visit
+from trees.team import Team
+
+
+def search(team: Team) -> Behaviour:
+    """An object -> `situation.detection` and `situation.found`."""
+    return fallback(
+        "search",
+        sequence("look where it may be", resolve_location(team), visit_candidates(team)),
+        sequence(
+            "look where the person says",
+            Check("person may help", team, lambda: not team.situation.person_silent),
+            AskWhere("ask where", team),
+            visit_candidates(team),
+        ),
+        GiveUpSearch("not found", team),
+    )
+
+
+def visit_candidates(team: Team) -> Behaviour:
+    """Drive from candidate to candidate and look, until the thing is seen."""
+
+    def choose(candidate: Candidate) -> None:
+        team.situation.candidate = candidate
+
+    return FirstOf(
+        "visit",
+        lambda: team.situation.candidates,
+        choose,
+        sequence("go and look", Visit("drive", team), look_over(team)),
+    )
+
+
+def look_over(team: Team) -> Behaviour:
+    """Look at every part of the place until the thing is seen."""
+
+    def views() -> range:
+        candidate = team.situation.candidate
+        return range(team.robot.views(candidate.place) if candidate else 0)
+
+    def choose(view: int) -> None:
+        team.situation.view = view
+
+    return FirstOf(
+        "look over",
+        views,
+        choose,
+        sequence("glance", LookAtCandidate("aim", team), SeeTarget("see", team)),
+    )
+
+
+class GiveUpSearch(Step):
+    """Fails, and says where the thing was looked for."""
+
+    def update(self) -> Status:
+        """Keep the person's refusal as the reason if there was one, else sum up the search."""
+        if self.situation.person_silent:
+            return self.fail(self.situation.reason)
+        return self.fail(self.situation.search_so_far)

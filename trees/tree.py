@@ -1,0 +1,87 @@
+"""A py_trees tree as the executive and the logs see it: paths, statuses, one tick at a time."""
+
+from collections.abc import Iterator
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+from py_trees.composites import Selector, Sequence
+from py_trees.decorators import Decorator
+from py_trees.trees import BehaviourTree
+
+from executive.records import NodeShape, NodeState, TreeShape
+
+
+class MissionTree:
+    """Implements `executive.interfaces.Tree`.
+
+    Nodes are named by their path, because py_trees' own ids are random: the names from the root,
+    joined by slashes; of siblings with one name the later ones get a number.
+    """
+
+    def __init__(self, root: Behaviour) -> None:
+        """Wrap a tree that was not ticked yet."""
+        self._tree = BehaviourTree(root)
+        self._nodes = dict(_walk(root, root.name))
+        self._paths = {node.id: path for path, node in self._nodes.items()}
+
+    def shape(self) -> TreeShape:
+        """All behaviours, parents before children."""
+        return TreeShape(
+            tuple(
+                NodeShape(
+                    path=path,
+                    parent=self._paths[node.parent.id] if node.parent else "",
+                    name=node.name,
+                    kind=_kind(node),
+                    class_name=type(node).__name__,
+                )
+                for path, node in self._nodes.items()
+            )
+        )
+
+    def tick(self) -> None:
+        """Let the tree decide once."""
+        self._tree.tick()
+
+    @property
+    def status(self) -> str:
+        """Status of the root."""
+        return self._tree.root.status.name
+
+    @property
+    def tip(self) -> str:
+        """Path of the behaviour that decided the last tick; empty before the first."""
+        tip = self._tree.tip()
+        return self._paths[tip.id] if tip else ""
+
+    def states(self) -> tuple[NodeState, ...]:
+        """Every behaviour as the last tick left it; its message only where it was active."""
+        return tuple(
+            NodeState(
+                path,
+                node.status.name,
+                "" if node.status == Status.INVALID else node.feedback_message,
+            )
+            for path, node in self._nodes.items()
+        )
+
+    def stop(self) -> None:
+        """Interrupt what is running: every running behaviour cancels what it started."""
+        if self._tree.root.status == Status.RUNNING:
+            self._tree.root.stop(Status.INVALID)
+
+
+def _walk(node: Behaviour, path: str) -> Iterator[tuple[str, Behaviour]]:
+    yield path, node
+    names = [child.name for child in node.children]
+    for index, child in enumerate(node.children):
+        earlier = names[:index].count(child.name)
+        name = child.name if not earlier else f"{child.name} {earlier + 1}"
+        yield from _walk(child, f"{path}/{name}")
+
+
+def _kind(node: Behaviour) -> str:
+    for kind in (Sequence, Selector, Decorator):
+        if isinstance(node, kind):
+            return kind.__name__.lower()
+    return "behaviour"
