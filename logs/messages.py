@@ -1,0 +1,296 @@
+"""Records to the messages of `schema.py`, and back: each pair side by side."""
+
+import json
+from typing import Any
+
+from executive.events import DeadlinePassed, Ended, Event, Started, StopRequested
+from executive.records import (
+    EventTaken,
+    LlmCall,
+    NodeShape,
+    NodeState,
+    Tick,
+    TreeShape,
+    Utterance,
+    Verified,
+)
+from executive.types import (
+    Answered,
+    Candidate,
+    Captured,
+    ChatRequest,
+    Failed,
+    Kind,
+    Message,
+    Outcome,
+    RankRequest,
+    Replied,
+    Result,
+    Scored,
+    Source,
+    Status,
+    Usage,
+)
+from logs.schema import MESSAGES, STATUS
+
+_PARAMETERS = ("temperature", "top_p", "top_k", "seed", "max_tokens")
+
+
+# --- the tree ---
+
+
+def tree_to_message(tree: TreeShape) -> Any:
+    """`/bt/tree`."""
+    children: dict[str, list[str]] = {}
+    for node in tree.nodes:
+        children.setdefault(node.parent, []).append(node.path)
+    message = MESSAGES["BehaviourTree"]()
+    for node in tree.nodes:
+        message.behaviours.add(
+            own_id=node.path,
+            parent_id=node.parent,
+            child_ids=children.get(node.path, ()),
+            name=node.name,
+            class_name=node.class_name,
+            type=node.kind,
+        )
+    return message
+
+
+def tree_from_message(message: Any) -> TreeShape:
+    """The tree of a `/bt/tree` message."""
+    return TreeShape(
+        tuple(
+            NodeShape(b.own_id, b.parent_id, b.name, b.type, b.class_name)
+            for b in message.behaviours
+        )
+    )
+
+
+def tick_to_message(tick: Tick) -> Any:
+    """`/bt/tick`: each behaviour's status, and what the mission knows as JSON values by name."""
+    message = MESSAGES["Tick"](
+        tick=tick.number, cause=tick.cause, tip_id=tick.tip, duration_s=tick.duration_s
+    )
+    for node in tick.nodes:
+        message.behaviours.add(
+            own_id=node.path,
+            status=node.status,
+            message=node.message,
+            is_active=node.status != "INVALID",
+        )
+    for key, value in tick.situation.items():
+        message.situation.add(key=key, value=json.dumps(value, default=str))
+    return message
+
+
+def tick_from_message(message: Any) -> Tick:
+    """The tick of a `/bt/tick` message."""
+    return Tick(
+        number=message.tick,
+        cause=message.cause,
+        tip=message.tip_id,
+        nodes=tuple(NodeState(b.own_id, STATUS[b.status], b.message) for b in message.behaviours),
+        situation={pair.key: json.loads(pair.value) for pair in message.situation},
+        duration_s=message.duration_s,
+    )
+
+
+# --- the language model ---
+
+
+def llm_call_to_message(call: LlmCall) -> Any:
+    """`/llm/call`: what was asked and answered, the parameters, tokens and times."""
+    result, usage = call.result, call.result.usage
+    message = MESSAGES["LlmCall"](
+        label=result.request.label,
+        gen_ai_operation_name="chat" if isinstance(result, Replied) else "rank",
+        gen_ai_request_model=usage.model,
+        gen_ai_response_time_to_first_chunk=usage.first_token_s,
+        gen_ai_usage_input_tokens=usage.input_tokens,
+        gen_ai_usage_cache_read_input_tokens=usage.input_tokens - usage.evaluated_tokens,
+        gen_ai_usage_output_tokens=usage.output_tokens,
+        duration_s=usage.total_s,
+    )
+    _add_parameters(message, usage)
+    _add_turns(message.gen_ai_input_messages, result.request.messages)
+    if isinstance(result, Replied):
+        message.gen_ai_output_messages.add(role="assistant", content=result.text)
+        message.gen_ai_response_finish_reasons.append(result.finish_reason)
+        if result.request.schema is not None:
+            message.output_schema = json.dumps(result.request.schema)
+    else:
+        request = result.request
+        _add_turns(message.neutral_messages, request.neutral)
+        for text, place, score in zip(request.options, request.places, result.scores, strict=True):
+            message.options.add(text=text, place=place, score=score)
+    return message
+
+
+def llm_call_from_message(message: Any) -> LlmCall:
+    """The call of a `/llm/call` message."""
+    usage = Usage(
+        model=message.gen_ai_request_model,
+        input_tokens=message.gen_ai_usage_input_tokens,
+        evaluated_tokens=message.gen_ai_usage_input_tokens
+        - message.gen_ai_usage_cache_read_input_tokens,
+        output_tokens=message.gen_ai_usage_output_tokens,
+        first_token_s=message.gen_ai_response_time_to_first_chunk,
+        total_s=message.duration_s,
+        parameters=_parameters(message),
+    )
+    asked = _turns(message.gen_ai_input_messages)
+    if message.gen_ai_operation_name == "rank":
+        ranking = RankRequest(
+            label=message.label,
+            messages=asked,
+            neutral=_turns(message.neutral_messages),
+            options=tuple(o.text for o in message.options),
+            places=tuple(o.place for o in message.options),
+        )
+        return LlmCall(Scored(ranking, tuple(o.score for o in message.options), usage))
+    schema = json.loads(message.output_schema) if message.output_schema else None
+    return LlmCall(
+        Replied(
+            ChatRequest(message.label, asked, schema),
+            "".join(m.content for m in message.gen_ai_output_messages),
+            usage,
+            finish_reason="".join(message.gen_ai_response_finish_reasons),
+        )
+    )
+
+
+def _add_parameters(message: Any, usage: Usage) -> None:
+    for name, value in usage.parameters.items():
+        if name in _PARAMETERS and not isinstance(value, str):
+            setattr(message, f"gen_ai_request_{name}", value)
+        else:
+            message.other_parameters.add(key=name, value=json.dumps(value))
+
+
+def _parameters(message: Any) -> dict[str, float | int | str]:
+    return {
+        name: getattr(message, f"gen_ai_request_{name}")
+        for name in _PARAMETERS
+        if message.HasField(f"gen_ai_request_{name}")
+    } | {pair.key: json.loads(pair.value) for pair in message.other_parameters}
+
+
+def _add_turns(field: Any, messages: tuple[Message, ...]) -> None:
+    for message in messages:
+        field.add(role=message.role, content=message.content)
+
+
+def _turns(field: Any) -> tuple[Message, ...]:
+    return tuple(Message(turn.role, turn.content) for turn in field)
+
+
+def verified_to_message(verified: Verified) -> Any:
+    """`/llm/verification`."""
+    return MESSAGES["LlmVerification"](
+        label=verified.label,
+        accepted=verified.accepted,
+        rooms=verified.rooms,
+        dropped=verified.dropped,
+    )
+
+
+def verified_from_message(message: Any) -> Verified:
+    """The verification of a `/llm/verification` message."""
+    return Verified(
+        message.label, tuple(message.accepted), tuple(message.rooms), tuple(message.dropped)
+    )
+
+
+# --- talk and events ---
+
+
+def utterance_to_message(utterance: Utterance) -> Any:
+    """`/dialog`."""
+    return MESSAGES["Utterance"](speaker=utterance.speaker, text=utterance.text)
+
+
+def utterance_from_message(message: Any) -> Utterance:
+    """The utterance of a `/dialog` message."""
+    return Utterance(message.speaker, message.text)
+
+
+def event_to_message(taken: EventTaken) -> Any:
+    """`/event`: what kind of event, of which request, with which result, and its gist in words."""
+    event = taken.event
+    message = MESSAGES["Event"](name=type(event).__name__, text=_gist(event))
+    if isinstance(event, Ended):
+        message.request = event.request
+        message.result = type(event.result).__name__
+    return message
+
+
+def _gist(event: Event) -> str:
+    match event:
+        case Started(words):
+            return words
+        case Ended(_, result):
+            return _gist_of_result(result)
+        case DeadlinePassed(time):
+            return f"{time:.3f} s"
+        case StopRequested(by):
+            return by
+
+
+def _gist_of_result(result: Result) -> str:
+    match result:
+        case Failed(reason):
+            return reason
+        case Answered(text):
+            return text
+        case Captured(frame):
+            return f"frame {frame.number}"
+        case Replied(request=request) | Scored(request=request):
+            return request.label
+        case _:
+            return ""
+
+
+# --- the end ---
+
+
+def outcome_to_message(outcome: Outcome) -> Any:
+    """`/outcome`."""
+    message = MESSAGES["Outcome"](
+        **{name: getattr(outcome, name) for name in Outcome.__slots__ if name != "candidates"}
+    )
+    for c in outcome.candidates:
+        message.candidates.add(place=c.place, source=c.source, probability=c.probability)
+    return message
+
+
+def outcome_from_message(message: Any) -> Outcome:
+    """The outcome of an `/outcome` message."""
+
+    def optional(name: str) -> str | None:
+        return getattr(message, name) if message.HasField(name) else None
+
+    kind, source = optional("kind"), optional("source")
+    return Outcome(
+        command=message.command,
+        kind=Kind(kind) if kind else None,
+        target=optional("target"),
+        object=optional("object"),
+        status=Status(message.status),
+        reason=message.reason,
+        source=Source(source) if source else None,
+        location=optional("location"),
+        inquiries=message.inquiries,
+        visited=tuple(message.visited),
+        llm_calls=message.llm_calls,
+        candidates=tuple(
+            Candidate(
+                c.place, Source(c.source), c.probability if c.HasField("probability") else None
+            )
+            for c in message.candidates
+        ),
+        mission_time_s=message.mission_time_s,
+        thinking_time_s=message.thinking_time_s,
+        wall_time_s=message.wall_time_s,
+        run_dir=optional("run_dir"),
+    )

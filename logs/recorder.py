@@ -1,0 +1,156 @@
+"""From the ticking thread to every log: one queue, one writing thread, any number of sinks."""
+
+import contextlib
+import logging
+import queue
+import threading
+import time
+from collections.abc import Callable, Sequence
+from datetime import datetime
+from typing import NamedTuple, Protocol
+
+from executive.interfaces import Clock
+from executive.records import Note, Record
+
+log = logging.getLogger(__name__)
+
+CAPACITY = 1024
+"""Records that may wait to be written."""
+PATIENCE_S = 0.5
+"""How long the ticking thread waits for room in a full queue before a record is given up."""
+FLUSH_S = 1.0
+"""What was written reaches the disk within this time, also while nothing more happens."""
+CLOSE_S = 30.0
+"""How long `close` waits for what is queued to be written."""
+
+
+class Stamp(NamedTuple):
+    """When a record was made: mission time (s), and wall time (ns since 1970)."""
+
+    mission_s: float
+    wall_ns: int
+
+
+class Sink(Protocol):
+    """One log. Everything but its making happens in the writing thread; it may raise."""
+
+    def write(self, stamp: Stamp, record: Record) -> None:
+        """Keep a record."""
+        ...
+
+    def flush(self) -> None:
+        """Bring what was written to where it survives the death of this process."""
+        ...
+
+    def close(self) -> None:
+        """Finish the log; nothing is written afterwards."""
+        ...
+
+
+class FanOut:
+    """The Recorder: stamps each record with the time and passes it to every sink.
+
+    It outlives missions: `open` begins a mission's logs, `close` ends them, and what is recorded in
+    between reaches the sinks in order. A sink that raises is closed and dropped, and the others are
+    told. Records are not copied: whoever hands one over must not change it afterwards.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        """Stamp with this clock's time."""
+        self._clock = clock
+        self._writer: _Writer | None = None
+
+    def open(self, sinks: Sequence[Sink], started: datetime) -> None:
+        """Begin a mission that started at this wall time; a mission still open is closed first."""
+        self.close()
+        self._writer = _Writer(sinks)
+        self.record(Note("info", f"mission time 0 is {started.isoformat()}"))
+
+    def record(self, record: Record) -> None:
+        """Pass a record on; without an open mission it is ignored. Never raises."""
+        if self._writer is not None:
+            self._writer.put(Stamp(self._clock.now(), time.time_ns()), record)
+
+    def close(self) -> None:
+        """Write what is still queued, then finish all logs."""
+        if self._writer is not None:
+            self._writer.close(Stamp(self._clock.now(), time.time_ns()))
+            self._writer = None
+
+
+class _Writer:
+    """The thread that feeds one mission's sinks."""
+
+    def __init__(self, sinks: Sequence[Sink]) -> None:
+        self._sinks = list(sinks)
+        self._queue: queue.Queue[tuple[Stamp, Record | None]] = queue.Queue(CAPACITY)
+        self._lost = 0
+        self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
+        self._thread.start()
+
+    def put(self, stamp: Stamp, record: Record) -> None:
+        """Queue a record; if the sinks cannot keep up, wait once, then give up records."""
+        if self._lost and not self._queue.full():
+            text = f"{self._lost} records were lost here: the logs could not keep up"
+            log.warning(text)
+            self._queue.put_nowait((stamp, Note("warning", text)))
+            self._lost = 0
+        try:
+            self._queue.put((stamp, record), timeout=0 if self._lost else PATIENCE_S)
+        except queue.Full:
+            self._lost += 1
+
+    def close(self, stamp: Stamp) -> None:
+        try:
+            self._queue.put((stamp, None), timeout=CLOSE_S)
+        except queue.Full:
+            log.warning("the logs hang and are left unfinished")
+            return
+        self._thread.join(CLOSE_S)
+        if self._thread.is_alive():
+            log.warning("the logs were not finished within %.0f s", CLOSE_S)
+
+    def _run(self) -> None:
+        stamp = Stamp(0.0, 0)
+        flush_at: float | None = None
+        while True:
+            left = None if flush_at is None else max(0.0, flush_at - time.monotonic())
+            try:
+                stamp, record = self._queue.get(timeout=left)
+            except queue.Empty:
+                self._each(stamp, lambda sink: sink.flush())
+                flush_at = None
+                continue
+            if record is None:
+                break
+            self._write(stamp, record)
+            flush_at = flush_at or time.monotonic() + FLUSH_S
+        self._finish(stamp)
+
+    def _write(self, stamp: Stamp, record: Record) -> None:
+        self._each(stamp, lambda sink: sink.write(stamp, record))
+
+    def _each(self, stamp: Stamp, do: Callable[[Sink], None]) -> None:
+        """Do it to every sink; close and drop those that raise, and tell the others."""
+        for sink in tuple(self._sinks):
+            try:
+                do(sink)
+            except BaseException as error:  # a panic in a sink's Rust code is no Exception
+                if sink in self._sinks:
+                    self._sinks.remove(sink)
+                    with contextlib.suppress(BaseException):
+                        sink.close()
+                    self._warn(stamp, sink, "failed and was dropped", error)
+
+    def _finish(self, stamp: Stamp) -> None:
+        while self._sinks:
+            sink = self._sinks.pop(0)
+            try:
+                sink.close()
+            except BaseException as error:
+                self._warn(stamp, sink, "could not be finished", error)
+
+    def _warn(self, stamp: Stamp, sink: Sink, what: str, error: BaseException) -> None:
+        text = f"{type(sink).__name__} {what}: {type(error).__name__}: {error}"
+        log.warning(text)
+        self._write(stamp, Note("warning", text))

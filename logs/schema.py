@@ -1,0 +1,174 @@
+"""The mcap messages that no well-known schema covers, as protobuf classes built at run time.
+
+Names follow py_trees_ros for the tree (`own_id`, `tip_id`, `is_active`, status 1 to 4), Foxglove
+for time (`timestamp`), and OpenTelemetry's conventions for generative AI, dots as underscores
+(`gen_ai_usage_input_tokens`). `timestamp` is run start + mission time, the log's one time base;
+`wall_time` is when the record was made.
+"""
+
+from typing import Any
+
+from foxglove_schemas_protobuf import KeyValuePair_pb2
+from google.protobuf import descriptor_pool, message_factory, timestamp_pb2
+from google.protobuf.descriptor_pb2 import (
+    DescriptorProto,
+    FieldDescriptorProto,
+    FileDescriptorProto,
+)
+
+PACKAGE = "robot_executive"
+STATUS = ("UNKNOWN", "INVALID", "RUNNING", "SUCCESS", "FAILURE")
+
+_STAMPED = {
+    "timestamp": "google.protobuf.Timestamp",
+    "wall_time": "google.protobuf.Timestamp",
+}
+
+_MESSAGES: dict[str, dict[str, str]] = {
+    "Behaviour": {
+        "own_id": "string",
+        "parent_id": "string",
+        "child_ids": "repeated string",
+        "name": "string",
+        "class_name": "string",
+        "type": "string",
+    },
+    "BehaviourTree": {**_STAMPED, "behaviours": "repeated Behaviour"},
+    "BehaviourState": {
+        "own_id": "string",
+        "status": "Status",
+        "message": "string",
+        "is_active": "bool",
+    },
+    "Tick": {
+        **_STAMPED,
+        "tick": "uint64",
+        "cause": "string",
+        "tip_id": "string",
+        "behaviours": "repeated BehaviourState",
+        "situation": "repeated foxglove.KeyValuePair",
+        "duration_s": "double",
+    },
+    "ChatMessage": {"role": "string", "content": "string"},
+    "Option": {"text": "string", "place": "string", "score": "double"},
+    "LlmCall": {
+        **_STAMPED,
+        "label": "string",
+        "gen_ai_operation_name": "string",
+        "gen_ai_request_model": "string",
+        "gen_ai_request_temperature": "optional double",
+        "gen_ai_request_top_p": "optional double",
+        "gen_ai_request_top_k": "optional int64",
+        "gen_ai_request_seed": "optional int64",
+        "gen_ai_request_max_tokens": "optional int64",
+        "other_parameters": "repeated foxglove.KeyValuePair",
+        "gen_ai_input_messages": "repeated ChatMessage",
+        "gen_ai_output_messages": "repeated ChatMessage",
+        "gen_ai_response_finish_reasons": "repeated string",
+        "gen_ai_response_time_to_first_chunk": "double",
+        "gen_ai_usage_input_tokens": "uint64",
+        "gen_ai_usage_cache_read_input_tokens": "uint64",
+        "gen_ai_usage_output_tokens": "uint64",
+        "duration_s": "double",
+        "output_schema": "string",
+        "neutral_messages": "repeated ChatMessage",
+        "options": "repeated Option",
+    },
+    "LlmVerification": {
+        **_STAMPED,
+        "label": "string",
+        "accepted": "repeated string",
+        "rooms": "repeated string",
+        "dropped": "repeated string",
+    },
+    "Utterance": {**_STAMPED, "speaker": "string", "text": "string"},
+    "Event": {
+        **_STAMPED,
+        "name": "string",
+        "request": "optional uint64",
+        "result": "string",
+        "text": "string",
+    },
+    "Candidate": {"place": "string", "source": "string", "probability": "optional double"},
+    "Outcome": {
+        **_STAMPED,
+        "command": "string",
+        "kind": "optional string",
+        "target": "optional string",
+        "object": "optional string",
+        "status": "string",
+        "reason": "string",
+        "source": "optional string",
+        "location": "optional string",
+        "inquiries": "uint64",
+        "visited": "repeated string",
+        "llm_calls": "uint64",
+        "candidates": "repeated Candidate",
+        "mission_time_s": "double",
+        "thinking_time_s": "double",
+        "wall_time_s": "double",
+        "run_dir": "optional string",
+    },
+}
+
+_SCALARS = {
+    "double": FieldDescriptorProto.TYPE_DOUBLE,
+    "int64": FieldDescriptorProto.TYPE_INT64,
+    "uint64": FieldDescriptorProto.TYPE_UINT64,
+    "bool": FieldDescriptorProto.TYPE_BOOL,
+    "string": FieldDescriptorProto.TYPE_STRING,
+}
+
+
+def _add_field(message: DescriptorProto, name: str, spec: str) -> None:
+    """Add a field to a message; `spec` reads as in a .proto file, without name and number."""
+    label, _, kind = spec.rpartition(" ")
+    field = message.field.add(name=name, number=len(message.field) + 1)
+    field.label = (
+        FieldDescriptorProto.LABEL_REPEATED
+        if label == "repeated"
+        else FieldDescriptorProto.LABEL_OPTIONAL
+    )
+    if label == "optional":
+        field.proto3_optional = True
+        field.oneof_index = len(message.oneof_decl)
+        message.oneof_decl.add(name=f"_{name}")
+    if kind in _SCALARS:
+        field.type = _SCALARS[kind]
+    else:
+        field.type = (
+            FieldDescriptorProto.TYPE_ENUM
+            if kind == "Status"
+            else FieldDescriptorProto.TYPE_MESSAGE
+        )
+        field.type_name = f".{kind}" if "." in kind else f".{PACKAGE}.{kind}"
+
+
+def _describe() -> FileDescriptorProto:
+    file = FileDescriptorProto(
+        name=f"{PACKAGE}.proto",
+        package=PACKAGE,
+        syntax="proto3",
+        dependency=[timestamp_pb2.DESCRIPTOR.name, KeyValuePair_pb2.DESCRIPTOR.name],
+    )
+    status = file.enum_type.add(name="Status")
+    for number, name in enumerate(STATUS):
+        status.value.add(name=name, number=number)
+    for name, fields in _MESSAGES.items():
+        message = file.message_type.add(name=name)
+        for field, spec in fields.items():
+            _add_field(message, field, spec)
+    return file
+
+
+def _classes() -> dict[str, Any]:
+    pool = descriptor_pool.Default()
+    pool.AddSerializedFile(_describe().SerializeToString())
+    return {
+        name: message_factory.GetMessageClass(pool.FindMessageTypeByName(f"{PACKAGE}.{name}"))
+        for name in _MESSAGES
+    }
+
+
+MESSAGES = _classes()
+"""The message classes by name: `MESSAGES["Tick"](tick=3)`."""

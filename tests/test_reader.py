@@ -1,0 +1,141 @@
+"""Runs are read back as they were recorded, also when they end early."""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from mcap.reader import make_reader
+from mcap.writer import Writer
+from sample_mission import (
+    STARTED,
+    TREE,
+    chat_call,
+    mission,
+    outcome,
+    rank_call,
+)
+
+from executive.errors import InputError
+from executive.records import Tick, Utterance
+from logs.mcap_sink import McapSink
+from logs.reader import EventLine, Run
+from logs.recorder import Stamp
+from logs.recovery import recover
+
+WRITE_UNTIL_KILLED = """
+import itertools, sys, time
+from pathlib import Path
+from sample_mission import STARTED, TREE, FakeClock, tick
+from logs import recorder
+from logs.mcap_sink import McapSink
+recorder.FLUSH_S = 0.05
+clock = FakeClock()
+fan_out = recorder.FanOut(clock)
+fan_out.open([McapSink(Path(sys.argv[1]), STARTED, {"a.toml": b"x = 1"}, {"seed": "7"})], STARTED)
+fan_out.record(TREE)
+for number in itertools.count():
+    clock.time = number / 100
+    fan_out.record(tick(number, "mission/drive", *["RUNNING"] * len(TREE.nodes)))
+    if number == 200:
+        time.sleep(0.5)
+        print("ready", flush=True)
+"""
+
+
+@pytest.fixture
+def run_dir(tmp_path: Path) -> Path:
+    sink = McapSink(tmp_path / "mission.mcap", STARTED, {}, {"seed": "7"})
+    for time, record in mission():
+        sink.write(Stamp(time, 0), record)
+    sink.close()
+    return tmp_path
+
+
+@pytest.fixture(scope="module")
+def killed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("killed") / "mission.mcap"
+    writer = subprocess.Popen(
+        [sys.executable, "-c", WRITE_UNTIL_KILLED, str(path)],
+        stdout=subprocess.PIPE,
+        cwd=Path(__file__).parent,
+    )
+    assert writer.stdout is not None
+    with writer.stdout as ready:
+        ready.readline()
+        writer.send_signal(signal.SIGKILL)
+        writer.wait()
+    return path
+
+
+def test_what_is_read_equals_what_was_recorded(run_dir: Path) -> None:
+    run, records = Run(run_dir), list(mission())
+    assert run.tree() == TREE
+    assert [(at.time_s, at.value) for at in run.ticks()] == [
+        (time, record) for time, record in records if isinstance(record, Tick)
+    ]
+    assert [at.value for at in run.llm_calls()] == [chat_call(), rank_call()]
+    assert [at.value for at in run.dialog()] == [r for _, r in records if isinstance(r, Utterance)]
+    assert run.outcome() == outcome()
+    assert run.metadata["seed"] == "7"
+
+
+def test_events_are_read_in_words(run_dir: Path) -> None:
+    assert [at.value for at in Run(run_dir).events()] == [
+        EventLine("Started", None, "", "Bring a sugar_box"),
+        EventLine("Ended", 3, "Succeeded", ""),
+    ]
+
+
+def test_frames_are_jpegs(run_dir: Path) -> None:
+    (frame,) = Run(run_dir).frames()
+    assert frame.time_s == 6.0
+    assert frame.value.startswith(b"\xff\xd8")
+
+
+def test_a_killed_run_reads_up_to_its_end(killed: Path) -> None:
+    run = Run(killed.parent)
+    assert not run.whole
+    numbers = [at.value.number for at in run.ticks()]
+    assert numbers == list(range(len(numbers)))
+    assert len(numbers) > 200
+    assert run.outcome() is None
+
+
+def test_a_killed_run_recovers_to_a_whole_file_with_the_same_content(killed: Path) -> None:
+    recovered = recover(killed)
+    whole = Run(recovered)
+    assert whole.whole
+    assert list(whole.ticks()) == list(Run(killed).ticks())
+    with recovered.open("rb") as file:
+        assert [a.name for a in make_reader(file).iter_attachments()] == ["a.toml"]
+
+
+@pytest.mark.parametrize("kept", [0.3, 0.6, 0.9])
+def test_a_file_cut_anywhere_still_reads(run_dir: Path, kept: float) -> None:
+    path = run_dir / "mission.mcap"
+    data = path.read_bytes()
+    path.write_bytes(data[: int(len(data) * kept)])
+    assert len(list(Run(run_dir).llm_calls())) <= 2
+
+
+def test_a_folder_without_a_recording_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"holds no mission\.mcap"):
+        Run(tmp_path)
+
+
+def test_a_file_that_is_no_mcap_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "mission.mcap").write_bytes(b"hello, hello, hello")
+    with pytest.raises(InputError, match="is not an mcap file"):
+        Run(tmp_path)
+
+
+def test_an_mcap_of_something_else_is_refused_and_told_what_it_lacks(tmp_path: Path) -> None:
+    with (tmp_path / "mission.mcap").open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.add_message(writer.register_channel("/odom", "json", 0), 0, b"{}", 0)
+        writer.finish()
+    with pytest.raises(InputError, match="topic /bt/tree is missing"):
+        Run(tmp_path)
