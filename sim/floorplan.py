@@ -1,0 +1,119 @@
+"""Rooms and doors, and the walls that follow from them."""
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+from pydantic import BaseModel, ConfigDict, PositiveFloat
+
+Span = tuple[float, float]
+
+
+class Room(BaseModel):
+    """A room with walls along the edges of its rectangle; neighbours share what is between them."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    kind: str
+    """Its class in the ontology."""
+    rectangle: tuple[float, float, float, float]
+    """Left, lower, right and upper edge in `map` (metres)."""
+
+    def holds(self, x: float, y: float) -> bool:
+        """Whether a point (metres, in `map`) is in the room."""
+        left, lower, right, upper = self.rectangle
+        return left <= x <= right and lower <= y <= upper
+
+
+class Door(BaseModel):
+    """A gap in a wall, from floor to ceiling."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    position: tuple[float, float]
+    """Its middle, on the line of a wall (metres, in `map`)."""
+    width: PositiveFloat
+
+
+@dataclass(frozen=True, slots=True)
+class Wall:
+    """A straight piece of wall without gaps, seen from above (metres, in `map`)."""
+
+    center: tuple[float, float]
+    size: tuple[float, float]
+
+
+def walls(rooms: tuple[Room, ...], doors: tuple[Door, ...], thickness: float) -> tuple[Wall, ...]:
+    """The pieces of wall that are left when the doors are cut out.
+
+    Walls along y run through where they meet walls along x, so that corners are closed.
+    """
+    pieces = []
+    for (axis, offset), spans in _lines(rooms).items():
+        gaps = [
+            (door.position[1 - axis] - door.width / 2, door.position[1 - axis] + door.width / 2)
+            for door in doors
+            if abs(door.position[axis] - offset) < thickness / 2
+        ]
+        for start, end in _without(_joined(spans), gaps):
+            grown = _grown((start, end), spans, thickness)
+            pieces.append(_wall(axis, offset, grown, thickness))
+    return tuple(pieces)
+
+
+def is_on_wall(door: Door, rooms: tuple[Room, ...]) -> bool:
+    """Whether the whole door is in the wall of a room."""
+    for axis in (0, 1):
+        along, half = door.position[1 - axis], door.width / 2
+        for start, end in _joined(_lines(rooms)[axis, door.position[axis]]):
+            if start <= along - half and along + half <= end:
+                return True
+    return False
+
+
+def _lines(rooms: tuple[Room, ...]) -> dict[tuple[int, float], list[Span]]:
+    """Spans of wall on each line; axis 0 has x fixed, axis 1 has y fixed."""
+    lines: dict[tuple[int, float], list[Span]] = defaultdict(list)
+    for room in rooms:
+        left, lower, right, upper = room.rectangle
+        for x in (left, right):
+            lines[0, x].append((lower, upper))
+        for y in (lower, upper):
+            lines[1, y].append((left, right))
+    return lines
+
+
+def _joined(spans: list[Span]) -> list[Span]:
+    joined: list[Span] = []
+    for start, end in sorted(spans):
+        if joined and start <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
+        else:
+            joined.append((start, end))
+    return joined
+
+
+def _without(spans: list[Span], gaps: list[Span]) -> list[Span]:
+    for low, high in gaps:
+        spans = [
+            piece
+            for start, end in spans
+            for piece in ((start, min(end, low)), (max(start, high), end))
+            if piece[1] > piece[0]
+        ]
+    return spans
+
+
+def _grown(piece: Span, spans: list[Span], thickness: float) -> Span:
+    """A piece made longer by half a wall at its ends that are corners of a room."""
+    corners = {end for span in spans for end in span}
+    start, end = piece
+    half = thickness / 2
+    return start - half * (start in corners), end + half * (end in corners)
+
+
+def _wall(axis: int, offset: float, span: Span, thickness: float) -> Wall:
+    middle, length = (span[0] + span[1]) / 2, span[1] - span[0]
+    if axis == 0:
+        return Wall((offset, middle), (thickness, length))
+    return Wall((middle, offset), (length, thickness))

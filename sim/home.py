@@ -1,0 +1,244 @@
+"""The home: rooms, doors, furniture, and where things, the person and the robot are in it.
+
+A home is a TOML file; `homes/four_rooms.toml` shows every key. Its frame is `map`.
+"""
+
+import math
+import tomllib
+from collections.abc import Mapping
+from importlib.resources import files
+from itertools import combinations
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PositiveFloat,
+    ValidationError,
+)
+
+from executive.errors import InputError
+from executive.types import Place, Pose
+from sim.floorplan import Door, Room, Wall, is_on_wall, walls
+from sim.furniture import FORM_OF_KIND, Furniture, PlanarPose, PoseInDegrees
+from sim.objects import load_objects
+from sim.spots import NoRoomError, Spot, Standing, arrange
+
+PERSON = "person"
+DELIVERY = "delivery"
+STAND_OFF_M = 0.62
+"""From the front edge of a piece of furniture to the middle of the robot that uses it."""
+TALKING_DISTANCE_M = 0.9
+"""From the middle of the person to the middle of the robot that talks to them."""
+
+
+def _as_spot(value: Any) -> Any:
+    return {"furniture": value} if isinstance(value, str) else value
+
+
+class Home(BaseModel):
+    """A home as its file describes it; made by `load_home`."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    wall_height: PositiveFloat = 2.4
+    wall_thickness: PositiveFloat = 0.1
+    robot_start: PoseInDegrees
+    person: PoseInDegrees
+    """Where the person is, and where they look."""
+    rooms: tuple[Room, ...]
+    doors: tuple[Door, ...] = ()
+    furniture: tuple[Furniture, ...]
+    delivery: Furniture
+    """The table where brought things go; it is not searched."""
+    objects: dict[str, Annotated[Spot, BeforeValidator(_as_spot)]] = Field(default_factory=dict)
+
+    @property
+    def placement(self) -> dict[str, str]:
+        """Name of the furniture that each object is on, in the file's order."""
+        return {name: spot.furniture for name, spot in self.objects.items()}
+
+    def places(self) -> tuple[Place, ...]:
+        """The searchable furniture, in the file's order."""
+        kinds = {room.name: room.kind for room in self.rooms}
+        return tuple(Place(f.name, f.kind, f.room, kinds[f.room]) for f in self.furniture)
+
+    def walls(self) -> tuple[Wall, ...]:
+        """The walls without the doors' gaps, in `map`."""
+        return walls(self.rooms, self.doors, self.wall_thickness)
+
+    def furniture_named(self, name: str) -> Furniture:
+        """A piece of furniture, or the delivery table.
+
+        Raises:
+            InputError: if there is none of this name.
+        """
+        pieces = {piece.name: piece for piece in (*self.furniture, self.delivery)}
+        if name not in pieces:
+            known = "it has " + ", ".join(pieces)
+            raise InputError(f"home {self.name}", f"there is no furniture {name!r}", known)
+        return pieces[name]
+
+    def stand(self, place: str) -> PlanarPose:
+        """Where the robot stands to use a piece of furniture, or to talk to the `person`.
+
+        It faces the front of the furniture, STAND_OFF_M away from the edge.
+
+        Raises:
+            InputError: if there is no such place.
+        """
+        if place == PERSON:
+            (x, y, yaw), ahead = self.person, TALKING_DISTANCE_M
+        else:
+            piece = self.furniture_named(place)
+            (x, y, yaw), ahead = piece.pose, piece.size[0] / 2 + STAND_OFF_M
+        facing = math.remainder(yaw + math.pi, math.tau)
+        return x + ahead * math.cos(yaw), y + ahead * math.sin(yaw), facing
+
+    def object_pose(self, name: str) -> Pose:
+        """Where an object's frame is in `map` at the start.
+
+        Raises:
+            InputError: if the object is not in this home.
+        """
+        if name not in self.objects:
+            known = "it has " + ", ".join(self.objects)
+            raise InputError(f"home {self.name}", f"there is no object {name!r}", known)
+        piece = self.furniture_named(self.objects[name].furniture)
+        standing = self.arrangement()[name]
+        yaw = piece.pose[2] + standing.yaw
+        position = piece.to_map((standing.x, standing.y, standing.z))
+        return Pose(position, (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+
+    def with_placement(self, placement: Mapping[str, str]) -> Self:
+        """This home with some objects on other furniture.
+
+        Raises:
+            InputError: if an object or a piece of furniture is unknown, or there is no room for it.
+        """
+        spots = {name: Spot(furniture=where) for name, where in placement.items()}
+        home = self.model_copy(update={"objects": {**self.objects, **spots}})
+        _check_objects(home, "--place")
+        return home
+
+    def arrangement(self) -> dict[str, Standing]:
+        """Where each object's frame is in the frame of its furniture at the start."""
+        surfaces = {f.name: f.surfaces() for f in (*self.furniture, self.delivery)}
+        return arrange(self.objects, surfaces, load_objects())
+
+
+def load_home(name_or_path: str) -> Home:
+    """Read a home: the name of a packaged one, or a TOML file.
+
+    Raises:
+        InputError: if there is no such home or something in it is wrong, naming file and key.
+    """
+    text, where = _read(name_or_path)
+    try:
+        home = Home.model_validate({"name": Path(where).stem, **tomllib.loads(text)})
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(where, f"this is not TOML: {error}") from None
+    except ValidationError as error:
+        raise _input_error(where, error) from None
+    for check in (_check_rooms, _check_furniture, _check_overlaps, _check_objects):
+        check(home, where)
+    return home
+
+
+def packaged_homes() -> tuple[str, ...]:
+    """Names of the homes that come with the project."""
+    entries = files("sim").joinpath("homes").iterdir()
+    return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
+
+
+def _read(name_or_path: str) -> tuple[str, str]:
+    """The text of a home, and what to call its file in messages."""
+    if not name_or_path.endswith(".toml"):
+        if name_or_path in packaged_homes():
+            file = files("sim").joinpath("homes", f"{name_or_path}.toml")
+            return file.read_text(encoding="utf-8"), file.name
+        known = f"packaged are {', '.join(packaged_homes())}; or give the path of a .toml file"
+        raise InputError(f"home {name_or_path}", "there is no home of this name", known)
+    try:
+        return Path(name_or_path).read_text(encoding="utf-8"), name_or_path
+    except (OSError, UnicodeDecodeError) as error:
+        why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        known = f"packaged are {', '.join(packaged_homes())}"
+        raise InputError(name_or_path, f"cannot read this home: {why}", known) from None
+
+
+def _input_error(where: str, error: ValidationError) -> InputError:
+    """The first of pydantic's complaints, with the key as the file has it."""
+    first = error.errors()[0]
+    key = ".".join(str(part) for part in first["loc"])
+    if first["type"] == "extra_forbidden":
+        return InputError(where, f"there is no key {key}", "see sim/homes/four_rooms.toml")
+    if first["type"] == "missing":
+        return InputError(where, f"{key} is missing", "see sim/homes/four_rooms.toml")
+    return InputError(where, f"{key} is {first['input']!r}", first["msg"].lower())
+
+
+def _check_rooms(home: Home, where: str) -> None:
+    for room in home.rooms:
+        left, lower, right, upper = room.rectangle
+        if left >= right or lower >= upper:
+            right_order = "give left, lower, right and upper edge"
+            raise InputError(where, f"room {room.name} has no area", right_order)
+    _check_unique(where, "room", [room.name for room in home.rooms])
+    for door in home.doors:
+        if not is_on_wall(door, home.rooms):
+            on_edge = "put its middle on the edge of a room, away from the corners"
+            raise InputError(where, f"the door at {door.position} is not in a wall", on_edge)
+
+
+def _check_furniture(home: Home, where: str) -> None:
+    _check_unique(where, "furniture", [PERSON, DELIVERY, *(f.name for f in home.furniture)])
+    if home.delivery.name != DELIVERY:
+        raise InputError(where, f"the delivery table is named {home.delivery.name}", DELIVERY)
+    rooms = {room.name: room for room in home.rooms}
+    for piece in (*home.furniture, home.delivery):
+        of = f"furniture {piece.name}"
+        if piece.room not in rooms:
+            raise InputError(where, f"{of}: no room {piece.room!r}", f"rooms: {', '.join(rooms)}")
+        if piece.form is None and piece.kind not in FORM_OF_KIND:
+            known = f"known are {', '.join(FORM_OF_KIND)}; or give its form"
+            raise InputError(where, f"{of}: cannot build kind {piece.kind!r}", known)
+        if max(piece.boards, default=0.0) >= piece.size[2]:
+            raise InputError(where, f"{of}: a board is above its top", f"below {piece.size[2]} m")
+        if not piece.surfaces():
+            raise InputError(where, f"{of}: nothing can stand on it", "give its boards")
+        if not all(rooms[piece.room].holds(x, y) for x, y in piece.corners()):
+            raise InputError(where, f"{of}: it sticks out of room {piece.room}", "move it inside")
+
+
+def _check_overlaps(home: Home, where: str) -> None:
+    for one, other in combinations((*home.furniture, home.delivery), 2):
+        if one.overlaps(other):
+            what = f"furniture {one.name} and {other.name} overlap"
+            raise InputError(where, what, "move one of them")
+
+
+def _check_objects(home: Home, where: str) -> None:
+    models = load_objects()
+    furniture = [*(f.name for f in home.furniture), DELIVERY]
+    for name, spot in home.objects.items():
+        if name not in models:
+            known = f"objects: {', '.join(models)}"
+            raise InputError(where, f"there is no object {name!r}", known)
+        if spot.furniture not in furniture:
+            known = f"furniture: {', '.join(furniture)}"
+            raise InputError(where, f"{name}: there is no furniture {spot.furniture!r}", known)
+    try:
+        home.arrangement()
+    except NoRoomError as error:
+        raise InputError(where, f"{error.name}: {error}", "choose another place for it") from None
+
+
+def _check_unique(where: str, what: str, names: list[str]) -> None:
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(where, f"{what} {name!r} is there twice", "give each its own name")
