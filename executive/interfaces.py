@@ -256,6 +256,21 @@ class World(Protocol):
         ...
 
 
+class SimulatedHome(World, Protocol):
+    """A simulated world that can be drawn, and that knows the truth about its things."""
+
+    def describe(self) -> None:
+        """Record the whole scene and where everything is; called once a mission."""
+        ...
+
+    def resting_place(self, name: str) -> str | None:
+        """The furniture that an object rests on, by the simulator's truth; None if on none.
+
+        For the simulated person and for tests: the robot has no access to it.
+        """
+        ...
+
+
 class Clock(Protocol):
     """Mission time (seconds since the mission began)."""
 

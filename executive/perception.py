@@ -92,4 +92,5 @@ def transform(pose: Pose, points: NDArray[np.float64]) -> NDArray[np.float64]:
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
-    return points @ rotation.T + np.asarray(pose.position)
+    moved: NDArray[np.float64] = points @ rotation.T + np.asarray(pose.position)
+    return moved

@@ -86,8 +86,9 @@ class Console:
 class _Prompt:
     """What the simulated persons share: they answer at once."""
 
-    def __init__(self, inbox: Inbox) -> None:
+    def __init__(self, inbox: Inbox, out: TextIO | None = None) -> None:
         self._inbox = inbox
+        self._out = out
         self.told: list[str] = []
 
     def cancel(self, request: int) -> None:
@@ -95,13 +96,20 @@ class _Prompt:
         self._inbox.drop(request)
 
     def tell(self, text: str) -> None:
-        """Keep what was said."""
+        """Keep what was said, and print it if there is where to."""
         self.told.append(text)
+        self._print(text)
 
-    def _answer(self, result: Answered | Failed) -> int:
+    def _answer(self, question: Question, result: Answered | Failed) -> int:
+        self._print(question.text)
+        self._print(f"> {result.text}" if isinstance(result, Answered) else f"({result.reason})")
         request = self._inbox.open()
         self._inbox.end(request, result)
         return request
+
+    def _print(self, text: str) -> None:
+        if self._out is not None:
+            print(text, file=self._out, flush=True)
 
 
 class Oracle(_Prompt):
@@ -110,9 +118,15 @@ class Oracle(_Prompt):
     Of a class of things it means one that is in the home, chosen by the seed, and sticks to it.
     """
 
-    def __init__(self, inbox: Inbox, where: Callable[[str], str | None], seed: int = 0) -> None:
+    def __init__(
+        self,
+        inbox: Inbox,
+        where: Callable[[str], str | None],
+        seed: int = 0,
+        out: TextIO | None = None,
+    ) -> None:
         """`where` tells, by the world's truth, on which furniture an object is (None: nowhere)."""
-        super().__init__(inbox)
+        super().__init__(inbox, out)
         self._where = where
         self._random = random.Random(seed)
         self._meant: dict[str, str] = {}
@@ -123,7 +137,7 @@ class Oracle(_Prompt):
             answer = self._where(question.about)
         else:
             answer = self._choose(question)
-        return self._answer(Answered(answer or "I don't know"))
+        return self._answer(question, Answered(answer or "I don't know"))
 
     def _choose(self, question: Question) -> str | None:
         here = [name for name in question.options if self._where(name)]
@@ -145,25 +159,16 @@ class Scripted(_Prompt):
         """Give the next answer."""
         self.asked.append(question)
         if not self._answers:
-            return self._answer(Failed("the script has no more answers"))
+            return self._answer(question, Failed("the script has no more answers"))
         answer = self._answers.popleft()
         if answer is None:
             return self._inbox.open()
-        return self._answer(Answered(answer))
+        return self._answer(question, Answered(answer))
 
 
 class Nobody(_Prompt):
     """Nobody is there: every question fails at once."""
 
-    def __init__(self, inbox: Inbox, out: TextIO | None = None) -> None:
-        """What is told is still printed, to `out` (default: standard error)."""
-        super().__init__(inbox)
-        self._out = out or sys.stderr
-
     def ask(self, question: Question) -> int:
         """Fail."""
-        return self._answer(Failed("there is nobody to ask"))
-
-    def tell(self, text: str) -> None:
-        """Print it."""
-        print(text, file=self._out, flush=True)
+        return self._answer(question, Failed("there is nobody to ask"))

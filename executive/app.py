@@ -1,0 +1,241 @@
+"""The composition root: builds the parts from the settings and runs missions with them.
+
+Nothing else knows all the rooms of the house.
+"""
+
+import sys
+import time
+from collections.abc import Callable
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import TextIO
+
+from executive.clock import SimulatedClock
+from executive.command import EnglishInterpreter
+from executive.config import Settings
+from executive.errors import InputError
+from executive.events import Ended, Inbox, Started, StopRequested
+from executive.interfaces import (
+    Camera,
+    Detector,
+    LanguageModel,
+    Recorder,
+    Robot,
+    SimulatedHome,
+    User,
+)
+from executive.loop import Executive
+from executive.perception import Eyes
+from executive.records import Finished
+from executive.runs import new_folder, to_json, write
+from executive.situation import Situation
+from executive.types import Answered, Outcome
+from executive.user import Console, Nobody, Oracle
+from kb.advisor import PlaceAdvisor
+from kb.llama import LlamaCpp, embedded_model
+from kb.ontology import Ontology
+from kb.server import Server
+from logs.mcap_sink import McapSink
+from logs.recorder import FanOut
+from logs.rerun_sink import RerunSink
+from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
+from sim.home import Home, load_home
+from sim.objects import load_objects
+from trees.mission import mission
+from trees.team import Rules, Team
+from trees.tree import MissionTree
+
+PACKAGES = ("py-trees", "pybullet", "llama-cpp-python", "owlready2", "rerun-sdk", "mcap")
+
+
+class Session:
+    """The parts that outlive a mission (world, knowledge, model, person); runs one at a time."""
+
+    def __init__(
+        self,
+        settings: Settings,
+        *,
+        inbox: Inbox | None = None,
+        user: User | None = None,
+        model: LanguageModel | None = None,
+        view: bool = False,
+        gui: bool = False,
+        out: TextIO = sys.stderr,
+    ) -> None:
+        """Build everything; `user` and `model` replace what the settings name.
+
+        Raises:
+            ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
+        """
+        self.settings = settings
+        self._view = view
+        self.inbox = inbox or Inbox()
+        self.home = load_home(settings.home).with_placement(settings.place)
+        self.knowledge = Ontology(self.home.places(), defaults=settings.defaults)
+        self.model = model or build_model(settings, self.inbox)
+        self.recorder = FanOut(lambda: self.clock.now())
+        self.world, self.robot, camera, detector = build_simulation(
+            settings, self.home, self.inbox, self.recorder, gui
+        )
+        self.clock = SimulatedClock(self.inbox, self.world)
+        self.eyes = Eyes(camera, detector, self.inbox, self.recorder)
+        self.user = user or build_user(settings, self.inbox, self.world.resting_place, out)
+        self.advisor = (
+            PlaceAdvisor(self.knowledge, self.model, remembers=settings.remembers)
+            if self.model
+            else None
+        )
+        self.ticks = 0
+        """How often the tree of the last mission was ticked."""
+
+    def run(self, words: str) -> Outcome:
+        """One mission, from words to its outcome, with its own run folder."""
+        began = time.monotonic()
+        started = datetime.now(UTC)
+        folder = new_folder(self.settings.runs, started, words)
+        self.clock.restart()
+        self._open_logs(folder, started)
+        situation = Situation(words=words)
+        tree = MissionTree(mission(self._team(situation)))
+        executive = Executive(
+            tree,
+            situation,
+            inbox=self.inbox,
+            clock=self.clock,
+            robot=self.robot,
+            recorder=self.recorder,
+        )
+        self.inbox.post(Started(words))
+        executive.run()
+        self.ticks = executive.ticks
+        outcome = situation.outcome(
+            mission_time_s=self.clock.now(),
+            wall_time_s=time.monotonic() - began,
+            run_dir=str(folder),
+        )
+        self.recorder.record(Finished(outcome))
+        self.recorder.close()
+        write(folder / "outcome.json", to_json(outcome) + "\n")
+        return outcome
+
+    def next_command(self) -> str | None:
+        """Wait for the person to type a command; None at the end of input or for "stop"."""
+        assert isinstance(self.user, Console)
+        request = self.user.listen()
+        while True:
+            self.clock.wait(None)
+            for event in self.inbox.take_all():
+                if isinstance(event, StopRequested):
+                    return None
+                if isinstance(event, Ended) and event.request == request:
+                    answer = event.result
+                    return answer.text if isinstance(answer, Answered) else None
+
+    def close(self) -> None:
+        """Free the model and the simulator."""
+        if self.model:
+            self.model.close()
+        self.world.close()
+
+    def _team(self, situation: Situation) -> Team:
+        settings = self.settings
+        return Team(
+            situation=situation,
+            clock=self.clock,
+            recorder=self.recorder,
+            interpreter=EnglishInterpreter(),
+            knowledge=self.knowledge,
+            robot=self.robot,
+            eyes=self.eyes,
+            user=self.user,
+            model=self.model,
+            advisor=self.advisor,
+            rules=Rules(
+                elicit=settings.elicitation,
+                top=settings.top,
+                answer_s=settings.answer_timeout_s,
+                model_s=settings.llm_timeout_s,
+                action_s=settings.action_timeout_s,
+            ),
+        )
+
+    def _open_logs(self, folder: Path, started: datetime) -> None:
+        config = self.settings.to_toml()
+        write(folder / "config.toml", config)
+        attachments = {"config.toml": config.encode(), **self.knowledge.files()}
+        metadata = {
+            "seed": str(self.settings.seed),
+            "model": self.model.name if self.model else "none",
+            **{name: version(name) for name in PACKAGES},
+        }
+        self.recorder.open(
+            [
+                McapSink(folder / "mission.mcap", started, attachments, metadata),
+                RerunSink(folder / "mission.rrd", view=self._view),
+            ],
+            started,
+        )
+        self.world.describe()
+
+
+def build_simulation(
+    settings: Settings, home: Home, inbox: Inbox, recorder: Recorder, gui: bool = False
+) -> tuple[SimulatedHome, Robot, Camera, Detector]:
+    """The world that the settings name, with its robot and the robot's senses."""
+    if settings.world == "fake":
+        instant = FakeWorld(home, inbox, recorder)
+        return instant, FakeRobot(instant), FakeCamera(instant), FakeDetector(instant)
+    from sim.world import PhysicsWorld
+
+    physics = PhysicsWorld(
+        home,
+        load_objects(),
+        inbox,
+        recorder,
+        seed=settings.seed,
+        gui=gui,
+        camera_hz=settings.camera_hz,
+    )
+    return physics, physics.robot, physics.camera, physics.detector
+
+
+def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
+    """The language model that the settings name; it loads while the rest is built."""
+    if not settings.uses_llm:
+        return None
+    if settings.llm.startswith("http"):
+        if settings.elicitation == "rank":
+            raise InputError(
+                "setting 'elicit'", "a server cannot rank places", "use --elicit generate"
+            )
+        return Server(
+            settings.llm,
+            inbox,
+            temperature=settings.temperature,
+            top_p=settings.top_p,
+            max_tokens=settings.max_tokens,
+            seed=settings.seed,
+        )
+    return LlamaCpp(
+        embedded_model() if settings.llm == "embedded" else Path(settings.llm),
+        inbox,
+        n_ctx=settings.context_tokens,
+        temperature=settings.temperature,
+        top_p=settings.top_p,
+        max_tokens=settings.max_tokens,
+        seed=settings.seed,
+    )
+
+
+def build_user(
+    settings: Settings, inbox: Inbox, where: Callable[[str], str | None], out: TextIO
+) -> User:
+    """The person that the settings name."""
+    match settings.user:
+        case "console":
+            return Console(inbox, out=out)
+        case "oracle":
+            return Oracle(inbox, where, settings.seed, out)
+        case "none":
+            return Nobody(inbox, out)

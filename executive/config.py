@@ -1,0 +1,112 @@
+"""Every setting in one model: from a TOML file, the environment, the command line; last wins."""
+
+import tomllib
+from enum import StrEnum
+from pathlib import Path
+from typing import Any, Literal
+
+import tomli_w
+from pydantic import Field, ValidationError, field_validator
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+from executive.errors import InputError
+
+
+class KnowledgeSystem(StrEnum):
+    """The paper's three systems."""
+
+    OKB = "okb"
+    OKB_LLM = "okb+llm"
+    OKB_LLM_MEM = "okb+llm+mem"
+
+
+class Settings(BaseSettings):
+    """What a mission is run with. Environment variables are named EXECUTIVE_HOME and so on."""
+
+    model_config = SettingsConfigDict(env_prefix="EXECUTIVE_", extra="forbid", frozen=True)
+
+    home: str = Field("four_rooms", description="name of a packaged home, or a FILE.toml")
+    knowledge: KnowledgeSystem = Field(
+        KnowledgeSystem.OKB_LLM_MEM, description="the paper's three systems"
+    )
+    defaults: bool = Field(True, description="whether the ontology knows default locations")
+    llm: str = Field(
+        "embedded", description="embedded, FILE.gguf, http://host:port/v1 of a server, or none"
+    )
+    elicit: Literal["generate", "rank"] | None = Field(
+        None, description="let the model write a list (paper) or score each known place"
+    )
+    user: Literal["console", "oracle", "none"] = Field("console", description="who answers")
+    place: dict[str, str] = Field(
+        default_factory=dict, description="where things truly are, beside the home file"
+    )
+    world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
+    seed: int = Field(0, ge=0, description="of the world, the model and the simulated person")
+    runs: Path = Field(Path("runs"), description="where each run leaves its folder")
+
+    temperature: float = Field(0.6, ge=0, description="of the language model (paper: 0.6)")
+    top_p: float = Field(0.9, gt=0, le=1, description="of the language model (paper: 0.9)")
+    context_tokens: int = Field(4096, ge=512, description="of the language model (paper: 4096)")
+    max_tokens: int = Field(256, ge=1, description="longest reply of the language model")
+    top: int = Field(5, ge=1, description="places of a ranking that are worth a visit")
+    answer_timeout_s: float = Field(120.0, gt=0, description="how long to wait for the person")
+    llm_timeout_s: float = Field(60.0, gt=0, description="how long to wait for the model")
+    action_timeout_s: float = Field(120.0, gt=0, description="how long an action may take")
+    camera_hz: float = Field(2.0, ge=0, description="pictures for the log while the robot moves")
+
+    @field_validator("llm")
+    @classmethod
+    def _known_llm(cls, value: str) -> str:
+        if value in ("embedded", "none") or value.endswith(".gguf"):
+            return value
+        if value.startswith(("http://", "https://")):
+            return value
+        raise ValueError("should be embedded, none, a FILE.gguf or http://host:port/v1")
+
+    @property
+    def uses_llm(self) -> bool:
+        """Whether a language model is part of this system."""
+        return self.knowledge != KnowledgeSystem.OKB and self.llm != "none"
+
+    @property
+    def remembers(self) -> bool:
+        """Whether the model is given the dialogue so far."""
+        return self.knowledge == KnowledgeSystem.OKB_LLM_MEM
+
+    @property
+    def elicitation(self) -> Literal["generate", "rank"]:
+        """`elicit`, or its default: rank for the embedded model, else generate."""
+        return self.elicit or ("rank" if self.llm == "embedded" else "generate")
+
+    def to_toml(self) -> str:
+        """The settings as a file that `--config` reads."""
+        return tomli_w.dumps(self.model_dump(mode="json", exclude_none=True))
+
+
+def load_settings(config: Path | None = None, **given: Any) -> Settings:
+    """Settings from the file, the environment, and `given` (what is None there was not given).
+
+    Raises:
+        InputError: names the setting, what is wrong with it, and what would be right.
+    """
+    from_file = _read(config) if config else {}
+    given = {name: value for name, value in given.items() if value is not None}
+    try:
+        from_environment = Settings().model_dump(exclude_unset=True)
+        return Settings(**{**from_file, **from_environment, **given})
+    except ValidationError as error:
+        fault = error.errors()[0]
+        name = ".".join(str(part) for part in fault["loc"])
+        known = ", ".join(Settings.model_fields)
+        right = f"known are {known}" if fault["type"] == "extra_forbidden" else ""
+        where = f"{config}: {name}" if name in from_file else f"setting '{name}'"
+        raise InputError(where, fault["msg"], right) from None
+
+
+def _read(config: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(config.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(str(config), f"cannot be read: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(str(config), f"is not TOML: {error}") from None

@@ -1,0 +1,52 @@
+"""The folder that a mission leaves behind."""
+
+import json
+import logging
+import re
+from dataclasses import asdict
+from datetime import datetime
+from itertools import count
+from pathlib import Path
+
+from executive.errors import InputError
+from executive.types import Outcome
+
+log = logging.getLogger(__name__)
+
+SLUG_LENGTH = 40
+
+
+def new_folder(runs: Path, started: datetime, words: str) -> Path:
+    """Make `runs/<UTC>-<slug>/`; a number is added if it exists.
+
+    Raises:
+        InputError: if the folder cannot be made.
+    """
+    slug = re.sub(r"[^a-z0-9]+", "-", words.lower()).strip("-")[:SLUG_LENGTH].strip("-")
+    name = f"{started:%Y%m%dT%H%M%SZ}-{slug or 'nothing'}"
+    for number in count(1):
+        folder = runs / (name if number == 1 else f"{name}-{number}")
+        try:
+            folder.mkdir(parents=True)
+            return folder
+        except FileExistsError:
+            if not runs.is_dir():
+                raise InputError("--runs", f"{runs} is not a folder") from None
+        except OSError as error:
+            raise InputError(
+                "--runs", f"cannot make {folder}: {error.strerror}", "name a folder to write to"
+            ) from None
+    raise AssertionError("unreachable")
+
+
+def write(file: Path, text: str) -> None:
+    """Write a file of the run; a full disk must not end the mission, so it only warns."""
+    try:
+        file.write_text(text, encoding="utf-8")
+    except OSError as error:
+        log.warning("cannot write %s: %s", file, error.strerror)
+
+
+def to_json(outcome: Outcome) -> str:
+    """The outcome on one line."""
+    return json.dumps(asdict(outcome))

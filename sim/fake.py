@@ -1,0 +1,263 @@
+"""The instant world: the contract of the simulated robot without physics, for tests and campaigns.
+
+It keeps which thing is on which furniture and lets nominal times pass; it drives in straight lines,
+always sees what is there, and never drops a thing unless a fault is asked for.
+"""
+
+import heapq
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import count
+
+import numpy as np
+
+from executive.events import Inbox
+from executive.interfaces import Recorder
+from executive.records import Transform, Transforms
+from executive.types import (
+    Box,
+    Detection,
+    DriveTo,
+    Failed,
+    Frame,
+    Goal,
+    Halt,
+    Intrinsics,
+    LookAt,
+    Pick,
+    Pose,
+    PutDown,
+    Result,
+    Succeeded,
+)
+from sim.home import Home
+
+SPEED_M_S = 0.8
+"""Nominal driving speed."""
+LOOK_S, PICK_S, PUT_DOWN_S, REST_S = 0.5, 8.0, 6.0, 0.5
+"""Nominal durations."""
+EYE_HEIGHT_M = 1.35
+TILE = 16
+"""Side of the square that stands for a thing in a picture (pixels)."""
+
+Fault = Callable[[Goal], str | None]
+"""Says why a goal fails, or None if it does not."""
+
+
+def _no_fault(goal: Goal) -> None:
+    return None
+
+
+@dataclass(order=True)
+class _Due:
+    time: float
+    number: int
+    request: int = field(compare=False)
+    finish: Callable[[], Result] = field(compare=False)
+
+
+class FakeWorld:
+    """Who is where, and what ends when. Implements World."""
+
+    def __init__(self, home: Home, inbox: Inbox, recorder: Recorder, fault: Fault = _no_fault):
+        """Put everything where the home file says; `fault` makes chosen goals fail."""
+        self.home = home
+        self.inbox = inbox
+        self.recorder = recorder
+        self.fault = fault
+        self.things: dict[str, str] = dict(home.placement)
+        self.held: str | None = None
+        self.at: str | None = "person"
+        self.pose = home.robot_start
+        self.looking_at: str | None = None
+        self._time = 0.0
+        self._numbers = count()
+        self._agenda: list[_Due] = []
+
+    @property
+    def busy(self) -> bool:
+        """Whether anything is due."""
+        return bool(self._agenda)
+
+    def advance(self, at_most: float) -> float:
+        """Jump to what is due next, if it is within `at_most` seconds."""
+        if not self._agenda or self._agenda[0].time > self._time + at_most:
+            self._time += at_most
+            return at_most
+        due = heapq.heappop(self._agenda)
+        passed = due.time - self._time
+        self._time = due.time
+        self.inbox.end(due.request, due.finish())
+        return passed
+
+    def close(self) -> None:
+        """Nothing to free."""
+
+    def resting_place(self, name: str) -> str | None:
+        """The furniture that a thing is on, by the world's truth; None if held or not here."""
+        return self.things.get(name)
+
+    def describe(self) -> None:
+        """Record where the robot is."""
+        x, y, yaw = self.pose
+        orientation = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+        base = Transform("map", "base_link", Pose((x, y, 0.0), orientation))
+        self.recorder.record(Transforms((base,)))
+
+    def schedule(self, delay: float, finish: Callable[[], Result]) -> int:
+        """Open a request that ends after `delay` seconds with what `finish` returns."""
+        request = self.inbox.open()
+        heapq.heappush(self._agenda, _Due(self._time + delay, next(self._numbers), request, finish))
+        return request
+
+    def forget(self, request: int) -> bool:
+        """Take a request off the agenda; whether it was on it."""
+        before = len(self._agenda)
+        self._agenda = [due for due in self._agenda if due.request != request]
+        heapq.heapify(self._agenda)
+        return len(self._agenda) < before
+
+
+class FakeRobot:
+    """Implements Robot in the instant world."""
+
+    def __init__(self, world: FakeWorld) -> None:
+        """Stand where the world says."""
+        self._world = world
+        self._request: int | None = None
+
+    @property
+    def holding(self) -> bool:
+        """Whether it holds a thing."""
+        return self._world.held is not None
+
+    def views(self, place: str) -> int:
+        """One look is enough here."""
+        return 1
+
+    def start(self, goal: Goal) -> int:
+        """Pursue a goal for its nominal time."""
+        if self._request is not None and self._world.forget(self._request):
+            self._world.inbox.end(self._request, Failed("replaced by another goal"))
+        delay, effect = self._plan(goal)
+
+        def finish() -> Result:
+            reason = self._world.fault(goal)
+            return Failed(reason) if reason else effect()
+
+        self._request = self._world.schedule(delay, finish)
+        return self._request
+
+    def cancel(self, request: int) -> None:
+        """Stop where it is."""
+        self._world.forget(request)
+        self._world.inbox.drop(request)
+
+    def _plan(self, goal: Goal) -> tuple[float, Callable[[], Result]]:
+        match goal:
+            case DriveTo(place):
+                return self._drive(place)
+            case LookAt(place):
+                return LOOK_S, lambda: self._look(place)
+            case Pick(detection):
+                return PICK_S, lambda: self._pick(detection.label)
+            case PutDown(place):
+                return PUT_DOWN_S, lambda: self._put_down(place)
+            case Halt():
+                return REST_S, Succeeded
+
+    def _drive(self, place: str) -> tuple[float, Callable[[], Result]]:
+        world = self._world
+        known = {"person", "delivery", *(p.name for p in world.home.places())}
+        if place not in known:
+            return 0.0, lambda: Failed(f"there is no {place} in this home")
+        goal = world.home.stand(place)
+        distance = math.dist(goal[:2], world.pose[:2])
+        world.at = world.looking_at = None
+
+        def arrive() -> Result:
+            world.at, world.pose = place, goal
+            world.describe()
+            return Succeeded()
+
+        return distance / SPEED_M_S, arrive
+
+    def _look(self, place: str) -> Result:
+        if self._world.at != place:
+            return Failed(f"I am not at the {place}")
+        self._world.looking_at = place
+        return Succeeded()
+
+    def _pick(self, name: str) -> Result:
+        world = self._world
+        if world.held:
+            return Failed(f"my hand already holds the {world.held}")
+        if world.things.get(name) != world.at:
+            return Failed(f"the {name} is out of reach")
+        del world.things[name]
+        world.held = name
+        return Succeeded()
+
+    def _put_down(self, place: str) -> Result:
+        world = self._world
+        if world.held is None:
+            return Failed("my hand is empty")
+        if world.at != place:
+            return Failed(f"I am not at the {place}")
+        world.things[world.held], world.held = place, None
+        return Succeeded()
+
+
+class FakeCamera:
+    """Implements Camera: a grey picture with a coloured square for each thing in view."""
+
+    intrinsics = Intrinsics(width=160, height=120, fx=125.0, fy=125.0, cx=80.0, cy=60.0)
+
+    def __init__(self, world: FakeWorld) -> None:
+        """Look from the robot's head."""
+        self._world = world
+        self._numbers = count()
+
+    def capture(self) -> Frame:
+        """Draw what is there."""
+        size = (self.intrinsics.height, self.intrinsics.width)
+        color = np.full((*size, 3), 120, dtype=np.uint8)
+        for index, name in enumerate(in_view(self._world)):
+            box = square(index)
+            rows = slice(box.top, box.top + box.height)
+            color[rows, box.left : box.left + box.width] = np.frombuffer(
+                name.encode().ljust(3)[:3], dtype=np.uint8
+            )
+        x, y, _ = self._world.pose
+        looking_down = Pose((x, y, EYE_HEIGHT_M), (1.0, 0.0, 0.0, 0.0))
+        depth = np.full(size, 1.0, dtype=np.float32)
+        return Frame(next(self._numbers), color, depth, self.intrinsics, looking_down)
+
+
+class FakeDetector:
+    """Implements Detector by asking the world: stands in for real recognition."""
+
+    def __init__(self, world: FakeWorld) -> None:
+        """See what is in the world."""
+        self._world = world
+
+    def detect(self, frame: Frame) -> tuple[Detection, ...]:
+        """Everything on the furniture that the robot looks at."""
+        return tuple(
+            Detection(name, 1.0, square(index), np.ones((TILE, TILE), dtype=np.bool_))
+            for index, name in enumerate(in_view(self._world))
+        )
+
+
+def in_view(world: FakeWorld) -> tuple[str, ...]:
+    """Names of the things on the furniture that the robot looks at, in the home's order."""
+    if world.looking_at is None:
+        return ()
+    return tuple(name for name, place in world.things.items() if place == world.looking_at)
+
+
+def square(index: int) -> Box:
+    """Where the thing with this index is drawn (pixels)."""
+    columns = FakeCamera.intrinsics.width // TILE
+    return Box((index % columns) * TILE, (index // columns) * TILE, TILE, TILE)

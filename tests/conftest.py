@@ -1,0 +1,139 @@
+"""A bench for missions in the instant world, with a scripted person and a scripted model."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+import pytest
+
+from executive.clock import SimulatedClock
+from executive.command import EnglishInterpreter
+from executive.events import Inbox, Started
+from executive.interfaces import User
+from executive.loop import Executive
+from executive.perception import Eyes
+from executive.records import Record, Tick, Verified
+from executive.situation import Situation
+from executive.types import Goal, Outcome
+from executive.user import Oracle, Scripted
+from kb.advisor import PlaceAdvisor
+from kb.ontology import Ontology
+from kb.scripted import Scripted as ScriptedModel
+from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
+from sim.home import Home, load_home
+from trees.mission import mission
+from trees.team import Rules, Team
+from trees.tree import MissionTree
+
+
+@cache
+def four_rooms() -> Home:
+    return load_home("four_rooms")
+
+
+@cache
+def ontology(defaults: bool) -> Ontology:
+    return Ontology(four_rooms().places(), defaults=defaults)
+
+
+@dataclass
+class Notebook:
+    """A Recorder that keeps everything."""
+
+    records: list[Record] = field(default_factory=list)
+
+    def record(self, record: Record) -> None:
+        self.records.append(record)
+
+    def all(self, kind: type) -> list[Any]:
+        return [record for record in self.records if isinstance(record, kind)]
+
+
+@dataclass
+class Run:
+    """One mission that was run, and everybody who took part."""
+
+    outcome: Outcome
+    world: FakeWorld
+    user: User
+    model: ScriptedModel | None
+    notebook: Notebook
+    goals: list[Goal]
+    inbox: Inbox
+    situation: Situation
+
+    @property
+    def ticks(self) -> list[Tick]:
+        return self.notebook.all(Tick)
+
+    @property
+    def dropped(self) -> list[str]:
+        return [name for verdict in self.notebook.all(Verified) for name in verdict.dropped]
+
+
+def run_mission(
+    words: str,
+    *,
+    answers: Iterable[str | None] | None = None,
+    replies: Iterable[Any] = (),
+    llm: bool = True,
+    remembers: bool = True,
+    defaults: bool = True,
+    elicit: str = "rank",
+    place: dict[str, str] | None = None,
+    fault: Callable[[Goal], str | None] = lambda goal: None,
+    during: Callable[[Goal, Inbox], None] = lambda goal, inbox: None,
+    rules: dict[str, Any] | None = None,
+) -> Run:
+    """Run one mission; without `answers` the person is the always-right oracle.
+
+    `during` is called at the start of every goal of the robot, and may post events.
+    """
+    inbox, notebook, situation = Inbox(), Notebook(), Situation()
+    home = four_rooms().with_placement(place or {})
+    world = FakeWorld(home, inbox, notebook, fault)
+    clock = SimulatedClock(inbox, world)
+    robot, goals = FakeRobot(world), []
+    start = robot.start
+
+    def start_and_note(goal: Goal) -> int:
+        goals.append(goal)
+        request = start(goal)
+        during(goal, inbox)
+        return request
+
+    robot.start = start_and_note  # type: ignore[method-assign]
+    user: User = Oracle(inbox, world.resting_place) if answers is None else Scripted(inbox, answers)
+    model = ScriptedModel(replies, inbox) if llm else None
+    knowledge = ontology(defaults)
+    team = Team(
+        situation=situation,
+        clock=clock,
+        recorder=notebook,
+        interpreter=EnglishInterpreter(),
+        knowledge=knowledge,
+        robot=robot,
+        eyes=Eyes(FakeCamera(world), FakeDetector(world), inbox, notebook),
+        user=user,
+        model=model,
+        advisor=PlaceAdvisor(knowledge, model, remembers=remembers) if model else None,
+        rules=Rules(elicit=elicit, **(rules or {})),
+    )
+    executive = Executive(
+        MissionTree(mission(team)),
+        situation,
+        inbox=inbox,
+        clock=clock,
+        robot=robot,
+        recorder=notebook,
+    )
+    inbox.post(Started(words))
+    executive.run()
+    outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
+    return Run(outcome, world, user, model, notebook, goals, inbox, situation)
+
+
+@pytest.fixture(scope="session")
+def places() -> tuple[str, ...]:
+    return tuple(place.name for place in four_rooms().places())
