@@ -123,6 +123,11 @@ class Furniture(BaseModel):
         cos, sin = math.cos(yaw), math.sin(yaw)
         return x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1], point[2]
 
+    def frame(self) -> Pose:
+        """Its frame in `map`."""
+        x, y, yaw = self.pose
+        return Pose((x, y, 0.0), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+
     def corners(self) -> tuple[tuple[float, float], ...]:
         """Corners of its outline on the floor, around it, in `map` (metres)."""
         x, y = self.size[0] / 2, self.size[1] / 2

@@ -21,7 +21,7 @@ from pydantic import (
 )
 
 from executive.errors import InputError
-from executive.types import Place, Pose
+from executive.types import Place, Pose, Vector3
 from sim.floorplan import Door, Room, Wall, is_on_wall, walls
 from sim.furniture import FORM_OF_KIND, Furniture, PlanarPose, PoseInDegrees
 from sim.objects import load_objects
@@ -33,6 +33,11 @@ STAND_OFF_M = 0.62
 """From the front edge of a piece of furniture to the middle of the robot that uses it."""
 TALKING_DISTANCE_M = 0.9
 """From the middle of the person to the middle of the robot that talks to them."""
+FACE_HEIGHT_M = 1.55
+VIEW_DEPTH_M = 0.17
+"""Behind the front edge of a surface, where the camera looks."""
+VIEW_HEIGHT_M = 0.06
+"""Above a surface, where the camera looks."""
 
 
 def _as_spot(value: Any) -> Any:
@@ -113,6 +118,23 @@ class Home(BaseModel):
         yaw = piece.pose[2] + standing.yaw
         position = piece.to_map((standing.x, standing.y, standing.z))
         return Pose(position, (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+
+    def view_targets(self, place: str) -> tuple[Vector3, ...]:
+        """Points to look at, from where the robot stands, to see all that stands on a place.
+
+        One for each of its surfaces, the handiest first; for the `person`, their face.
+
+        Raises:
+            InputError: if there is no such place.
+        """
+        if place == PERSON:
+            return ((self.person[0], self.person[1], FACE_HEIGHT_M),)
+        piece = self.furniture_named(place)
+        return tuple(
+            piece.to_map((x + s.length_x / 2 - VIEW_DEPTH_M, y, z + VIEW_HEIGHT_M))
+            for s in piece.surfaces()
+            for x, y, z in (s.center,)
+        )
 
     def with_placement(self, placement: Mapping[str, str]) -> Self:
         """This home with some objects on other furniture.

@@ -64,9 +64,9 @@ def arrange(
 ) -> dict[str, Standing]:
     """Give every object its place.
 
-    Objects with `at` stand there. The others follow in their order: each takes the free spot nearest
-    to the middle of the front of the first surface that has one, so that moving one object leaves
-    those before it where they are.
+    Objects with `at` stand there. The others follow in their order: each takes the free spot that
+    is nearest to the middle of the front of the first surface that has one, so that moving one
+    object leaves those before it where they are.
 
     Raises:
         NoRoomError: if an object does not fit.
@@ -99,7 +99,7 @@ def _candidates(
         inset = max(FRONT_M, model.upper[0] + MARGIN_M)
         x, y, z = surface.center
         for step in range(int(SIDE_M / STEP_M) + 1):
-            for offset in {step * STEP_M, -step * STEP_M}:
+            for offset in (step * STEP_M, -step * STEP_M):
                 place = Standing(index, x + surface.length_x / 2 - inset, y + offset, z, spot.yaw)
                 if _is_on(surface, place, model):
                     yield place
