@@ -120,14 +120,18 @@ class Session:
         return outcome
 
     def next_command(self) -> str | None:
-        """Wait for the person to type a command; None at the end of input or for "stop"."""
+        """Wait for the person to type a command; None at the end of input.
+
+        Raises:
+            KeyboardInterrupt: if the person says stop instead.
+        """
         assert isinstance(self.user, Console)
         request = self.user.listen()
         while True:
             self.clock.wait(None)
             for event in self.inbox.take_all():
                 if isinstance(event, StopRequested):
-                    return None
+                    raise KeyboardInterrupt
                 if isinstance(event, Ended) and event.request == request:
                     answer = event.result
                     return answer.text if isinstance(answer, Answered) else None

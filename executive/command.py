@@ -25,7 +25,7 @@ _COMMAND = re.compile(
     r"(?:please |robot |could you |can you |would you |will you |hey )*"
     rf"(?P<verb>{'|'.join(_VERBS)}) "
     r"(?:(?:me|us) )?(?:(?:a|an|the|my|some|any|one) )*"
-    r"(?P<target>.+?)"
+    r"(?P<target>(?!(?:a|an|the|me|us|my|some|any|one)$).+?)"
     r"(?: (?:to|for) me| here| please| now)*"
 )
 _DECLINES = re.compile(

@@ -9,7 +9,7 @@ import pytest
 
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
-from executive.events import Inbox, Started
+from executive.events import Event, Inbox, Started
 from executive.interfaces import User
 from executive.loop import Executive
 from executive.perception import Eyes
@@ -85,12 +85,16 @@ def run_mission(
     fault: Callable[[Goal], str | None] = lambda goal: None,
     during: Callable[[Goal, Inbox], None] = lambda goal, inbox: None,
     rules: dict[str, Any] | None = None,
+    person: Callable[[Inbox], User] | None = None,
+    first: Iterable[Event] = (),
+    notebook: Notebook | None = None,
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
-    `during` is called at the start of every goal of the robot, and may post events.
+    `during` is called at the start of every goal of the robot, and may post events; `first` are
+    posted before the mission starts.
     """
-    inbox, notebook, situation = Inbox(), Notebook(), Situation()
+    inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
     home = four_rooms().with_placement(place or {})
     world = FakeWorld(home, inbox, notebook, fault)
     clock = SimulatedClock(inbox, world)
@@ -128,7 +132,8 @@ def run_mission(
         robot=robot,
         recorder=notebook,
     )
-    inbox.post(Started(words))
+    for event in (*first, Started(words)):
+        inbox.post(event)
     executive.run()
     outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
     return Run(outcome, world, user, model, notebook, goals, inbox, situation)

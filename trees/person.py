@@ -80,9 +80,10 @@ class AskWhichObject(Ask):
         target = self.situation.command.target
         if options := self.situation.options:
             text = f"Which {target} do you mean: {_either(options)}?"
-        else:
-            options = self.team.knowledge.nearest_names(target)
+        elif options := self.team.knowledge.nearest_names(target):
             text = f"I know no '{target}'. Do you mean {_either(options)}, or something else?"
+        else:
+            text = f"I know no '{target}'. Which thing do you mean?"
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
 
     def understood(self, answer: str) -> bool:
@@ -103,7 +104,7 @@ class AskWhichObject(Ask):
         if self.situation.options:
             return f"'{target}' may be {_either(self.situation.options)}"
         nearest = _either(self.team.knowledge.nearest_names(target))
-        return f"I know no '{target}'; the nearest that I know is {nearest}"
+        return f"I know no '{target}'" + (f"; the nearest that I know is {nearest}" * bool(nearest))
 
 
 class AskWhere(Ask):

@@ -1,0 +1,54 @@
+"""What people say, and what the robot makes of it."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from executive.command import EnglishInterpreter
+from executive.types import Kind
+
+read = EnglishInterpreter()
+
+
+@pytest.mark.parametrize(
+    ("words", "kind", "target"),
+    [
+        ("Bring a sugar_box.", Kind.BRING, "sugar_box"),
+        ("Find an apple", Kind.FIND, "apple"),
+        ("take the mug", Kind.TAKE, "mug"),
+        ("Could you please bring me the sugar box?", Kind.BRING, "sugar box"),
+        ("fetch pitcher", Kind.BRING, "pitcher"),
+        ("Robot, where is my power drill?", Kind.FIND, "power drill"),
+        ("Please pick up some colored wood blocks, please", Kind.TAKE, "colored wood blocks"),
+        ("  GET   ME an   ORANGE !! ", Kind.BRING, "orange"),
+        ("Bring the hammer to me.", Kind.BRING, "hammer"),
+    ],
+)
+def test_reads_a_request(words: str, kind: Kind, target: str) -> None:
+    command = read.command(words)
+    assert command is not None
+    assert (command.kind, command.target, command.words) == (kind, target, words)
+
+
+@pytest.mark.parametrize(
+    "words", ["", "   ", "apple", "bring", "Bring a.", "findings", "hello you"]
+)
+def test_reads_no_request_where_there_is_none(words: str) -> None:
+    command = read.command(words)
+    assert command is None
+
+
+@given(st.text())
+def test_never_raises_and_never_names_nothing(words: str) -> None:
+    command = read.command(words)
+    assert command is None or command.target.strip()
+
+
+@pytest.mark.parametrize("answer", ["I don't know", "no idea!", "Don’t know.", "no", "never mind"])
+def test_hears_that_the_person_cannot_help(answer: str) -> None:
+    assert read.declines(answer)
+
+
+@pytest.mark.parametrize("answer", ["on the desk", "the notebook shelf", "bedroom", "kitchen"])
+def test_does_not_take_an_answer_for_a_refusal(answer: str) -> None:
+    assert not read.declines(answer)

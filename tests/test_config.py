@@ -1,0 +1,66 @@
+"""Settings come from a file, the environment and the command line, and faults are named."""
+
+from pathlib import Path
+
+import pytest
+
+from executive.config import KnowledgeSystem, load_settings
+from executive.errors import InputError
+
+
+def file_with(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "my.toml"
+    path.write_text(text)
+    return path
+
+
+def test_the_command_line_beats_the_environment_and_it_beats_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    config = file_with(tmp_path, 'seed = 1\nhome = "a"\nknowledge = "okb"')
+    monkeypatch.setenv("EXECUTIVE_SEED", "2")
+    monkeypatch.setenv("EXECUTIVE_HOME", "b")
+    settings = load_settings(config, seed=3, home=None)
+    assert (settings.seed, settings.home, settings.knowledge) == (3, "b", KnowledgeSystem.OKB)
+
+
+def test_the_written_settings_read_back_the_same(tmp_path: Path) -> None:
+    settings = load_settings(place={"mug": "desk"}, elicit="generate", seed=7)
+    assert load_settings(file_with(tmp_path, settings.to_toml())) == settings
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("seed = -1", "my.toml: seed: .*greater than or equal to 0"),
+        ("sede = 1", "my.toml: sede: .*; known are home, knowledge"),
+        ("seed = ", "my.toml: is not TOML"),
+        ('llm = "gpt"', "my.toml: llm: .*FILE.gguf or http"),
+        ('knowledge = "all"', "my.toml: knowledge: .*'okb', 'okb.llm'"),
+    ],
+)
+def test_a_fault_is_named_with_what_would_be_right(
+    tmp_path: Path, text: str, sentence: str
+) -> None:
+    with pytest.raises(InputError, match=sentence):
+        load_settings(file_with(tmp_path, text))
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="none.toml: cannot be read: No such file"):
+        load_settings(tmp_path / "none.toml")
+
+
+@pytest.mark.parametrize(
+    ("given", "elicitation"),
+    [
+        ({}, "rank"),
+        ({"llm": "http://127.0.0.1:8000/v1"}, "generate"),
+        ({"llm": "other.gguf"}, "generate"),
+        ({"llm": "other.gguf", "elicit": "rank"}, "rank"),
+    ],
+)
+def test_ranking_is_the_default_for_the_embedded_model_only(
+    given: dict[str, str], elicitation: str
+) -> None:
+    assert load_settings(**given).elicitation == elicitation

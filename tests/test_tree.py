@@ -1,0 +1,80 @@
+"""The pieces that the tree is built of."""
+
+from collections.abc import Callable
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+from py_trees.composites import Sequence
+
+from trees.nodes import EachOf, FirstOf
+from trees.tree import MissionTree
+
+
+class Leaf(Behaviour):
+    def __init__(self, name: str, decide: Callable[[], Status]) -> None:
+        super().__init__(name)
+        self.decide = decide
+
+    def update(self) -> Status:
+        return self.decide()
+
+
+def loop(
+    kind: type[FirstOf | EachOf], items: list[int], answers: dict[int, Status]
+) -> tuple[FirstOf | EachOf, list[int]]:
+    chosen: list[int] = []
+    leaf = Leaf("leaf", lambda: answers[chosen[-1]])
+    return kind("loop", lambda: items, chosen.append, leaf), chosen
+
+
+def test_first_of_goes_on_within_one_tick_until_one_succeeds() -> None:
+    node, chosen = loop(
+        FirstOf, [1, 2, 3], {1: Status.FAILURE, 2: Status.SUCCESS, 3: Status.SUCCESS}
+    )
+    node.tick_once()
+    assert (node.status, chosen) == (Status.SUCCESS, [1, 2])
+
+
+def test_first_of_fails_when_all_fail_and_for_nothing() -> None:
+    node, chosen = loop(FirstOf, [1, 2], {1: Status.FAILURE, 2: Status.FAILURE})
+    node.tick_once()
+    assert (node.status, chosen) == (Status.FAILURE, [1, 2])
+    node, _ = loop(FirstOf, [], {})
+    node.tick_once()
+    assert node.status == Status.FAILURE
+
+
+def test_each_of_succeeds_when_all_succeed_and_for_nothing() -> None:
+    node, chosen = loop(EachOf, [1, 2], {1: Status.SUCCESS, 2: Status.SUCCESS})
+    node.tick_once()
+    assert (node.status, chosen) == (Status.SUCCESS, [1, 2])
+    node, _ = loop(EachOf, [], {})
+    node.tick_once()
+    assert node.status == Status.SUCCESS
+
+
+def test_a_loop_keeps_its_place_while_the_child_runs_and_starts_over_afterwards() -> None:
+    answers = {1: Status.FAILURE, 2: Status.RUNNING}
+    node, chosen = loop(FirstOf, [1, 2], answers)
+    node.tick_once()
+    assert (node.status, chosen) == (Status.RUNNING, [1, 2])
+    answers[2] = Status.SUCCESS
+    node.tick_once()
+    assert (node.status, chosen) == (Status.SUCCESS, [1, 2])
+    node.tick_once()
+    assert chosen == [1, 2, 1, 2]
+
+
+def test_stopping_a_running_loop_stops_its_child() -> None:
+    node, _ = loop(FirstOf, [1], {1: Status.RUNNING})
+    tree = MissionTree(node)
+    tree.tick()
+    tree.stop()
+    assert [state.status for state in tree.states()] == ["INVALID", "INVALID"]
+
+
+def test_paths_are_unique_even_where_names_are_not() -> None:
+    twins = [Leaf("look", lambda: Status.SUCCESS) for _ in range(2)]
+    tree = MissionTree(Sequence("root", memory=True, children=list(twins)))
+    assert [node.path for node in tree.shape().nodes] == ["root", "root/look", "root/look 2"]
+    assert [node.parent for node in tree.shape().nodes] == ["", "root", "root"]
