@@ -103,8 +103,8 @@ def frame_pose(client: BulletClient, body: int) -> Pose:
     """Where the frame of a body made by `create_body` is in `map`."""
     position, orientation = client.getBasePositionAndOrientation(body)
     center_of_mass = client.getDynamicsInfo(body, -1)[3]
-    x, y, z = position - Rotation.from_quat(orientation).apply(center_of_mass)
-    return Pose((float(x), float(y), float(z)), tuple(orientation))
+    origin = position - Rotation.from_quat(orientation).apply(center_of_mass)
+    return Pose(tuple(origin.tolist()), tuple(orientation))
 
 
 def build_home(client: BulletClient, home: Home) -> dict[int, str]:
@@ -167,7 +167,6 @@ def _fixtures(home: Home) -> Iterator[tuple[str, tuple[Shape, ...], Pose]]:
 def _moved(shape: Shape, pose: Pose) -> Shape:
     """A shape of a frame that is at `pose`, seen from the parent frame."""
     turn = Rotation.from_quat(pose.orientation)
-    x, y, z = turn.apply(shape.pose.position) + pose.position
-    quaternion = (turn * Rotation.from_quat(shape.pose.orientation)).as_quat()
-    orientation = tuple(float(value) for value in quaternion)
-    return replace(shape, pose=Pose((float(x), float(y), float(z)), orientation))
+    position = turn.apply(shape.pose.position) + pose.position
+    orientation = (turn * Rotation.from_quat(shape.pose.orientation)).as_quat()
+    return replace(shape, pose=Pose(tuple(position.tolist()), tuple(orientation.tolist())))

@@ -131,9 +131,9 @@ class Home(BaseModel):
             return ((self.person[0], self.person[1], FACE_HEIGHT_M),)
         piece = self.furniture_named(place)
         return tuple(
-            piece.to_map((x + s.length_x / 2 - VIEW_DEPTH_M, y, z + VIEW_HEIGHT_M))
-            for s in piece.surfaces()
-            for x, y, z in (s.center,)
+            piece.to_map((x + surface.length_x / 2 - VIEW_DEPTH_M, 0.0, z + VIEW_HEIGHT_M))
+            for surface in piece.surfaces()
+            for x, _, z in (surface.center,)
         )
 
     def with_placement(self, placement: Mapping[str, str]) -> Self:

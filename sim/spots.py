@@ -18,7 +18,7 @@ FRONT_M = 0.13
 MARGIN_M = 0.02
 """From the outline of a thing to the edge of its surface."""
 SIDE_M = 0.5
-"""Farthest middle of a thing to the left or right of who stands before the furniture."""
+"""How far the row reaches to the left and right of the middle, before which its user stands."""
 STEP_M = 0.01
 HEADROOM_M = 0.05
 
@@ -29,8 +29,8 @@ class Spot(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     furniture: str
-    surface: NonNegativeInt = 0
-    """Counts the furniture's surfaces, the handiest first; used with `at`."""
+    surface: NonNegativeInt | None = None
+    """Counts the furniture's surfaces, the handiest first; the first that fits if not given."""
     at: tuple[float, float] | None = None
     """From the middle of the surface to the front and to the left (metres)."""
     yaw: Annotated[float, AfterValidator(math.radians)] = 0.0
@@ -57,6 +57,33 @@ class NoRoomError(Exception):
         self.name = name
 
 
+@dataclass(frozen=True, slots=True)
+class _Outline:
+    """The rectangle that something takes up, seen from above (metres)."""
+
+    back: float
+    front: float
+    right: float
+    left: float
+
+    def moved(self, x: float, y: float) -> "_Outline":
+        return _Outline(self.back + x, self.front + x, self.right + y, self.left + y)
+
+    def holds(self, other: "_Outline") -> bool:
+        return (
+            self.back <= other.back
+            and other.front <= self.front
+            and self.right <= other.right
+            and other.left <= self.left
+        )
+
+    def is_apart(self, other: "_Outline", gap: float) -> bool:
+        return (
+            max(self.back - other.front, other.back - self.front) >= gap
+            or max(self.right - other.left, other.right - self.left) >= gap
+        )
+
+
 def arrange(
     spots: Mapping[str, Spot],
     surfaces: Mapping[str, tuple[Surface, ...]],
@@ -72,14 +99,16 @@ def arrange(
         NoRoomError: if an object does not fit.
     """
     standing: dict[str, Standing] = {}
-    taken: dict[tuple[str, int], list[tuple[float, float]]] = defaultdict(list)
+    taken: dict[tuple[str, int], list[_Outline]] = defaultdict(list)
     for name, spot in sorted(spots.items(), key=lambda item: item[1].at is None):
-        boards, model = surfaces[spot.furniture], models[name]
-        for place in _candidates(name, spot, boards, model):
+        outline = _outline(models[name], spot.yaw)
+        height = models[name].size[2]
+        gap = GAP_M if spot.at is None else 0.0
+        for place in _candidates(spot, surfaces[spot.furniture], outline, height):
             row = taken[spot.furniture, place.surface]
-            span = (place.y + model.lower[1], place.y + model.upper[1])
-            if all(span[1] + GAP_M <= low or high + GAP_M <= span[0] for low, high in row):
-                row.append(span)
+            there = outline.moved(place.x, place.y)
+            if all(there.is_apart(other, gap) for other in row):
+                row.append(there)
                 standing[name] = place
                 break
         else:
@@ -88,39 +117,36 @@ def arrange(
 
 
 def _candidates(
-    name: str, spot: Spot, surfaces: tuple[Surface, ...], model: ObjectModel
+    spot: Spot, surfaces: tuple[Surface, ...], outline: _Outline, height: float
 ) -> Iterator[Standing]:
-    if spot.at is not None:
-        yield _given(name, spot, surfaces, model)
-        return
+    """Where an object may stand if nothing else did, best first."""
     for index, surface in enumerate(surfaces):
-        if model.size[2] + HEADROOM_M > surface.clearance:
+        if spot.surface not in (None, index) or surface.clearance < height + HEADROOM_M:
             continue
-        inset = max(FRONT_M, model.upper[0] + MARGIN_M)
         x, y, z = surface.center
-        for step in range(int(SIDE_M / STEP_M) + 1):
-            for offset in (step * STEP_M, -step * STEP_M):
-                place = Standing(index, x + surface.length_x / 2 - inset, y + offset, z, spot.yaw)
-                if _is_on(surface, place, model):
-                    yield place
+        half_x, half_y = surface.length_x / 2, surface.length_y / 2 - MARGIN_M
+        area = _Outline(x - half_x, x + half_x, y - half_y, y + half_y)
+        if spot.at is not None:
+            positions = [(x + spot.at[0], y + spot.at[1])]
+        else:
+            inset = max(FRONT_M, outline.front + MARGIN_M)
+            positions = [(area.front - inset, offset) for offset in _middle_out(outline)]
+        for position in positions:
+            if area.holds(outline.moved(*position)):
+                yield Standing(index, *position, z, spot.yaw)
 
 
-def _given(name: str, spot: Spot, surfaces: tuple[Surface, ...], model: ObjectModel) -> Standing:
-    if spot.at is None or spot.surface >= len(surfaces):
-        raise NoRoomError(name, f"{spot.furniture} has {len(surfaces)} surfaces, counted from 0")
-    surface = surfaces[spot.surface]
-    x, y, z = surface.center
-    place = Standing(spot.surface, x + spot.at[0], y + spot.at[1], z, spot.yaw)
-    if not _is_on(surface, place, model):
-        raise NoRoomError(name, f"it would stick out of surface {spot.surface} of {spot.furniture}")
-    return place
+def _middle_out(outline: _Outline) -> Iterator[float]:
+    """Offsets to the left that keep the outline within SIDE_M, nearest to the middle first."""
+    for step in range(int(SIDE_M / STEP_M) + 1):
+        for offset in (step * STEP_M, -step * STEP_M):
+            if outline.right + offset >= -SIDE_M and outline.left + offset <= SIDE_M:
+                yield offset
 
 
-def _is_on(surface: Surface, place: Standing, model: ObjectModel) -> bool:
-    x, y = place.x - surface.center[0], place.y - surface.center[1]
-    return (
-        -surface.length_x / 2 <= x + model.lower[0]
-        and x + model.upper[0] <= surface.length_x / 2
-        and -surface.length_y / 2 + MARGIN_M <= y + model.lower[1]
-        and y + model.upper[1] <= surface.length_y / 2 - MARGIN_M
-    )
+def _outline(model: ObjectModel, yaw: float) -> _Outline:
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    (x0, y0, _), (x1, y1, _) = model.lower, model.upper
+    corners = [(x * cos - y * sin, x * sin + y * cos) for x in (x0, x1) for y in (y0, y1)]
+    along, across = zip(*corners, strict=True)
+    return _Outline(min(along), max(along), min(across), max(across))

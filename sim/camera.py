@@ -1,0 +1,185 @@
+"""The simulated camera, and a stand-in for a learned detector.
+
+Pictures come from PyBullet's TinyRenderer, which computes on the CPU.
+"""
+
+from collections import OrderedDict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pybullet as p
+from numpy.typing import NDArray
+from pybullet_utils.bullet_client import BulletClient
+from scipy.spatial.transform import Rotation
+
+from executive.events import Inbox
+from executive.interfaces import Recorder
+from executive.records import Picture
+from executive.types import Box, Captured, Detection, Frame, Intrinsics, Pose
+
+NEAR_M, FAR_M = 0.05, 15.0
+LIGHT_DIRECTION = (-0.4, -0.3, 1.0)
+BACKGROUND = -1
+KEPT_SEGMENTATIONS = 32
+_OPTICAL_TO_OPENGL = np.diag([1.0, -1.0, -1.0, 1.0])
+"""OpenGL cameras look along -z with y up, optical frames along z with y down."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rendering:
+    """What the renderer says of one picture.
+
+    Attributes:
+        color: (height, width, 3) uint8, RGB.
+        depth: (height, width) float32, metres along the optical axis, infinite where nothing is.
+        segmentation: (height, width) int32, body ids; BACKGROUND where nothing is.
+    """
+
+    color: NDArray[np.uint8]
+    depth: NDArray[np.float32]
+    segmentation: NDArray[np.int32]
+
+
+def pinhole(width: int = 320, height: int = 240, hfov: float = np.radians(65.0)) -> Intrinsics:
+    """A camera with square pixels and a horizontal field of view (radians)."""
+    focal = width / 2 / float(np.tan(hfov / 2))
+    return Intrinsics(width, height, focal, focal, (width - 1) / 2, (height - 1) / 2)
+
+
+def render(
+    client: BulletClient, pose: Pose, intrinsics: Intrinsics, far: float = FAR_M
+) -> Rendering:
+    """Draw the world, up to `far` metres, as a camera sees it whose optical frame is at `pose`."""
+    width, height = intrinsics.width, intrinsics.height
+    _, _, color, depth, segmentation = client.getCameraImage(
+        width,
+        height,
+        _view_matrix(pose),
+        _projection_matrix(intrinsics, far),
+        lightDirection=LIGHT_DIRECTION,
+        lightAmbientCoeff=0.65,
+        lightDiffuseCoeff=0.4,
+        lightSpecularCoeff=0.02,
+        shadow=0,
+        renderer=p.ER_TINY_RENDERER,
+    )
+    bodies = np.reshape(segmentation, (height, width)).astype(np.int32)
+    buffer = np.reshape(depth, (height, width)).astype(np.float64)
+    metres = far * NEAR_M / (far - (far - NEAR_M) * buffer)
+    metres[bodies == BACKGROUND] = np.inf
+    pixels = np.reshape(color, (height, width, 4))[..., :3].astype(np.uint8)
+    return Rendering(pixels, metres.astype(np.float32), bodies)
+
+
+class SimulatedCamera:
+    """A colour and depth camera in a PyBullet world; a `Camera`."""
+
+    def __init__(
+        self,
+        client: BulletClient,
+        inbox: Inbox,
+        recorder: Recorder,
+        pose: Callable[[], Pose],
+        intrinsics: Intrinsics | None = None,
+    ) -> None:
+        """Look through the camera whose optical frame in `map` is given by `pose`."""
+        self._client = client
+        self._inbox = inbox
+        self._recorder = recorder
+        self._pose = pose
+        self.intrinsics = intrinsics or pinhole()
+        self._segmentations: OrderedDict[int, NDArray[np.int32]] = OrderedDict()
+        self._taken = 0
+
+    def capture(self) -> int:
+        """Take a picture; ends Captured."""
+        request = self._inbox.open()
+        self._inbox.end(request, Captured(self.stream_frame()))
+        return request
+
+    def cancel(self, request: int) -> None:
+        """Forget the picture."""
+        self._inbox.drop(request)
+
+    def stream_frame(self) -> Frame:
+        """Take a picture for the log alone, without a request."""
+        pose = self._pose()
+        seen = render(self._client, pose, self.intrinsics)
+        frame = Frame(self._taken, seen.color, seen.depth, self.intrinsics, pose)
+        self._taken += 1
+        self._segmentations[frame.number] = seen.segmentation
+        if len(self._segmentations) > KEPT_SEGMENTATIONS:
+            self._segmentations.popitem(last=False)
+        self._recorder.record(Picture(frame))
+        return frame
+
+    def segmentation(self, number: int) -> NDArray[np.int32]:
+        """Body ids of a late picture (height, width): the renderer's truth, for stand-ins only.
+
+        Raises:
+            KeyError: if the picture is older than the last KEPT_SEGMENTATIONS.
+        """
+        return self._segmentations[number]
+
+
+class SimulatedDetector:
+    """Stands in for a learned detector: it reads the renderer's segmentation, so it is never wrong.
+
+    It knows which pixel belongs to which body and therefore neither confuses nor overlooks anything
+    that shows enough pixels. Where a thing is in space it does not know: that comes from the depth.
+    """
+
+    def __init__(
+        self, camera: SimulatedCamera, names: Mapping[int, str], minimum_pixels: int = 40
+    ) -> None:
+        """Recognise the bodies in `names` (name by body id) that show `minimum_pixels`."""
+        self._camera = camera
+        self._names = names
+        self._minimum_pixels = minimum_pixels
+
+    def detect(self, frame: Frame) -> tuple[Detection, ...]:
+        """All known things in the picture, all with confidence 1, those with most pixels first."""
+        segmentation = self._camera.segmentation(frame.number)
+        bodies, counts = np.unique(segmentation, return_counts=True)
+        large_first = sorted(zip(counts.tolist(), bodies.tolist(), strict=True), reverse=True)
+        return tuple(
+            _detection(self._names[body], segmentation == body)
+            for count, body in large_first
+            if body in self._names and count >= self._minimum_pixels
+        )
+
+
+def _detection(label: str, mask: NDArray[np.bool_]) -> Detection:
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    top, left = int(rows[0]), int(columns[0])
+    height, width = int(rows[-1]) - top + 1, int(columns[-1]) - left + 1
+    inside = mask[top : top + height, left : left + width].copy()
+    return Detection(label, 1.0, Box(left, top, width, height), inside)
+
+
+def _view_matrix(pose: Pose) -> list[float]:
+    """`map` in OpenGL's camera frame, column by column."""
+    camera_to_map = np.eye(4)
+    camera_to_map[:3, :3] = Rotation.from_quat(pose.orientation).as_matrix()
+    camera_to_map[:3, 3] = pose.position
+    view = _OPTICAL_TO_OPENGL @ np.linalg.inv(camera_to_map)
+    return [float(value) for value in view.T.ravel()]
+
+
+def _projection_matrix(intrinsics: Intrinsics, far: float) -> list[float]:
+    """OpenGL's projection of a pinhole camera, column by column.
+
+    TinyRenderer samples a pixel at its lower left corner, not at its middle: column u is drawn at
+    2 u / width - 1 and row v at 1 - 2 (v + 1) / height.
+    """
+    width, height = intrinsics.width, intrinsics.height
+    projection = np.zeros((4, 4))
+    projection[0, 0] = 2 * intrinsics.fx / width
+    projection[1, 1] = 2 * intrinsics.fy / height
+    projection[0, 2] = 1 - 2 * intrinsics.cx / width
+    projection[1, 2] = 2 * (intrinsics.cy + 1) / height - 1
+    projection[2, 2] = -(far + NEAR_M) / (far - NEAR_M)
+    projection[2, 3] = -2 * far * NEAR_M / (far - NEAR_M)
+    projection[3, 2] = -1
+    return [float(value) for value in projection.T.ravel()]
