@@ -36,6 +36,7 @@ from executive.types import Frame
 from logs import foxglove, messages
 from logs.recorder import Stamp
 from logs.schema import MESSAGES
+from logs.times import nanoseconds
 
 TOPICS: dict[str, Any] = {
     "/bt/tree": MESSAGES["BehaviourTree"],
@@ -164,11 +165,6 @@ class McapSink:
             self._channels[topic], ns, message.SerializeToString(), ns, self._sequence[topic]
         )
         self._sequence[topic] += 1
-
-
-def nanoseconds(time: datetime) -> int:
-    """Nanoseconds since 1970, exact to the microsecond."""
-    return round(time.timestamp() * 1e6) * 1000
 
 
 def _media_type(name: str) -> str:

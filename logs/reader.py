@@ -15,8 +15,8 @@ from executive.errors import InputError
 from executive.records import LlmCall, Tick, TreeShape, Utterance, Verified
 from executive.types import Outcome
 from logs import messages
-from logs.mcap_sink import nanoseconds
 from logs.recovery import BREAKS, is_whole, records_to_the_break
+from logs.times import nanoseconds
 
 FILE_NAME = "mission.mcap"
 

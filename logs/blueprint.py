@@ -1,0 +1,103 @@
+"""How the viewer lays out a mission: the world, the tree, the thoughts, the talk."""
+
+from collections.abc import Iterable
+
+import numpy as np
+import rerun.blueprint as rrb
+from numpy.typing import NDArray
+
+from executive.records import Entity
+from executive.types import Vector3
+from logs import rerun_scene as scene
+from logs import rerun_tree as tree
+
+MISSION_TIME = "mission_time"
+BELIEF = "belief"
+LLM = "llm"
+DIALOG = "dialog"
+LOG = "log"
+
+
+def mission_blueprint(entities: Iterable[Entity] = ()) -> rrb.Blueprint:
+    """Left what the robot does and sees, in the middle why, right what is thought and said.
+
+    Args:
+        entities: the scene, once it is known, for a bird's eye view of all that stands in `map`.
+    """
+    return rrb.Blueprint(
+        rrb.Vertical(
+            rrb.Horizontal(
+                rrb.Vertical(_world(entities), _camera(), row_shares=[3, 2]),
+                _behaviours(),
+                _words(),
+                column_shares=[5, 3, 4],
+            ),
+            rrb.StateTimelineView(origin=tree.LANES, name="What ran when"),
+            row_shares=[5, 2],
+        ),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+        rrb.TimePanel(timeline=MISSION_TIME, state="collapsed"),
+        auto_views=False,
+        auto_layout=False,
+    )
+
+
+def _world(entities: Iterable[Entity]) -> rrb.Spatial3DView:
+    drawn = (scene.SCENE, scene.FRAMES, scene.PLAN, scene.CAMERA)
+    return rrb.Spatial3DView(
+        origin="/",
+        contents=[f"/{path}/**" for path in drawn],
+        name="Home",
+        spatial_information=rrb.SpatialInformation(target_frame="map"),
+        eye_controls=_birds_eye(entities),
+        line_grid=False,
+    )
+
+
+def _birds_eye(entities: Iterable[Entity]) -> rrb.EyeControls3D | None:
+    """Look down on all shapes that are fixed in `map`; None if there are none."""
+    shapes = [s for e in entities if e.frame_id == "map" for s in e.shapes if s.kind != "mesh"]
+    if not shapes:
+        return None
+    centers = np.array([shape.pose.position for shape in shapes])
+    sizes = np.array([shape.size for shape in shapes])
+    low, high = (centers - sizes / 2).min(axis=0), (centers + sizes / 2).max(axis=0)
+    middle = (low + high) / 2
+    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.35, 0.55])
+    return rrb.EyeControls3D(position=_vector(middle + away), look_target=_vector(middle))
+
+
+def _camera() -> rrb.Spatial2DView:
+    return rrb.Spatial2DView(
+        origin=scene.CAMERA,
+        name="Camera",
+        spatial_information=rrb.SpatialInformation(target_frame=scene.IMAGE_FRAME),
+    )
+
+
+def _behaviours() -> rrb.Tabs:
+    return rrb.Tabs(
+        rrb.GraphView(origin=tree.BRANCH, name="Behaviour tree: the branch at work"),
+        rrb.GraphView(origin=tree.WHOLE, name="Whole tree"),
+    )
+
+
+def _words() -> rrb.Vertical:
+    columns = rrb.TextLogColumns(
+        timeline_columns=[MISSION_TIME], text_log_columns=["loglevel", "body"]
+    )
+    return rrb.Vertical(
+        rrb.TextDocumentView(origin=BELIEF, name="Where it may be"),
+        rrb.TextDocumentView(origin=LLM, name="Language model"),
+        rrb.Tabs(
+            rrb.TextLogView(origin=DIALOG, name="Dialogue", columns=columns),
+            rrb.TextLogView(origin=LOG, name="Log", columns=columns),
+        ),
+        row_shares=[4, 6, 3],
+    )
+
+
+def _vector(array: NDArray[np.float64]) -> Vector3:
+    x, y, z = (float(value) for value in array)
+    return x, y, z

@@ -1,0 +1,119 @@
+"""What a person reads in the viewer beside the pictures: the model's calls, and the belief."""
+
+import json
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from executive.records import LlmCall, Verified
+from executive.types import Candidate, Message, Outcome, Replied, Scored
+
+DOTS = 10
+
+
+def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
+    """One call: what was asked, what was answered, and what the verification made of it."""
+    result, usage = call.result, call.result.usage
+    parts = [
+        f"### {result.request.label}",
+        f"{usage.model} · {usage.total_s:.2f} s · {usage.input_tokens} tokens in "
+        f"({usage.evaluated_tokens} evaluated) · {usage.output_tokens} out"
+        + "".join(f" · {name} {value}" for name, value in usage.parameters.items()),
+        "**Asked**",
+        _quote(result.request.messages[-1].content),
+    ]
+    if isinstance(result, Replied):
+        parts += ["**Answered**", _quote(_pretty(result.text))]
+    else:
+        parts += ["**Scored**", _scores(result)]
+    if verified is not None:
+        parts += ["**Held against the ontology**", _verification(verified)]
+    parts += ["---", "The whole prompt:", *_turns(result.request.messages)]
+    return "\n\n".join(parts)
+
+
+def belief(situation: dict[str, Any]) -> str:
+    """Where the thing may be, who says so, and what became of each place.
+
+    Args:
+        situation: the snapshot that each tick carries.
+    """
+    heading = f"### Where is {situation.get('object') or 'the thing'}?\n\n"
+    candidates = [
+        Candidate(c["place"], c["source"], c["probability"])
+        for c in situation.get("candidates") or ()
+    ]
+    if not candidates:
+        return heading + "No place is known yet."
+    marks = dict.fromkeys(situation.get("visited") or (), "✗")
+    for key, mark in (("candidate", "▶"), ("found", "✓")):
+        if situation.get(key):
+            marks[situation[key]["place"]] = mark
+    return heading + _candidates(candidates, marks)
+
+
+def outcome(outcome: Outcome) -> str:
+    """How the mission ended, and what it took."""
+    parts = [f"### {outcome.command}: {outcome.status.replace('_', ' ')}"]
+    if outcome.reason:
+        parts.append(outcome.reason)
+    if outcome.location:
+        parts.append(f"Found: **{outcome.location}** (says {outcome.source})")
+    parts.append(
+        f"{outcome.mission_time_s:.1f} s, of them {outcome.thinking_time_s:.1f} s thinking · "
+        f"{outcome.llm_calls} calls of the model · {outcome.inquiries} questions"
+    )
+    marks = dict.fromkeys(outcome.visited, "✗")
+    if outcome.location:
+        marks[outcome.location] = "✓"
+    if outcome.candidates:
+        parts.append(_candidates(outcome.candidates, marks))
+    return "\n\n".join(parts)
+
+
+def _candidates(candidates: Iterable[Candidate], marks: Mapping[str, str]) -> str:
+    rows = [
+        f"| {marks.get(c.place, '')} | {c.place} | {_probability(c.probability)} | {c.source} |"
+        for c in candidates
+    ]
+    return "\n".join(["| | place | probability | says |", "|---|---|---|---|", *rows])
+
+
+def _scores(scored: Scored) -> str:
+    ranked = sorted(
+        zip(scored.scores, scored.request.places, scored.request.options, strict=True), reverse=True
+    )
+    rows = ["| score | place | as the model read it |", "|---:|---|---|"]
+    rows += [f"| {score:.2f} | {place} | {option} |" for score, place, option in ranked]
+    return "\n".join(rows)
+
+
+def _verification(verified: Verified) -> str:
+    rows = (
+        ("✓ accepted", verified.accepted),
+        ("▶ rooms, to be expanded", verified.rooms),
+        ("✗ dropped, not in this home", verified.dropped),
+    )
+    lines = [f"- **{what}**: {', '.join(names)}" for what, names in rows if names]
+    return "\n".join(lines) or "- nothing was left"
+
+
+def _turns(messages: Iterable[Message]) -> list[str]:
+    return [f"**{m.role}**\n\n{_quote(m.content)}" for m in messages]
+
+
+def _quote(text: str) -> str:
+    return "\n".join(f"> {line}  " for line in text.splitlines())
+
+
+def _pretty(text: str) -> str:
+    """JSON on one line, as it came but for the white space; anything else as it is."""
+    try:
+        return json.dumps(json.loads(text), ensure_ascii=False)
+    except ValueError:
+        return text
+
+
+def _probability(probability: float | None) -> str:
+    if probability is None:
+        return ""
+    return f"{'●' * round(probability * DOTS)} {probability:.0%}"

@@ -1,0 +1,168 @@
+"""The home, the robot, its way and what it sees in rerun.
+
+Every drawn thing names its frame (`CoordinateFrame`), and frames hang together by named transforms,
+so entity paths carry no geometry.
+"""
+
+from collections.abc import Iterable
+from itertools import groupby
+from pathlib import Path as FilePath
+from typing import Any
+
+import numpy as np
+import rerun as rr
+
+from executive.records import Entity, Path, Seen, Shape, Transforms
+from executive.types import Color, Frame, Intrinsics, Pose
+from logs.images import jpeg
+
+FRAMES = "frames"
+SCENE = "scene"
+PLAN = "plan"
+CAMERA = "camera"
+CAMERA_POSE = "camera/pose"
+DETECTIONS = "camera/detections"
+PICTURE_FRAME = "picture"
+"""Where the camera was when it took the latest picture."""
+IMAGE_FRAME = "picture_plane"
+
+_CAMERA = (255, 255, 255, 160)
+_UNSEEN = (0, 0, 0, 0)
+_FOUND = (60, 220, 90)
+_PLANNED = (30, 130, 255)
+
+
+def log_frames(stream: rr.RecordingStream) -> None:
+    """Say in which frames things are drawn that come and go.
+
+    Frames must hang together from the start: before the first picture the camera is there, unseen.
+    """
+    stream.log(PLAN, rr.CoordinateFrame("map"), static=True)
+    stream.log(CAMERA, rr.CoordinateFrame(IMAGE_FRAME), static=True)
+    stream.log(DETECTIONS, rr.CoordinateFrame(IMAGE_FRAME), static=True)
+    _log_camera(stream, Intrinsics(1, 1, 1.0, 1.0, 0.5, 0.5), Pose(), _UNSEEN)
+
+
+def log_scene(stream: rr.RecordingStream, entities: Iterable[Entity]) -> None:
+    """Log all shapes once; from then on only their frames move."""
+    for entity in entities:
+        by_kind = sorted(entity.shapes, key=lambda shape: shape.kind)
+        for kind, shapes in groupby(by_kind, key=lambda shape: shape.kind):
+            _log_shapes(stream, entity, kind, list(shapes))
+
+
+def _log_shapes(stream: rr.RecordingStream, entity: Entity, kind: str, shapes: list[Shape]) -> None:
+    frame = rr.CoordinateFrame(entity.frame_id)
+    sizes = np.array([shape.size for shape in shapes])
+    placed: dict[str, Any] = {
+        "centers": [shape.pose.position for shape in shapes],
+        "quaternions": [shape.pose.orientation for shape in shapes],
+        "colors": [_rgba(shape.color) for shape in shapes],
+        "fill_mode": "solid",
+    }
+    path = rr.new_entity_path([SCENE, entity.name, kind])
+    match kind:
+        case "box":
+            stream.log(path, frame, rr.Boxes3D(sizes=sizes, **placed), static=True)
+        case "cylinder":
+            solid = rr.Cylinders3D(lengths=sizes[:, 2], radii=sizes[:, 0] / 2, **placed)
+            stream.log(path, frame, solid, static=True)
+        case "sphere":
+            stream.log(path, frame, rr.Ellipsoids3D(half_sizes=sizes / 2, **placed), static=True)
+        case "mesh":
+            for number, shape in enumerate(shapes):
+                _log_mesh(stream, f"{path}/{number}", frame, shape)
+        case _:
+            raise ValueError(f"shape of unknown kind {kind!r}: box, cylinder, sphere or mesh")
+
+
+def _log_mesh(
+    stream: rr.RecordingStream, path: str, frame: rr.CoordinateFrame, shape: Shape
+) -> None:
+    stream.log(
+        path,
+        frame,
+        rr.Asset3D(path=FilePath(shape.mesh), albedo_factor=_rgba(shape.color)),
+        rr.InstancePoses3D(
+            translations=[shape.pose.position],
+            quaternions=[shape.pose.orientation],
+            scales=[shape.size],
+        ),
+        static=True,
+    )
+
+
+def log_transforms(
+    stream: rr.RecordingStream, transforms: Transforms, times: Iterable[rr.TimeColumn]
+) -> None:
+    """Log where frames are in their parents, all in one call."""
+    moved = transforms.transforms
+    stream.send_columns(
+        FRAMES,
+        times,
+        rr.Transform3D.columns(
+            translation=[t.pose.position for t in moved],
+            quaternion=[t.pose.orientation for t in moved],
+            parent_frame=[t.parent for t in moved],
+            child_frame=[t.child for t in moved],
+        ),
+    )
+
+
+def log_path(stream: rr.RecordingStream, path: Path) -> None:
+    """Log the planned way as a line a little above the floor; no points: no line."""
+    strips = [np.array(path.points) + (0.0, 0.0, 0.02)] if path.points else []
+    stream.log(PLAN, rr.LineStrips3D(strips, colors=_PLANNED, radii=0.02))
+
+
+def log_picture(stream: rr.RecordingStream, frame: Frame) -> None:
+    """Log a picture with the camera that took it; what was seen in the last one is taken away."""
+    _log_camera(stream, frame.intrinsics, frame.pose, _CAMERA)
+    stream.log(CAMERA, rr.EncodedImage(contents=jpeg(frame), media_type="image/jpeg"))
+    stream.log(DETECTIONS, rr.Clear(recursive=False))
+
+
+def _log_camera(
+    stream: rr.RecordingStream, intrinsics: Intrinsics, pose: Pose, color: tuple[int, ...]
+) -> None:
+    i = intrinsics
+    stream.log(
+        CAMERA_POSE,
+        rr.Transform3D(
+            translation=pose.position,
+            quaternion=rr.Quaternion(xyzw=pose.orientation),
+            parent_frame="map",
+            child_frame=PICTURE_FRAME,
+        ),
+    )
+    stream.log(
+        CAMERA,
+        rr.Pinhole(
+            image_from_camera=np.array([[i.fx, 0, i.cx], [0, i.fy, i.cy], [0, 0, 1]]),
+            width=i.width,
+            height=i.height,
+            parent_frame=PICTURE_FRAME,
+            child_frame=IMAGE_FRAME,
+            image_plane_distance=0.6 if color[-1] else 1e-3,
+            color=color,
+        ),
+    )
+
+
+def log_detections(stream: rr.RecordingStream, seen: Seen) -> None:
+    """Log a labelled rectangle for each detection."""
+    boxes = [d.box for d in seen.detections]
+    stream.log(
+        DETECTIONS,
+        rr.Boxes2D(
+            mins=[(box.left, box.top) for box in boxes],
+            sizes=[(box.width, box.height) for box in boxes],
+            labels=[f"{d.label} {d.confidence:.2f}" for d in seen.detections],
+            colors=_FOUND,
+        ),
+    )
+
+
+def _rgba(color: Color) -> tuple[int, int, int, int]:
+    r, g, b, a = (round(255 * channel) for channel in color)
+    return r, g, b, a

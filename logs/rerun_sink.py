@@ -1,0 +1,145 @@
+"""The mission as a rerun recording, saved for replay and shown live if wished."""
+
+from datetime import datetime
+from pathlib import Path as FilePath
+
+import rerun as rr
+
+from executive.records import (
+    EventTaken,
+    Finished,
+    LlmCall,
+    Note,
+    Path,
+    Picture,
+    Record,
+    Scene,
+    Seen,
+    Tick,
+    Transforms,
+    TreeShape,
+    Utterance,
+    Verified,
+)
+from logs import blueprint, markdown, rerun_scene
+from logs.messages import event_to_message
+from logs.recorder import Stamp
+from logs.rerun_tree import TreeView
+from logs.times import nanoseconds
+
+APPLICATION = "robot-executive"
+_LEVELS = {"debug": "DEBUG", "info": "INFO", "warning": "WARN", "error": "ERROR"}
+_SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
+
+
+class RerunSink:
+    """Writes an .rrd file, shows the mission in a viewer, or both.
+
+    Timelines: `mission_time` (seconds) and `tick`. The file carries its own blueprint.
+    """
+
+    def __init__(
+        self, path: FilePath | None, started: datetime, *, name: str = "", view: bool = False
+    ) -> None:
+        """Open the recording.
+
+        Args:
+            path: the .rrd file, or None to write none.
+            started: wall time at mission time 0 (with time zone).
+            name: what the viewer calls the recording; the command, say.
+            view: whether to start a viewer and show the mission live.
+        """
+        self._stream = rr.RecordingStream(APPLICATION)
+        layout = blueprint.mission_blueprint()
+        sinks: list[rr.FileSink | rr.GrpcSink] = []
+        if path is not None:
+            sinks.append(rr.FileSink(path))
+        if view:
+            rr.spawn(connect=False)
+            sinks.append(rr.GrpcSink())
+        self._stream.set_sinks(*sinks, default_blueprint=layout)
+        if name:
+            self._stream.send_recording_name(name)
+        self._stream.send_recording_start_time_nanos(nanoseconds(started))
+        self._stream.set_time(blueprint.MISSION_TIME, duration=0.0)
+        self._stream.set_time("tick", sequence=0)
+        rerun_scene.log_frames(self._stream)
+        self._tick = 0
+        self._tree: TreeView | None = None
+        self._call: LlmCall | None = None
+
+    def write(self, stamp: Stamp, record: Record) -> None:
+        """Log a record where the blueprint looks for it."""
+        self._stream.set_time(blueprint.MISSION_TIME, duration=stamp.mission_s)
+        self._stream.set_time("tick", sequence=self._tick)
+        match record:
+            case TreeShape():
+                self._tree = TreeView(self._stream, record)
+            case Tick():
+                self._write_tick(record)
+            case LlmCall() | Verified():
+                self._write_thought(record)
+            case Utterance(speaker, text):
+                self._stream.log(
+                    blueprint.DIALOG,
+                    rr.TextLog(text, level=speaker.upper(), color=_SPEAKERS.get(speaker)),
+                )
+            case Note(level, text):
+                self._stream.log(blueprint.LOG, rr.TextLog(text, level=_LEVELS[level]))
+            case EventTaken():
+                self._write_event(record)
+            case Picture(frame):
+                rerun_scene.log_picture(self._stream, frame)
+            case Seen():
+                rerun_scene.log_detections(self._stream, record)
+            case Scene(entities):
+                rerun_scene.log_scene(self._stream, entities)
+                self._stream.send_blueprint(blueprint.mission_blueprint(entities))
+            case Transforms():
+                self._write_transforms(stamp, record)
+            case Path():
+                rerun_scene.log_path(self._stream, record)
+            case Finished(outcome):
+                self._stream.log(blueprint.BELIEF, _document(markdown.outcome(outcome)))
+
+    def flush(self) -> None:
+        """Bring everything to the file and the viewer."""
+        self._stream.flush()
+
+    def close(self) -> None:
+        """Write the footer and close the file."""
+        self._stream.disconnect()
+
+    def _write_tick(self, tick: Tick) -> None:
+        self._tick = tick.number
+        self._stream.set_time("tick", sequence=tick.number)
+        if self._tree is not None:
+            self._tree.show(tick)
+        self._stream.log(blueprint.BELIEF, _document(markdown.belief(tick.situation)))
+
+    def _write_thought(self, thought: LlmCall | Verified) -> None:
+        if isinstance(thought, LlmCall):
+            self._call = thought
+            text = markdown.llm_call(thought)
+        elif self._call is not None:
+            text = markdown.llm_call(self._call, thought)
+        else:
+            return
+        self._stream.log(blueprint.LLM, _document(text))
+
+    def _write_event(self, taken: EventTaken) -> None:
+        message = event_to_message(taken)
+        text = " ".join(filter(None, (message.name, message.result, message.text)))
+        self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
+
+    def _write_transforms(self, stamp: Stamp, record: Transforms) -> None:
+        count = len(record.transforms)
+        times = (
+            rr.TimeColumn(blueprint.MISSION_TIME, duration=[stamp.mission_s] * count),
+            rr.TimeColumn("tick", sequence=[self._tick] * count),
+        )
+        rerun_scene.log_transforms(self._stream, record, times)
+
+
+def _document(markdown_text: str) -> rr.TextDocument:
+    return rr.TextDocument(markdown_text, media_type="text/markdown")

@@ -1,0 +1,97 @@
+"""The behaviour tree in rerun: a graph of the branch at work, and lanes of what ran when."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import rerun as rr
+
+from executive.records import NodeShape, Tick, TreeShape
+
+BRANCH = "behaviour_tree/branch"
+WHOLE = "behaviour_tree/whole"
+LANES = "mission"
+
+COLORS = {
+    "INVALID": 0x8B949EFF,
+    "RUNNING": 0xF2A93BFF,
+    "SUCCESS": 0x3FB950FF,
+    "FAILURE": 0xE5534BFF,
+}
+_STATUS_STYLE = rr.StateConfiguration(
+    values=list(COLORS),
+    colors=np.array(list(COLORS.values()), np.uint32),
+    visible=[status != "INVALID" for status in COLORS],
+)
+_SIGNS = {"sequence": "→", "selector": "?", "decorator": "◇"}
+
+_ROW, _INDENT, _LETTER, _PADDING = 34.0, 48.0, 5.8, 20.0
+"""Layout of the graphs (viewer units): row height, indent a level, a label's letter and margin."""
+
+
+class TreeView:
+    """Draws the ticks of one tree; what did not change is not logged again."""
+
+    def __init__(self, stream: rr.RecordingStream, tree: TreeShape) -> None:
+        """Draw nothing yet."""
+        self._stream = stream
+        self._tree = tree
+        self._stages = [node for node in tree.nodes if node.path.count("/") == 2]
+        """The parts of the mission: the second level below the root."""
+        self._shown: dict[str, object] = {}
+
+    def show(self, tick: Tick) -> None:
+        """Log what changed with this tick."""
+        statuses = {node.path: node.status for node in tick.nodes}
+        self._graph(BRANCH, _branch(self._tree, tick.tip), statuses)
+        self._graph(WHOLE, self._tree.nodes, statuses)
+        place = (tick.situation.get("candidate") or {}).get("place", "")
+        self._lane(f"{LANES}/0_doing", tick.tip.rpartition("/")[2])
+        self._lane(f"{LANES}/0_place", place)
+        for number, stage in enumerate(self._stages, start=1):
+            self._stage(number, stage, statuses[stage.path])
+
+    def _graph(self, path: str, nodes: Sequence[NodeShape], statuses: dict[str, str]) -> None:
+        state = [(node.path, statuses[node.path]) for node in nodes]
+        if self._shown.get(path) == state:
+            return
+        self._shown[path] = state
+        labels = [f"{_SIGNS.get(node.kind, '')} {node.name}".strip() for node in nodes]
+        self._stream.log(
+            path,
+            rr.GraphNodes(
+                [node.path for node in nodes],
+                positions=_outline(nodes, labels),
+                colors=np.array([COLORS[status] for _, status in state], np.uint32),
+                labels=labels,
+                show_labels=True,
+            ),
+            rr.GraphEdges([(node.parent, node.path) for node in nodes if node.parent]),
+        )
+
+    def _stage(self, number: int, stage: NodeShape, status: str) -> None:
+        """A lane for each stage, from when it first does something."""
+        path = rr.new_entity_path([LANES, f"{number}_{stage.name.replace(' ', '_')}"])
+        if path not in self._shown:
+            if status == "INVALID":
+                return
+            self._stream.log(path, _STATUS_STYLE, static=True)
+        self._lane(path, status)
+
+    def _lane(self, path: str, state: str) -> None:
+        if state and self._shown.get(path) != state:
+            self._shown[path] = state
+            self._stream.log(path, rr.StateChange(state=state))
+
+
+def _branch(tree: TreeShape, tip: str) -> list[NodeShape]:
+    """The root, and the children of every behaviour on the way down to the tip."""
+    on_the_way = f"{tip}/"
+    return [n for n in tree.nodes if not n.parent or on_the_way.startswith(f"{n.parent}/")]
+
+
+def _outline(nodes: Sequence[NodeShape], labels: Sequence[str]) -> list[tuple[float, float]]:
+    """Middles of the nodes, laid out as an outline: a row each, indented by depth."""
+    return [
+        (node.path.count("/") * _INDENT + (_PADDING + len(label) * _LETTER) / 2, row * _ROW)
+        for row, (node, label) in enumerate(zip(nodes, labels, strict=True))
+    ]
