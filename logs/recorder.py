@@ -9,7 +9,6 @@ from collections.abc import Callable, Sequence
 from datetime import datetime
 from typing import NamedTuple, Protocol
 
-from executive.interfaces import Clock
 from executive.records import Note, Record
 
 log = logging.getLogger(__name__)
@@ -55,9 +54,9 @@ class FanOut:
     told. Records are not copied: whoever hands one over must not change it afterwards.
     """
 
-    def __init__(self, clock: Clock) -> None:
-        """Stamp with this clock's time."""
-        self._clock = clock
+    def __init__(self, now: Callable[[], float]) -> None:
+        """Stamp with what `now` returns: the mission time (s)."""
+        self._now = now
         self._writer: _Writer | None = None
 
     def open(self, sinks: Sequence[Sink], started: datetime) -> None:
@@ -69,12 +68,12 @@ class FanOut:
     def record(self, record: Record) -> None:
         """Pass a record on; without an open mission it is ignored. Never raises."""
         if self._writer is not None:
-            self._writer.put(Stamp(self._clock.now(), time.time_ns()), record)
+            self._writer.put(Stamp(self._now(), time.time_ns()), record)
 
     def close(self) -> None:
         """Write what is still queued, then finish all logs."""
         if self._writer is not None:
-            self._writer.close(Stamp(self._clock.now(), time.time_ns()))
+            self._writer.close(Stamp(self._now(), time.time_ns()))
             self._writer = None
 
 

@@ -1,6 +1,5 @@
 """The mission as a rerun recording, saved for replay and shown live if wished."""
 
-from datetime import datetime
 from pathlib import Path as FilePath
 
 import rerun as rr
@@ -25,7 +24,6 @@ from logs import blueprint, markdown, rerun_scene
 from logs.messages import event_to_message
 from logs.recorder import Stamp
 from logs.rerun_tree import TreeView
-from logs.times import nanoseconds
 
 APPLICATION = "robot-executive"
 _LEVELS = {"debug": "DEBUG", "info": "INFO", "warning": "WARN", "error": "ERROR"}
@@ -38,29 +36,22 @@ class RerunSink:
     Timelines: `mission_time` (seconds) and `tick`. The file carries its own blueprint.
     """
 
-    def __init__(
-        self, path: FilePath | None, started: datetime, *, name: str = "", view: bool = False
-    ) -> None:
-        """Open the recording.
+    def __init__(self, path: FilePath | None, *, view: bool = False) -> None:
+        """Open the recording, named after the folder that it lies in.
 
         Args:
             path: the .rrd file, or None to write none.
-            started: wall time at mission time 0 (with time zone).
-            name: what the viewer calls the recording; the command, say.
             view: whether to start a viewer and show the mission live.
         """
         self._stream = rr.RecordingStream(APPLICATION)
-        layout = blueprint.mission_blueprint()
         sinks: list[rr.FileSink | rr.GrpcSink] = []
         if path is not None:
             sinks.append(rr.FileSink(path))
+            self._stream.send_recording_name(path.parent.name)
         if view:
             rr.spawn(connect=False)
             sinks.append(rr.GrpcSink())
-        self._stream.set_sinks(*sinks, default_blueprint=layout)
-        if name:
-            self._stream.send_recording_name(name)
-        self._stream.send_recording_start_time_nanos(nanoseconds(started))
+        self._stream.set_sinks(*sinks, default_blueprint=blueprint.mission_blueprint())
         self._stream.set_time(blueprint.MISSION_TIME, duration=0.0)
         self._stream.set_time("tick", sequence=0)
         rerun_scene.log_frames(self._stream)

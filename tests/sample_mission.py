@@ -66,22 +66,6 @@ TREE = TreeShape(
 )
 
 
-class FakeClock:
-    """A clock that shows what it is set to."""
-
-    def __init__(self) -> None:
-        self.time = 0.0
-
-    def now(self) -> float:
-        return self.time
-
-    def restart(self) -> None:
-        self.time = 0.0
-
-    def wait(self, deadline: float | None) -> None:
-        raise NotImplementedError
-
-
 def tick(number: int, tip: str, *statuses: str, candidates: tuple[Candidate, ...] = ()) -> Tick:
     """A tick after which the nodes have these statuses, in the tree's order."""
     return Tick(

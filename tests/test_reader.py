@@ -27,16 +27,15 @@ from logs.recovery import recover
 WRITE_UNTIL_KILLED = """
 import itertools, sys, time
 from pathlib import Path
-from sample_mission import STARTED, TREE, FakeClock, tick
+from sample_mission import STARTED, TREE, tick
 from logs import recorder
 from logs.mcap_sink import McapSink
 recorder.FLUSH_S = 0.05
-clock = FakeClock()
-fan_out = recorder.FanOut(clock)
+number = 0
+fan_out = recorder.FanOut(lambda: number / 100)
 fan_out.open([McapSink(Path(sys.argv[1]), STARTED, {"a.toml": b"x = 1"}, {"seed": "7"})], STARTED)
 fan_out.record(TREE)
 for number in itertools.count():
-    clock.time = number / 100
     fan_out.record(tick(number, "mission/drive", *["RUNNING"] * len(TREE.nodes)))
     if number == 200:
         time.sleep(0.5)

@@ -5,7 +5,7 @@ import threading
 import time
 
 import pytest
-from sample_mission import STARTED, FakeClock
+from sample_mission import STARTED
 
 from executive.records import Note, Record
 from logs import recorder
@@ -56,11 +56,11 @@ class HangingSink(ListSink):
 
 
 def test_every_sink_gets_every_record_in_order_with_the_mission_time() -> None:
-    clock, sinks = FakeClock(), (ListSink(), ListSink())
-    fan_out = FanOut(clock)
+    times = iter([0.0, *(number / 10 for number in range(101))])
+    sinks = (ListSink(), ListSink())
+    fan_out = FanOut(lambda: next(times))
     fan_out.open(sinks, STARTED)
     for number in range(100):
-        clock.time = number / 10
         fan_out.record(Note("info", str(number)))
     fan_out.close()
     expected = [(number / 10, Note("info", str(number))) for number in range(100)]
@@ -70,7 +70,7 @@ def test_every_sink_gets_every_record_in_order_with_the_mission_time() -> None:
 
 def test_a_recording_begins_by_saying_when_the_mission_started() -> None:
     sink = ListSink()
-    fan_out = FanOut(FakeClock())
+    fan_out = FanOut(lambda: 0.0)
     fan_out.open([sink], STARTED)
     fan_out.close()
     assert sink.texts == ["mission time 0 is 2024-05-13T09:30:00+00:00"]
@@ -80,7 +80,7 @@ def test_a_sink_that_raises_is_closed_and_dropped_and_the_others_are_told(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     broken, sound = BrokenSink(), ListSink()
-    fan_out = FanOut(FakeClock())
+    fan_out = FanOut(lambda: 0.0)
     with caplog.at_level(logging.WARNING):
         fan_out.open([broken, sound], STARTED)
         fan_out.record(Note("info", "one"))
@@ -95,7 +95,7 @@ def test_a_sink_that_raises_is_closed_and_dropped_and_the_others_are_told(
 
 def test_what_is_recorded_outside_a_mission_is_ignored() -> None:
     first, second = ListSink(), ListSink()
-    fan_out = FanOut(FakeClock())
+    fan_out = FanOut(lambda: 0.0)
     fan_out.record(Note("info", "too early"))
     fan_out.open([first], STARTED)
     fan_out.close()
@@ -110,7 +110,7 @@ def test_what_was_written_is_flushed_even_if_nothing_more_happens(
 ) -> None:
     monkeypatch.setattr(recorder, "FLUSH_S", 0.02)
     sink = ListSink()
-    fan_out = FanOut(FakeClock())
+    fan_out = FanOut(lambda: 0.0)
     fan_out.open([sink], STARTED)
     deadline = time.monotonic() + 5
     while not sink.flushes and time.monotonic() < deadline:
@@ -126,7 +126,7 @@ def test_a_sink_that_hangs_delays_the_mission_once_and_costs_records_that_are_co
     monkeypatch.setattr(recorder, "CAPACITY", 10)
     monkeypatch.setattr(recorder, "PATIENCE_S", 0.1)
     sink = HangingSink()
-    fan_out = FanOut(FakeClock())
+    fan_out = FanOut(lambda: 0.0)
     fan_out.open([sink], STARTED)
     began = time.monotonic()
     for number in range(50):
