@@ -1,0 +1,199 @@
+"""Ways for a round robot through the home: a grid of clearances, and the cheapest path on it.
+
+The map is the home's plan, walls and furniture; what a person leaves on the floor is not in it.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import dijkstra
+
+from sim.home import Home
+
+Point = tuple[float, float]
+Floats = NDArray[np.float64]
+Slices = tuple[slice, slice]
+
+FOOTPRINT_M = 0.33
+"""Radius of the robot, seen from above."""
+COMFORT_M = 0.55
+"""With this much room around its middle the robot is at ease; less costs extra."""
+DISCOMFORT = 6.0
+"""How much dearer a metre is where the robot just fits."""
+PERSON_RADIUS_M = 0.25
+SLACK = 1.02
+"""A straight line may cost this much of the path that it replaces."""
+SNAP_M = 0.25
+"""The robot may start this far from where it is allowed to be, to get out of a tight place."""
+
+
+class Unreachable(Exception):
+    """There is no way; the text says why, as a clause for the person."""
+
+
+@dataclass(frozen=True, eq=False)
+class OccupancyGrid:
+    """How far each cell is from what stands in the way.
+
+    Attributes:
+        origin: the middle of cell [0, 0] in `map` (metres).
+        resolution: side of a cell (metres).
+        clearance: (columns, rows) distance from the middle of a cell, x by column and y by row, to
+            the nearest wall, furniture or person (metres); 0 inside of them.
+    """
+
+    origin: Point
+    resolution: float
+    clearance: Floats
+
+    @classmethod
+    def from_home(cls, home: Home, resolution: float = 0.05) -> "OccupancyGrid":
+        """The home as its plan has it; everything outside of the rooms is in the way."""
+        edges = np.array([room.rectangle for room in home.rooms])
+        origin = (float(edges[:, 0].min()), float(edges[:, 1].min()))
+        steps = [
+            round((edges[:, axis + 2].max() - origin[axis]) / resolution) + 1 for axis in (0, 1)
+        ]
+        columns, rows = np.indices(steps)
+        x, y = origin[0] + columns * resolution, origin[1] + rows * resolution
+        inside = np.any(
+            [(x >= a) & (x <= c) & (y >= b) & (y <= d) for a, b, c, d in edges.tolist()], axis=0
+        )
+        person = np.hypot(x - home.person[0], y - home.person[1]) - PERSON_RADIUS_M
+        clearance = np.where(inside, person.clip(min=0.0), 0.0)
+        boxes = [(*wall.center, 0.0, *wall.size) for wall in home.walls()]
+        boxes += [(*piece.pose, *piece.size[:2]) for piece in (*home.furniture, home.delivery)]
+        for box in boxes:
+            np.minimum(clearance, _distance_to_box(x, y, box), out=clearance)
+        return cls(origin, resolution, clearance)
+
+    @cached_property
+    def free(self) -> NDArray[np.bool_]:
+        """(columns, rows) whether the robot fits with its middle anywhere in the cell."""
+        return np.asarray(self.clearance >= FOOTPRINT_M + self.resolution)
+
+    def is_free(self, cell: tuple[int, int]) -> bool:
+        """Whether a cell is on the grid and free."""
+        columns, rows = self.free.shape
+        return 0 <= cell[0] < columns and 0 <= cell[1] < rows and bool(self.free[cell])
+
+    def cell(self, point: Point) -> tuple[int, int]:
+        """Column and row of the cell that a point (metres, in `map`) is in; may be off the grid."""
+        column, row = (
+            round((value - start) / self.resolution)
+            for value, start in zip(point, self.origin, strict=True)
+        )
+        return column, row
+
+    def point(self, cell: tuple[int, int]) -> Point:
+        """The middle of a cell in `map` (metres)."""
+        return (
+            self.origin[0] + cell[0] * self.resolution,
+            self.origin[1] + cell[1] * self.resolution,
+        )
+
+    @cached_property
+    def price(self) -> Floats:
+        """(columns, rows) cost of a metre through each cell; infinite where the robot cannot be."""
+        tightness = (COMFORT_M - self.clearance) / (COMFORT_M - FOOTPRINT_M)
+        price = 1.0 + DISCOMFORT * np.clip(tightness, 0.0, 1.0) ** 2
+        return np.where(self.free, price, np.inf)
+
+    @cached_property
+    def graph(self) -> csr_array[np.float64]:
+        """Free cells, numbered row-major, and the cost of a step to each of their 8 neighbours."""
+        numbers = np.arange(self.clearance.size).reshape(self.clearance.shape)
+        starts, ends, costs = [], [], []
+        for dx, dy in ((1, 0), (0, 1), (1, 1), (1, -1)):
+            here, there = _neighbours(self.free, dx, dy)
+            cost = (self.price[here] + self.price[there]) / 2 * self.resolution * np.hypot(dx, dy)
+            passable = np.isfinite(cost)
+            starts.append(numbers[here][passable])
+            ends.append(numbers[there][passable])
+            costs.append(cost[passable])
+        entries = np.concatenate(costs), (np.concatenate(starts), np.concatenate(ends))
+        return csr_array(coo_array(entries, shape=(self.clearance.size,) * 2))
+
+
+def plan(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
+    """The cheapest way from start to goal: points in `map` to drive through in straight lines.
+
+    It keeps the footprint free all along and stays in the middle where there is room. Both ends are
+    part of it. A start that is too close to something first leads to the nearest free cell.
+
+    Raises:
+        Unreachable: if there is no such way.
+    """
+    if not grid.is_free(grid.cell(goal)):
+        raise Unreachable("there is no room to stand there")
+    if grid.is_free(grid.cell(start)):
+        return _way(grid, start, goal)
+    return start, *_way(grid, _nearest_free(grid, start), goal)
+
+
+def _way(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
+    """The cheapest way between two free points."""
+    shape = grid.clearance.shape
+    first, last = (int(np.ravel_multi_index(grid.cell(end), shape)) for end in (start, goal))
+    costs, previous = dijkstra(
+        grid.graph, directed=False, indices=[first], return_predecessors=True
+    )
+    if not np.isfinite(costs[0, last]):
+        raise Unreachable("the way there is blocked")
+    numbers = [last]
+    while numbers[-1] != first:
+        numbers.append(int(previous[0, numbers[-1]]))
+    numbers.reverse()
+    cells = [divmod(number, shape[1]) for number in numbers]
+    points = [start, *(grid.point(cell) for cell in cells[1:-1]), goal]
+    return _straightened(grid, points, costs[0, numbers])
+
+
+def _straightened(grid: OccupancyGrid, points: list[Point], costs: Floats) -> tuple[Point, ...]:
+    """The points without those that a straight line may skip at (nearly) no more cost."""
+    kept = [0]
+    for index in range(2, len(points)):
+        straight = _cost(grid, points[kept[-1]], points[index])
+        if straight > (costs[index] - costs[kept[-1]]) * SLACK:
+            kept.append(index - 1)
+    return tuple(points[index] for index in [*kept, len(points) - 1])
+
+
+def _cost(grid: OccupancyGrid, start: Point, end: Point) -> float:
+    """Cost of a straight line; infinite if the robot does not fit through."""
+    length = float(np.hypot(end[0] - start[0], end[1] - start[1]))
+    share = np.linspace(0.0, 1.0, 2 + int(2 * length / grid.resolution))[:, None]
+    points = np.asarray(start) * (1 - share) + np.asarray(end) * share
+    columns, rows = np.rint((points - grid.origin) / grid.resolution).astype(int).T
+    return float(grid.price[columns, rows].mean()) * length
+
+
+def _nearest_free(grid: OccupancyGrid, point: Point) -> Point:
+    columns, rows = np.nonzero(grid.free)
+    x = grid.origin[0] + columns * grid.resolution
+    y = grid.origin[1] + rows * grid.resolution
+    distances = np.hypot(x - point[0], y - point[1])
+    if not len(distances) or distances.min() > SNAP_M:
+        raise Unreachable("the robot is stuck where it is")
+    nearest = int(distances.argmin())
+    return float(x[nearest]), float(y[nearest])
+
+
+def _neighbours(grid: NDArray[np.bool_], dx: int, dy: int) -> tuple[Slices, Slices]:
+    """Slices of a grid such that the second gives the neighbours by (dx, dy) of the first."""
+    columns, rows = grid.shape
+    low, high = max(0, -dy), rows - max(0, dy)
+    here = slice(0, columns - dx), slice(low, high)
+    there = slice(dx, columns), slice(low + dy, high + dy)
+    return here, there
+
+
+def _distance_to_box(x: Floats, y: Floats, box: tuple[float, ...]) -> Floats:
+    """Distance (metres) of points to a rectangle: middle x and y, yaw, length and width."""
+    cos, sin = np.cos(box[2]), np.sin(box[2])
+    ahead = np.abs((x - box[0]) * cos + (y - box[1]) * sin) - box[3] / 2
+    aside = np.abs((y - box[1]) * cos - (x - box[0]) * sin) - box[4] / 2
+    return np.asarray(np.hypot(ahead.clip(min=0.0), aside.clip(min=0.0)))
