@@ -1,0 +1,70 @@
+"""Moving the lift and the arm along a path of joint positions, smoothly and within their limits."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from sim.hardware import Floats, Hardware
+from sim.skill import CONTROL_S, CannotError, Skill, wait_until
+
+SPEED = 0.6
+"""Share of the joints' speed limits that a motion uses."""
+SLOW = 0.15
+_RAMP_S = 0.3
+_LAG = 0.2
+"""A joint this far behind (radians, metres) has met something."""
+_SETTLED = 0.004
+_SETTLING_S = 1.0
+
+
+def _never() -> bool:
+    return False
+
+
+def follow(
+    hardware: Hardware,
+    path: Sequence[Floats],
+    speed: float = SPEED,
+    until: Callable[[], bool] = _never,
+) -> Skill:
+    """Move through joint positions (of `ARM`), starting from where the arm is.
+
+    Args:
+        hardware: the robot.
+        path: the positions to pass; the last is where the arm comes to rest.
+        speed: share of the joints' speed limits.
+        until: ends the motion early.
+
+    Raises:
+        CannotError: if a joint cannot follow.
+    """
+    points = np.array([hardware.arm_positions, *path])
+    durations = (np.abs(np.diff(points, axis=0)) / (speed * hardware.arm_speed_limits)).max(axis=1)
+    times = np.concatenate(([0.0], np.cumsum(durations)))
+    reached, rate = 0.0, 0.0
+    before = points[0]
+    while reached < times[-1] and not until():
+        rate = min(1.0, rate + CONTROL_S / _RAMP_S, _slowing(times[-1] - reached))
+        reached = min(times[-1], reached + rate * CONTROL_S)
+        now = np.array([np.interp(reached, times, joint) for joint in points.T])
+        hardware.command_arm(now, (now - before) / CONTROL_S)
+        before = now
+        yield
+        if np.abs(hardware.arm_positions - now).max() > _LAG:
+            hold(hardware)
+            raise CannotError("something is in the way of my arm")
+    hardware.command_arm(before, np.zeros(len(before)))
+    yield from wait_until(
+        lambda: bool(np.abs(hardware.arm_positions - before).max() < _SETTLED), _SETTLING_S
+    )
+
+
+def hold(hardware: Hardware) -> None:
+    """Stay where the arm is now."""
+    positions = hardware.arm_positions
+    hardware.command_arm(positions, np.zeros(len(positions)))
+
+
+def _slowing(left: float) -> float:
+    """The rate from which the end of a motion is met at rest."""
+    return float(max(0.05, np.sqrt(2 * left / _RAMP_S) * 0.7))

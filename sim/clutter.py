@@ -1,0 +1,56 @@
+"""What the depth camera sees standing on a piece of furniture."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.furniture import Surface
+from sim.hardware import Floats
+from sim.home import Furniture
+
+CELL_M = 0.03
+_ABOVE_M = 0.01
+"""Lower than this above a surface, what is seen is the surface."""
+_EDGE_M = 0.02
+"""Nearer than this to the edge of a surface, it may be what is behind."""
+_FEW_POINTS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A square column in which something stands: middle (x, y), foot and top in `map` (metres)."""
+
+    x: float
+    y: float
+    foot: float
+    top: float
+
+
+def rising_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
+    """Those of the points (n, 3) in `map` that are of things on the surface, in its furniture's frame.
+
+    The frame is the furniture's; z counts from the surface.
+    """
+    x, y, yaw = piece.pose
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    back = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    local = (seen - (x, y, 0.0)) @ back - surface.center
+    half = np.array([surface.length_x / 2, surface.length_y / 2]) - _EDGE_M
+    over = (np.abs(local[:, :2]) < half).all(axis=1)
+    height = local[:, 2]
+    return local[over & (height > _ABOVE_M) & (height < surface.clearance - _ABOVE_M)]
+
+
+def columns(piece: Furniture, seen: Floats) -> list[Column]:
+    """Everything that stands on a piece of furniture, as columns up to the highest point seen."""
+    found = []
+    for surface in piece.surfaces():
+        points = rising_points(piece, surface, seen)
+        cells = np.floor(points[:, :2] / CELL_M).astype(int)
+        for cell in np.unique(cells, axis=0):
+            heights = points[(cells == cell).all(axis=1), 2]
+            if len(heights) >= _FEW_POINTS:
+                dx, dy = (cell + 0.5) * CELL_M + surface.center[:2]
+                x, y, foot = piece.to_map((dx, dy, surface.center[2]))
+                found.append(Column(x, y, foot, foot + float(heights.max())))
+    return found

@@ -1,0 +1,139 @@
+"""Driving the omnidirectional base along a path, with bounded speed and acceleration."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from sim.hardware import Floats, Hardware
+from sim.skill import CONTROL_S, CannotError, Skill
+
+SPEED = 0.8
+ACCELERATION = 0.8
+TURN_RATE = 1.2
+TURN_ACCELERATION = 2.0
+BRAKING = 2.0
+TURN_BRAKING = 4.0
+"""m/s, m/s2, rad/s, rad/s2; braking is for stops that nobody planned."""
+
+NEAR = 0.008
+NEAR_ANGLE = np.radians(0.8)
+"""How well it arrives (metres, radians)."""
+_LOOKAHEAD_S = 0.2
+_SHORTEST_LOOKAHEAD = 0.08
+_FACE_TRAVEL_BEYOND = 0.9
+"""Farther than this from the end (metres), the robot faces where it goes."""
+_STUCK_S = 1.5
+_STUCK_DISTANCE = 0.02
+
+
+def drive(
+    hardware: Hardware, path: Sequence[tuple[float, float]], yaw: float, speed: float = SPEED
+) -> Skill:
+    """Follow way-points (metres, in `map`) and end at the last one, facing `yaw`.
+
+    Raises:
+        CannotError: if it does not get ahead.
+    """
+    follower = _Follower(np.array([hardware.base_pose[:2], *path]), yaw, speed)
+    best, since = np.inf, 0.0
+    while not follower.arrived(hardware.base_pose, hardware.base_velocity):
+        velocity = follower.velocity(hardware.base_pose)
+        hardware.command_base(velocity)
+        yield
+        left = follower.left(hardware.base_pose)
+        since += CONTROL_S
+        if left < best - _STUCK_DISTANCE:
+            best, since = left, 0.0
+        if since > _STUCK_S:
+            yield from brake(hardware)
+            raise CannotError("the way is blocked")
+    hardware.command_base(np.zeros(3))
+
+
+def brake(hardware: Hardware) -> Skill:
+    """Bring the base to rest."""
+    velocity = hardware.base_velocity
+    while np.abs(velocity).max() > 1e-3:
+        velocity = _toward(velocity, np.zeros(3), BRAKING, TURN_BRAKING)
+        hardware.command_base(velocity)
+        yield
+    hardware.command_base(np.zeros(3))
+
+
+class _Follower:
+    """Pursues a point that runs ahead on the path."""
+
+    def __init__(self, points: Floats, yaw: float, speed: float) -> None:
+        self._points = points
+        self._yaw = yaw
+        self._speed = speed
+        self._lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+        self._ends = np.concatenate(([0.0], np.cumsum(self._lengths)))
+        self._done = 0.0
+        self._command = np.zeros(3)
+
+    def arrived(self, pose: Floats, velocity: Floats) -> bool:
+        """Whether it stands at the end."""
+        off = np.linalg.norm(pose[:2] - self._points[-1])
+        still = np.abs(velocity).max() < 0.03
+        return bool(still and off < NEAR and abs(_turn(pose[2], self._yaw)) < NEAR_ANGLE)
+
+    def left(self, pose: Floats) -> float:
+        """How much is still to do: metres, with a radian counted as half a metre."""
+        way = self._ends[-1] - self._done + np.linalg.norm(self._at(self._done) - pose[:2])
+        return float(way + 0.5 * abs(_turn(pose[2], self._yaw)))
+
+    def velocity(self, pose: Floats) -> Floats:
+        """The next velocity command in `map`."""
+        self._advance(pose[:2])
+        ahead = max(_SHORTEST_LOOKAHEAD, _LOOKAHEAD_S * float(np.linalg.norm(self._command[:2])))
+        toward = self._at(self._done + ahead) - pose[:2]
+        distance = float(np.linalg.norm(toward))
+        left = self._ends[-1] - self._done
+        if left < ahead:
+            left = distance
+        wanted = np.zeros(3)
+        if distance > 1e-6:
+            wanted[:2] = toward / distance * _slowing(left, self._speed, ACCELERATION)
+        turn = _turn(pose[2], self._heading(toward, left))
+        wanted[2] = np.sign(turn) * _slowing(abs(turn), TURN_RATE, TURN_ACCELERATION)
+        self._command = _toward(self._command, wanted, ACCELERATION, TURN_ACCELERATION)
+        return self._command
+
+    def _heading(self, toward: Floats, left: float) -> float:
+        if left > _FACE_TRAVEL_BEYOND:
+            return float(np.arctan2(toward[1], toward[0]))
+        return self._yaw
+
+    def _advance(self, position: Floats) -> None:
+        """Move the done length on to the nearest point of the next half metre of path."""
+        ahead = np.arange(self._done, min(self._done + 0.5, self._ends[-1]) + 0.01, 0.01)
+        ahead = np.minimum(ahead, self._ends[-1])
+        spots = np.array([self._at(length) for length in ahead])
+        self._done = float(ahead[np.argmin(np.linalg.norm(spots - position, axis=1))])
+
+    def _at(self, length: float) -> Floats:
+        x, y = (np.interp(length, self._ends, self._points[:, axis]) for axis in (0, 1))
+        return np.array([x, y])
+
+
+def _slowing(distance: float, fastest: float, deceleration: float) -> float:
+    """The speed from which one can still stop within a distance, gentler for the last bit."""
+    return float(min(fastest, 0.9 * np.sqrt(2 * deceleration * distance), 4.0 * distance))
+
+
+def _toward(now: Floats, wanted: Floats, acceleration: float, turn_acceleration: float) -> Floats:
+    """The wanted velocity, or as near to it as one control period allows."""
+    change = wanted - now
+    size = float(np.linalg.norm(change[:2]))
+    if size > acceleration * CONTROL_S:
+        change[:2] *= acceleration * CONTROL_S / size
+    most = turn_acceleration * CONTROL_S
+    change[2] = np.clip(change[2], -most, most)
+    next_velocity: Floats = now + change
+    return next_velocity
+
+
+def _turn(start: float, end: float) -> float:
+    """The shorter turn from one yaw to another (radians)."""
+    return float(np.remainder(end - start + np.pi, 2 * np.pi) - np.pi)

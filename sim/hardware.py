@@ -1,0 +1,198 @@
+"""The robot's motors, encoders and touch: all that the skills may use to act and to feel.
+
+Nothing here sets a position. Motors have the torque and speed limits of the description, and the
+world's physics decides what comes of a command.
+"""
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pybullet as p
+from numpy.typing import NDArray
+from pybullet_utils.bullet_client import BulletClient
+
+from executive.types import Pose
+from sim.model import write_description
+
+Floats = NDArray[np.float64]
+
+ARM = ("lift", *(f"panda_joint{i}" for i in range(1, 8)))
+"""The joints that move the hand: the lift (metres), then the arm's seven (radians)."""
+BASE = ("base_x", "base_y", "base_yaw")
+FINGERS = ("panda_finger_joint1", "panda_finger_joint2")
+HEAD = ("head_pan", "head_tilt")
+
+FOLDED: Floats = np.array([0.08, 0.0, -0.5, 0.0, -3.0, 0.0, 2.5, 0.785])
+"""The arm over the base, hand pointing down, a thing in it upright: how the robot drives."""
+
+FINGER_FORCE = 40.0
+"""How hard each finger presses (newtons); the real hand can do 70."""
+FINGER_TRAVEL = 0.04
+"""How far each finger opens from the middle (metres)."""
+_ENOUGH = 1e4
+"""No limit of ours: the force that a position motor may use where the description says nothing."""
+
+
+class Hardware:
+    """A robot standing in a PyBullet world."""
+
+    def __init__(self, client: BulletClient, start: tuple[float, float, float]) -> None:
+        """Put the robot, folded, at (x, y, yaw) in `map`."""
+        self._client = client
+        with tempfile.TemporaryDirectory() as directory:
+            path = write_description(Path(directory))
+            self.body: int = client.loadURDF(str(path), useFixedBase=True)
+        self._joints: dict[str, int] = {}
+        self.links: dict[str, int] = {"map": -1}
+        self.parents: dict[str, str] = {}
+        self._force: dict[str, float] = {}
+        self._speed: dict[str, float] = {}
+        for index in range(client.getNumJoints(self.body)):
+            info = client.getJointInfo(self.body, index)
+            name = info[1].decode()
+            self._joints[name] = index
+            link = info[12].decode()
+            self.links[link] = index
+            carriers = {number: carrier for carrier, number in self.links.items()}
+            self.parents[link] = carriers[info[16]]
+            self._force[name], self._speed[name] = info[10], info[11]
+        self._arm, self._base, self._fingers, self._head = (
+            [self._joints[name] for name in names] for names in (ARM, BASE, FINGERS, HEAD)
+        )
+        self._reset(start)
+
+    def _reset(self, start: tuple[float, float, float]) -> None:
+        """Set up the pose that the world begins with, and hold it."""
+        for joints, positions in ((self._base, start), (self._arm, FOLDED)):
+            for joint, position in zip(joints, positions, strict=True):
+                self._client.resetJointState(self.body, joint, position)
+        self.command_base(np.zeros(3))
+        self.command_arm(FOLDED, np.zeros(len(ARM)))
+        self.command_head(0.0, 0.4)
+        self.open_fingers(0.0)
+
+    # --- encoders ---
+
+    @property
+    def base_pose(self) -> Floats:
+        """(x, y, yaw) of `base_link` in `map`; yaw counts on past pi."""
+        return self._states(self._base)[0]
+
+    @property
+    def base_velocity(self) -> Floats:
+        """(m/s, m/s, rad/s) in `map`."""
+        return self._states(self._base)[1]
+
+    @property
+    def arm_positions(self) -> Floats:
+        """Where the joints of `ARM` are."""
+        return self._states(self._arm)[0]
+
+    @property
+    def arm_speed(self) -> float:
+        """The fastest joint of `ARM` (m/s or rad/s)."""
+        return float(np.abs(self._states(self._arm)[1]).max())
+
+    @property
+    def arm_speed_limits(self) -> Floats:
+        """What the joints of `ARM` can do (m/s, rad/s)."""
+        return np.array([self._speed[name] for name in ARM])
+
+    @property
+    def finger_gap(self) -> float:
+        """Distance between the finger pads (metres)."""
+        return float(self._states(self._fingers)[0].sum())
+
+    @property
+    def fingers_still(self) -> bool:
+        """Whether neither finger moves any more."""
+        return bool(np.abs(self._states(self._fingers)[1]).max() < 2e-3)
+
+    @property
+    def head_positions(self) -> Floats:
+        """(pan, tilt) in radians."""
+        return self._states(self._head)[0]
+
+    def link_pose(self, link: str) -> Pose:
+        """Where a link's frame is in `map`."""
+        state = self._client.getLinkState(self.body, self.links[link], computeForwardKinematics=1)
+        return Pose(tuple(state[4]), tuple(state[5]))
+
+    def link_poses(self) -> dict[str, Pose]:
+        """Where every link's frame is in `map`."""
+        names = list(self.links)[1:]
+        states = self._client.getLinkStates(
+            self.body, [self.links[name] for name in names], computeForwardKinematics=1
+        )
+        poses = {n: Pose(tuple(s[4]), tuple(s[5])) for n, s in zip(names, states, strict=True)}
+        return {"map": Pose(), **poses}
+
+    # --- touch ---
+
+    def touched(self) -> set[int]:
+        """The bodies that both fingers touch."""
+        left, right = (
+            {c[2] for c in self._client.getContactPoints(bodyA=self.body, linkIndexA=finger)}
+            for finger in self._fingers
+        )
+        return (left & right) - {self.body}
+
+    # --- motors ---
+
+    def command_base(self, velocity: Floats) -> None:
+        """Drive with this velocity (m/s, m/s, rad/s) in `map`."""
+        self._command(self._base, BASE, p.VELOCITY_CONTROL, targetVelocities=list(velocity))
+
+    def command_arm(self, positions: Floats, velocities: Floats) -> None:
+        """Servo the joints of `ARM` to positions, with the velocities fed forward."""
+        self._command(
+            self._arm,
+            ARM,
+            p.POSITION_CONTROL,
+            targetPositions=list(positions),
+            targetVelocities=list(velocities),
+            positionGains=[0.2] * len(ARM),
+        )
+
+    def command_head(self, pan: float, tilt: float) -> None:
+        """Turn the camera to pan (left) and tilt (down), radians."""
+        for joint, name, position in zip(self._head, HEAD, (pan, tilt), strict=True):
+            self._client.setJointMotorControl2(
+                self.body,
+                joint,
+                p.POSITION_CONTROL,
+                targetPosition=position,
+                force=self._force[name],
+                maxVelocity=self._speed[name],
+            )
+
+    def open_fingers(self, gap: float) -> None:
+        """Move the fingers to this gap between the pads (metres)."""
+        for joint in self._fingers:
+            self._client.setJointMotorControl2(
+                self.body,
+                joint,
+                p.POSITION_CONTROL,
+                targetPosition=gap / 2,
+                force=FINGER_FORCE,
+                maxVelocity=0.1,
+            )
+
+    def squeeze(self) -> None:
+        """Close the fingers until something stops them, and keep pressing."""
+        for joint in self._fingers:
+            self._client.setJointMotorControl2(
+                self.body, joint, p.VELOCITY_CONTROL, targetVelocity=-0.05, force=FINGER_FORCE
+            )
+
+    # --- helpers ---
+
+    def _states(self, joints: list[int]) -> tuple[Floats, Floats]:
+        states = self._client.getJointStates(self.body, joints)
+        return np.array([s[0] for s in states]), np.array([s[1] for s in states])
+
+    def _command(self, joints: list[int], names: tuple[str, ...], mode: int, **how: Any) -> None:
+        forces = [self._force[name] or _ENOUGH for name in names]
+        self._client.setJointMotorControlArray(self.body, joints, mode, forces=forces, **how)

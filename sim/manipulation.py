@@ -1,0 +1,262 @@
+"""Picking things up and putting them down: the recipes.
+
+What the hand does follows from what the camera saw, the known shapes of things and the map of the
+home. What comes of it is up to physics.
+"""
+
+from collections.abc import Callable, Generator, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from executive.types import Detection, Pose
+from sim.arm import SLOW, follow
+from sim.clutter import CELL_M, columns
+from sim.driving import drive
+from sim.grasps import TILTS, Grasp, HandPose, find_grasps
+from sim.hardware import FOLDED, Floats, Hardware
+from sim.home import Furniture, Home
+from sim.kinematics import Kinematics
+from sim.looking import look_at
+from sim.objects import ObjectModel
+from sim.placing import free_spots
+from sim.reaching import Reach, clear_path, plan_reach, standing_poses
+from sim.registration import locate
+from sim.skill import CannotError, Skill, attempt, pause, wait_until
+
+APPROACH_M = (0.12, 0.05)
+"""Lengths of the last straight part of a reach, in order of preference."""
+RISE_M = 0.10
+BACK_OFF_M = 0.24
+"""How far the base retreats before the arm is folded."""
+CREEP_M_S = 0.35
+"""Speed of the base while the arm is out or the furniture near."""
+FEWEST_POINTS = 30
+_GRASPS_TRIED = 8
+_SPOTS_TRIED = 12
+_BEFORE_M = 0.6
+"""Farther than this from where one stands to use a piece of furniture, nothing on it is tried."""
+_CLOSING_S = 2.0
+_SETTLING_S = 0.3
+_DOWN = np.array([0.0, 0.0, -1.0])
+_CARRY_TURNS = (FOLDED[7] + np.pi / 2, FOLDED[7] - np.pi / 2)
+"""Values of the last joint that put the long side of a held thing across the robot (radians)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """What is in the hand: the thing's pose in the hand's frame, and how far the hand opens for it."""
+
+    model: ObjectModel
+    position: Floats
+    rotation: Rotation
+    gap: float
+
+    @staticmethod
+    def taken(model: ObjectModel, pose: Pose, grasp: Grasp) -> "Held":
+        """The thing at `pose` in `map`, taken by this grasp."""
+        to_hand = grasp.hand.rotation.inv()
+        offset = to_hand.apply(np.asarray(pose.position) - grasp.hand.position)
+        return Held(model, offset, to_hand * Rotation.from_quat(pose.orientation), grasp.gap)
+
+    def hand_for(self, pose: Pose) -> HandPose:
+        """Where the hand must be for the thing to be at `pose` in `map`."""
+        rotation = Rotation.from_quat(pose.orientation) * self.rotation.inv()
+        return HandPose(np.asarray(pose.position) - rotation.apply(self.position), rotation)
+
+
+class Manipulator:
+    """The arm's skills."""
+
+    def __init__(
+        self,
+        hardware: Hardware,
+        kinematics: Kinematics,
+        home: Home,
+        models: Mapping[str, ObjectModel],
+        scan: Callable[[], Floats],
+    ) -> None:
+        """Use these parts; `scan` gives the points (n, 3) in `map` that the depth camera sees."""
+        self._hardware = hardware
+        self._kinematics = kinematics
+        self._home = home
+        self._models = models
+        self._scan = scan
+        self._held: Held | None = None
+
+    @property
+    def holding(self) -> bool:
+        """Whether both fingers touch a thing, now."""
+        return bool(self._hardware.touched())
+
+    def pick(self, detection: Detection) -> Skill:
+        """Grasp the detected thing, lift it, and fold the arm.
+
+        Raises:
+            CannotError: if it is unknown, not well seen, out of reach, or slips.
+        """
+        model = self._model_of(detection)
+        points = np.asarray(detection.points, dtype=np.float64)
+        pose = locate(model, points)
+        grasp, base, way = self._choose_grasp(model, pose, points)
+        yield from drive(self._hardware, [(base[0], base[1])], base[2], CREEP_M_S)
+        failure = yield from attempt(self._grasp(model.name, grasp, way))
+        self._held = Held.taken(model, pose, grasp)
+        yield from self.stow()
+        if failure:
+            raise failure
+        if not self.holding:
+            raise CannotError(f"the {model.name} slipped from my fingers")
+
+    def put_down(self, place: str) -> Skill:
+        """Put the held thing on a free spot near the front of a piece of furniture.
+
+        Raises:
+            CannotError: if nothing is held, or there is no free spot within reach.
+        """
+        held = self._held
+        if held is None or not self.holding:
+            raise CannotError("my hand is empty")
+        piece = self._home.furniture_named(place)
+        target, base = yield from self._choose_spot(held, piece)
+        yield from drive(self._hardware, [(base[0], base[1])], base[2], CREEP_M_S)
+        failure = yield from attempt(self._release(held.hand_for(target), held.gap))
+        yield from self.stow()
+        if failure:
+            raise failure
+        self._held = None
+
+    def stow(self) -> Skill:
+        """Bring the arm back over the base: rise, back off, fold."""
+        hardware, arm = self._hardware, self._hardware.arm_positions
+        if np.abs(arm - FOLDED)[:7].max() < 0.05:
+            return
+        base = hardware.base_pose
+        rise = self._kinematics.line(base, arm, self._kinematics.hand(base, arm).shifted(-RISE_M * _DOWN))
+        if rise and not self._kinematics.path_obstacle(base, rise[1:]):
+            yield from follow(hardware, rise[1:], SLOW)
+        back = base[:2] - BACK_OFF_M * np.array([np.cos(base[2]), np.sin(base[2])])
+        yield from drive(hardware, [(back[0], back[1])], base[2], CREEP_M_S)
+        arm = hardware.arm_positions
+        folded = FOLDED.copy()
+        folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
+        path = clear_path(self._kinematics, hardware.base_pose, arm, folded)
+        yield from follow(hardware, path or [folded])
+
+    # --- steps of a pick ---
+
+    def _model_of(self, detection: Detection) -> ObjectModel:
+        name = detection.label
+        if self.holding:
+            raise CannotError("my hand already holds a thing")
+        if name not in self._models:
+            raise CannotError(f"I do not know how to grasp the {name}")
+        if len(detection.points) < FEWEST_POINTS:
+            raise CannotError(f"I could not see the {name} well enough")
+        return self._models[name]
+
+    def _choose_grasp(
+        self, model: ObjectModel, pose: Pose, points: Floats
+    ) -> tuple[Grasp, Floats, Floats]:
+        """A grasp, where to stand for it, and the last straight way to it."""
+        piece = self._furniture_at(pose)
+        if piece is None:
+            raise CannotError(f"the {model.name} is out of reach")
+        self._mind_clutter(piece, points)
+        bases = list(self._free_bases(piece, np.asarray(pose.position)))
+        for tilt in TILTS:
+            grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:_GRASPS_TRIED]
+            for base in bases:
+                for grasp in grasps:
+                    for length in APPROACH_M:
+                        way = length * grasp.hand.approach
+                        if plan_reach(self._kinematics, base, FOLDED, grasp.hand, way):
+                            return grasp, base, way
+        raise CannotError(f"I cannot reach the {model.name}")
+
+    def _grasp(self, name: str, grasp: Grasp, way: Floats) -> Skill:
+        hardware = self._hardware
+        reach = self._reach(grasp.hand, way, f"I cannot reach the {name}")
+        hardware.open_fingers(grasp.gap)
+        yield from follow(hardware, reach.path)
+        yield from follow(hardware, reach.last, SLOW)
+        hardware.squeeze()
+        yield from pause(_SETTLING_S)
+        yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
+        if not self.holding:
+            hardware.open_fingers(grasp.gap)
+            yield from follow(hardware, reach.way_back, SLOW)
+            raise CannotError(f"I could not get hold of the {name}")
+
+    # --- steps of putting down ---
+
+    def _choose_spot(
+        self, held: Held, piece: Furniture
+    ) -> Generator[None, None, tuple[Pose, Floats]]:
+        """Look at the furniture, then choose where to put the thing and where to stand for it."""
+        yield from look_at(self._hardware, self._home.view_targets(piece.name)[0])
+        way = APPROACH_M[0] * _DOWN
+        carrying = self._hardware.arm_positions
+        self._mind_clutter(piece, np.empty((0, 3)))
+        spots = list(free_spots(piece, held.model, self._scan()))
+        for spot in spots[:_SPOTS_TRIED]:
+            for base in self._free_bases(piece, np.asarray(spot.position)):
+                if plan_reach(self._kinematics, base, carrying, held.hand_for(spot), way):
+                    return spot, base
+        clause = "I cannot reach a free spot on" if spots else "there is no free spot on"
+        raise CannotError(f"{clause} the {piece.name}")
+
+    def _release(self, hand: HandPose, gap: float) -> Skill:
+        hardware = self._hardware
+        reach = self._reach(hand, APPROACH_M[0] * _DOWN, "I cannot reach a free spot")
+        yield from follow(hardware, reach.path)
+        yield from follow(hardware, reach.last, SLOW)
+        hardware.open_fingers(gap)
+        yield from wait_until(lambda: not self.holding, _CLOSING_S)
+        yield from pause(_SETTLING_S)
+        yield from follow(hardware, reach.way_back, SLOW)
+
+    # --- helpers ---
+
+    def _reach(self, hand: HandPose, way: Floats, otherwise: str) -> Reach:
+        """The motion to a hand pose from where the robot stands now."""
+        hardware = self._hardware
+        reach = plan_reach(
+            self._kinematics, hardware.base_pose, hardware.arm_positions, hand, way
+        )
+        if reach is None:
+            raise CannotError(otherwise)
+        return reach
+
+    def _mind_clutter(self, piece: Furniture, target: Floats) -> None:
+        """Plan around what stands on the furniture; the points (n, 3) are those of the target."""
+        target_columns, others = [], []
+        for column in columns(piece, self._scan()):
+            off = np.abs(target[:, :2] - (column.x, column.y)).max(axis=1)
+            (target_columns if (off < CELL_M).any() else others).append(column)
+        self._kinematics.assume_clutter(target_columns, others)
+
+    def _free_bases(self, piece: Furniture, target: Floats) -> Iterator[Floats]:
+        return (
+            base
+            for base in standing_poses(piece, target)
+            if self._kinematics.base_obstacle(base) is None
+        )
+
+    def _furniture_at(self, pose: Pose) -> Furniture | None:
+        """The piece of furniture that something stands on, if the robot stands before it."""
+        x, y, _ = self._hardware.base_pose
+        for piece in (*self._home.furniture, self._home.delivery):
+            stand = self._home.stand(piece.name)
+            if np.hypot(stand[0] - x, stand[1] - y) < _BEFORE_M and _is_over(piece, pose):
+                return piece
+        return None
+
+
+def _is_over(piece: Furniture, pose: Pose) -> bool:
+    """Whether a pose in `map` is within the outline of the furniture."""
+    x, y, yaw = piece.pose
+    ahead, left = pose.position[0] - x, pose.position[1] - y
+    local = (np.cos(yaw) * ahead + np.sin(yaw) * left, np.cos(yaw) * left - np.sin(yaw) * ahead)
+    return bool(abs(local[0]) < piece.size[0] / 2 and abs(local[1]) < piece.size[1] / 2)

@@ -1,0 +1,94 @@
+"""The robot's description: the base of `assets/mobile_base.urdf` with a Franka Panda on its lift.
+
+The Panda comes from pybullet_data. Its collision meshes are drawn too: they have a fiftieth of the
+triangles, and the simulator's renderer pays for each.
+"""
+
+from importlib.resources import files
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pybullet_data
+from scipy.spatial.transform import Rotation
+
+from executive.records import Entity, Shape
+from executive.types import Color, Pose, Vector3
+
+_WHITE: Color = (0.92, 0.92, 0.90, 1.0)
+
+
+def describe_robot() -> ElementTree.Element:
+    """The whole robot as a URDF tree whose mesh files are absolute paths."""
+    robot = ElementTree.fromstring(files("sim").joinpath("assets/mobile_base.urdf").read_text())
+    robot.extend(_panda())
+    mount = ElementTree.SubElement(robot, "joint", name="arm_mount", type="fixed")
+    ElementTree.SubElement(mount, "parent", link="carriage")
+    ElementTree.SubElement(mount, "child", link="panda_link0")
+    return robot
+
+
+def write_description(directory: Path) -> Path:
+    """Write the robot as `robot.urdf` into the directory, for simulators that load files."""
+    path = directory / "robot.urdf"
+    ElementTree.ElementTree(describe_robot()).write(path)
+    return path
+
+
+def robot_entities(robot: ElementTree.Element) -> tuple[Entity, ...]:
+    """What there is to draw of each link, in the link's frame."""
+    colors = {m.get("name"): _color(m) for m in robot.findall("material")}
+    entities = []
+    for link in robot.findall("link"):
+        shapes = tuple(_shape(visual, colors) for visual in link.findall("visual"))
+        if shapes:
+            name = str(link.get("name"))
+            entities.append(Entity(name, name, shapes))
+    return tuple(entities)
+
+
+def _panda() -> ElementTree.Element:
+    folder = Path(pybullet_data.getDataPath()) / "franka_panda"
+    panda = ElementTree.parse(folder / "panda.urdf").getroot()
+    for mesh in panda.iter("mesh"):
+        name = str(mesh.get("filename")).rsplit("/", 1)[-1]
+        mesh.set("filename", str(folder / "meshes" / "collision" / name))
+    for visual in panda.iter("visual"):
+        for material in visual.findall("material"):
+            visual.remove(material)
+    return panda
+
+
+def _shape(visual: ElementTree.Element, colors: dict[str | None, Color]) -> Shape:
+    material = visual.find("material")
+    color = _WHITE if material is None else colors[material.get("name")]
+    pose = _pose(visual.find("origin"))
+    geometry = visual.find("geometry/*")
+    assert geometry is not None
+    match geometry.tag:
+        case "box":
+            return Shape("box", _vector(geometry.get("size")), color, pose)
+        case "cylinder":
+            diameter = 2 * float(geometry.get("radius", 0))
+            size = (diameter, diameter, float(geometry.get("length", 0)))
+            return Shape("cylinder", size, color, pose)
+        case _:
+            return Shape("mesh", (1.0, 1.0, 1.0), color, pose, mesh=geometry.get("filename", ""))
+
+
+def _pose(origin: ElementTree.Element | None) -> Pose:
+    if origin is None:
+        return Pose()
+    x, y, z, w = Rotation.from_euler("xyz", _vector(origin.get("rpy"))).as_quat()
+    return Pose(_vector(origin.get("xyz")), (float(x), float(y), float(z), float(w)))
+
+
+def _vector(text: str | None) -> Vector3:
+    x, y, z = (float(v) for v in (text or "0 0 0").split())
+    return x, y, z
+
+
+def _color(material: ElementTree.Element) -> Color:
+    rgba = material.find("color")
+    assert rgba is not None
+    red, green, blue, opacity = (float(v) for v in str(rgba.get("rgba")).split())
+    return red, green, blue, opacity

@@ -1,0 +1,73 @@
+"""Finding a free spot on a piece of furniture for a thing that is in the hand."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from executive.types import Pose
+from sim.clutter import rising_points
+from sim.furniture import Surface
+from sim.hardware import Floats
+from sim.home import Furniture
+from sim.objects import ObjectModel
+
+RIM_M = 0.13
+"""From the front edge of a surface to the middle of what is put there, for the reach of an arm."""
+MARGIN_M = 0.02
+"""From the outline of a thing to the edge of its surface."""
+CLEAR_M = 0.06
+"""Around the outline of a thing, for the fingers."""
+HEADROOM_M = 0.05
+_STEP_M = 0.04
+_FEW_POINTS = 3
+_TURNS = (0.0, np.pi, np.pi / 2, -np.pi / 2)
+
+
+def free_spots(piece: Furniture, model: ObjectModel, seen: Floats) -> Iterator[Pose]:
+    """Poses in `map` where the thing can stand, the handiest first.
+
+    Args:
+        piece: the furniture, as the map knows it.
+        model: what is to be put down.
+        seen: points (n, 3) in `map` that the depth camera sees now; what rises above the surface
+            is in the way.
+    """
+    for surface in piece.surfaces():
+        if model.size[2] + HEADROOM_M > surface.clearance:
+            continue
+        rising = rising_points(piece, surface, seen)[:, :2]
+        for turn in _TURNS:
+            lower, upper = _outline(model, turn)
+            x = surface.length_x / 2 - max(RIM_M, upper[0] + MARGIN_M)
+            for y in _from_middle(surface, lower[1], upper[1]):
+                low, high = lower - CLEAR_M + (x, y), upper + CLEAR_M + (x, y)
+                inside = ((rising > low) & (rising < high)).all(axis=1)
+                if inside.sum() < _FEW_POINTS:
+                    spot = (surface.center[0] + x, surface.center[1] + y, surface.center[2])
+                    yield _pose(piece, spot, turn)
+
+
+def _outline(model: ObjectModel, turn: float) -> tuple[Floats, Floats]:
+    """Lower and upper corner of the turned thing's outline (metres)."""
+    corners = np.array([(x, y) for x in _ends(model, 0) for y in _ends(model, 1)])
+    cos, sin = np.cos(turn), np.sin(turn)
+    turned = corners @ np.array([[cos, sin], [-sin, cos]])
+    return turned.min(axis=0), turned.max(axis=0)
+
+
+def _ends(model: ObjectModel, axis: int) -> tuple[float, float]:
+    return model.lower[axis], model.upper[axis]
+
+
+def _from_middle(surface: Surface, lower: float, upper: float) -> Iterator[float]:
+    """Places along the front where an outline fits, from the middle to both sides."""
+    half = surface.length_y / 2 - MARGIN_M
+    for step in range(int(half / _STEP_M) + 1):
+        for y in {step * _STEP_M, -step * _STEP_M}:
+            if y + lower > -half and y + upper < half:
+                yield y
+
+
+def _pose(piece: Furniture, point: tuple[float, float, float], turn: float) -> Pose:
+    yaw = piece.pose[2] + turn
+    return Pose(piece.to_map(point), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))

@@ -1,0 +1,90 @@
+"""Choosing where to stand and how to move so that the hand comes to where it should close or open."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from sim.grasps import HandPose
+from sim.hardware import Floats
+from sim.home import Furniture
+from sim.kinematics import COMFORT, Kinematics
+
+NEAREST_M = 0.40
+"""From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
+OVER_M = 0.15
+"""How much higher the lift goes to bring the arm in from above."""
+ASIDE_M = (0.0, 0.15, -0.15, 0.3, -0.3)
+"""Where to stand, left of the thing, in order of preference."""
+_HALF_TURN = Rotation.from_euler("z", np.pi)
+"""The two fingers are alike."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """A way for the hand to a pose: `path` from above or before it, then straight along `last`."""
+
+    hand: HandPose
+    path: list[Floats]
+    last: list[Floats]
+
+    @property
+    def way_back(self) -> list[Floats]:
+        """The last part in reverse."""
+        return [*reversed(self.last[:-1]), self.path[-1]]
+
+
+def standing_poses(piece: Furniture, target: Floats) -> Iterator[Floats]:
+    """Poses (x, y, yaw) of the base from which a point on the furniture may be reached."""
+    x, y, yaw = piece.pose
+    out, left = np.array([np.cos(yaw), np.sin(yaw)]), np.array([-np.sin(yaw), np.cos(yaw)])
+    along = float((target[:2] - (x, y)) @ left)
+    for aside in ASIDE_M:
+        spot = np.array([x, y]) + (piece.size[0] / 2 + NEAREST_M) * out + (along + aside) * left
+        yield np.append(spot, yaw + np.pi)
+
+
+def plan_reach(
+    kinematics: Kinematics, base: Floats, start: Floats, hand: HandPose, way: Floats
+) -> Reach | None:
+    """A collision-free motion to a hand pose, its last part straight along `way`.
+
+    Args:
+        kinematics: the map.
+        base: where the base stands (x, y, yaw).
+        start: joints of `ARM` to start from.
+        hand: where the hand shall be; the fingers may be swapped.
+        way: the last straight part, from its start to the hand pose (metres, in `map`).
+    """
+    for target in (hand, HandPose(hand.position, hand.rotation * _HALF_TURN)):
+        near = COMFORT.copy()
+        end = kinematics.solve(base, target, near)
+        if end is None or kinematics.obstacle(base, end, 0.0, reaching=True):
+            continue
+        before = kinematics.solve(base, target.shifted(-way), end)
+        if before is None:
+            continue
+        last = kinematics.line(base, before, target)
+        if last is None or any(
+            kinematics.obstacle(base, joints, 0.0, reaching=True) for joints in last
+        ):
+            continue
+        path = clear_path(kinematics, base, start, before)
+        if path is not None:
+            return Reach(target, path, last[1:])
+    return None
+
+
+def clear_path(
+    kinematics: Kinematics, base: Floats, start: Floats, end: Floats
+) -> list[Floats] | None:
+    """Joints to pass to get from start to end without touching anything, or None."""
+    top = min(max(start[0], end[0]) + OVER_M, kinematics.highest_lift)
+    from_above = [np.append(top, start[1:]), np.append(top, end[1:])]
+    level = np.append(max(start[0], end[0]), start[1:])
+    for between in ([], [level], from_above):
+        path = [*between, end]
+        if not kinematics.path_obstacle(base, [start, *path]):
+            return path
+    return None

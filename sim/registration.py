@@ -1,0 +1,43 @@
+"""Finding where a known thing stands from the part of its surface that the camera saw."""
+
+import numpy as np
+from scipy.optimize import OptimizeResult, least_squares
+from scipy.spatial.transform import Rotation
+
+from executive.types import Pose
+from sim.objects import ObjectModel
+from sim.solids import Floats, signed_distance
+
+_POINTS = 250
+_YAW_STARTS = 12
+_NOISE_M = 0.003
+"""Points farther than this from the model count less and less (soft L1 loss)."""
+
+
+def locate(model: ObjectModel, points: Floats) -> Pose:
+    """The pose in `map` of an upright thing that fits its visible points (n, 3) best.
+
+    Fits x, y, z and yaw so that the points lie on the model's surface. The yaw of a thing that looks
+    the same from several sides is one of several.
+    """
+    few = np.asarray(points[:: max(1, len(points) // _POINTS)], dtype=np.float64)
+    middle = np.append((few.min(axis=0) + few.max(axis=0))[:2] / 2, few[:, 2].max() - model.size[2])
+    starts = [np.append(middle, 2 * np.pi * i / _YAW_STARTS) for i in range(_YAW_STARTS)]
+    coarse = min((_fit(model, few[::3], start, 8) for start in starts), key=lambda fit: fit.cost)
+    x, y, z, yaw = (float(v) for v in _fit(model, few, coarse.x, 50).x)
+    return Pose((x, y, z), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
+
+
+def _fit(model: ObjectModel, points: Floats, start: Floats, evaluations: int) -> OptimizeResult:
+    def distances(guess: Floats) -> Floats:
+        turn = Rotation.from_euler("z", guess[3]).as_matrix()
+        return signed_distance(model.shapes, (points - guess[:3]) @ turn)
+
+    return least_squares(
+        distances,
+        start,
+        loss="soft_l1",
+        f_scale=_NOISE_M,
+        max_nfev=evaluations,
+        x_scale=(0.01, 0.01, 0.01, 0.2),
+    )

@@ -1,0 +1,188 @@
+"""The home, its things and the robot in PyBullet: advances physics and writes down what moves."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from executive.events import Inbox
+from executive.interfaces import Recorder
+from executive.records import Picture, Scene, Transforms
+from executive.types import Pose
+from sim.bodies import build_home, frame_pose, home_entities, place_objects
+from sim.camera import SimulatedCamera, SimulatedDetector, render
+from sim.client import connect
+from sim.hardware import Floats, Hardware
+from sim.home import Home
+from sim.kinematics import Kinematics
+from sim.manipulation import Manipulator
+from sim.model import describe_robot, robot_entities
+from sim.objects import ObjectModel
+from sim.robot import SimulatedRobot
+from sim.skill import CONTROL_S
+from sim.transforms import FrameTree
+
+STEP_S = 1 / 240
+"""Physics step: with longer ones, what the fingers hold creeps."""
+STEPS_PER_CONTROL = round(CONTROL_S / STEP_S)
+TRANSFORMS_EVERY = 24
+"""Steps between records of what moved: ten a second."""
+RESTING_M_S = 0.01
+"""A thing slower than this is at rest."""
+SETTLING_STEPS = 240
+"""The longest that the world goes on after the robot is done, for what it let go of."""
+_SHIFT_M, _TURN = 0.015, 0.2
+"""How far the seed moves things from their spots (metres, radians)."""
+
+
+class PhysicsWorld:
+    """Implements SimulatedHome; owns the simulator, the robot and its senses."""
+
+    def __init__(
+        self,
+        home: Home,
+        models: Mapping[str, ObjectModel],
+        inbox: Inbox,
+        recorder: Recorder,
+        seed: int = 0,
+        gui: bool = False,
+        camera_hz: float = 2.0,
+    ) -> None:
+        """Build the home with the robot in it.
+
+        Args:
+            home: what is where.
+            models: the things that may be in it.
+            inbox: where the ends of the robot's goals go.
+            recorder: where movements and pictures go.
+            seed: moves and turns things a little from where the home has them; 0 does not.
+            gui: show PyBullet's window.
+            camera_hz: pictures for the log per second while something moves; 0 for none.
+        """
+        self._home = home
+        self._models = models
+        self._recorder = recorder
+        self._client = connect(gui)
+        self._client.setPhysicsEngineParameter(fixedTimeStep=STEP_S, deterministicOverlappingPairs=1)
+        self._fixtures = build_home(self._client, home)
+        self._things = place_objects(self._client, home, models)
+        self._disturb(seed)
+        self._hardware = Hardware(self._client, home.robot_start)
+        self._kinematics = Kinematics(home)
+        self.camera = SimulatedCamera(self._client, inbox, recorder, self._camera_pose)
+        self.detector = SimulatedDetector(self.camera, self._things)
+        manipulator = Manipulator(self._hardware, self._kinematics, home, models, self._scan)
+        self.robot = SimulatedRobot(self._hardware, manipulator, home, inbox, recorder)
+        self._steps = 0
+        self._owed = 0.0
+        self._last_act = 0
+        self._frames = FrameTree(self._client, self._hardware, self._things)
+        self._picture_every = round(1 / camera_hz / STEP_S) if camera_hz else 0
+
+
+    # --- SimulatedHome ---
+
+    @property
+    def busy(self) -> bool:
+        """Whether the robot acts or something is still settling."""
+        if self.robot.active:
+            return True
+        return self._steps - self._last_act < SETTLING_STEPS and self._unsettled()
+
+    def advance(self, at_most: float) -> float:
+        """Let at most one control period pass."""
+        passed = min(at_most, CONTROL_S)
+        self._owed += passed
+        while self._owed > STEP_S - 1e-9:
+            self._owed -= STEP_S
+            self._step()
+        return passed
+
+    def close(self) -> None:
+        """Free the simulator."""
+        self._kinematics.close()
+        self._client.disconnect()
+
+    def describe(self) -> None:
+        """Record the whole scene and where everything is."""
+        entities = (*home_entities(self._home, self._models), *robot_entities(describe_robot()))
+        self._recorder.record(Scene(entities))
+        self._recorder.record(Transforms(self._frames.all()))
+
+    def resting_place(self, name: str) -> str | None:
+        """The furniture that an object rests on, by the simulator's truth; None if on none."""
+        body = self._body(name)
+        if body is None:
+            return None
+        touching = {contact[2] for contact in self._client.getContactPoints(bodyA=body)}
+        if self._hardware.body in touching:
+            return None
+        names = [self._fixtures[other] for other in touching if other in self._fixtures]
+        pieces = {piece.name for piece in (*self._home.furniture, self._home.delivery)}
+        return next((found for found in names if found in pieces), None)
+
+    def truth(self, name: str) -> Pose:
+        """Where an object is in `map`, by the simulator's truth: for tests, never for the robot."""
+        body = self._body(name)
+        assert body is not None
+        return frame_pose(self._client, body)
+
+    # --- physics ---
+
+    def _step(self) -> None:
+        if self._steps % STEPS_PER_CONTROL == 0:
+            if self.robot.active:
+                self._last_act = self._steps
+            self.robot.control()
+        self._client.stepSimulation()
+        self._steps += 1
+        if self._steps % TRANSFORMS_EVERY == 0:
+            self._write_moved()
+        if self._picture_every and self._steps % self._picture_every == 0:
+            self.camera.stream_frame()
+
+    def _write_moved(self) -> None:
+        moved = self._frames.moved()
+        if moved:
+            self._recorder.record(Transforms(moved))
+
+    def _unsettled(self) -> bool:
+        velocities = [self._client.getBaseVelocity(body)[0] for body in self._things]
+        return bool(np.abs(velocities).max(initial=0.0) > RESTING_M_S)
+
+    # --- senses ---
+
+    def _camera_pose(self) -> Pose:
+        return self._hardware.link_pose("camera_optical")
+
+    def _scan(self) -> Floats:
+        """Points in `map` (n, 3) that the depth camera sees now."""
+        pose, lens = self._camera_pose(), self.camera.intrinsics
+        depth = render(self._client, pose, lens).depth.astype(np.float64)
+        rows, columns = np.nonzero(np.isfinite(depth))
+        far = depth[rows, columns]
+        ahead = np.column_stack(
+            ((columns - lens.cx) / lens.fx * far, (rows - lens.cy) / lens.fy * far, far)
+        )
+        return Rotation.from_quat(pose.orientation).apply(ahead) + pose.position
+
+    # --- helpers ---
+
+    def _disturb(self, seed: int) -> None:
+        """Move and turn the things a little, once, before anything begins."""
+        if seed == 0:
+            return
+        chance = np.random.default_rng(seed)
+        for body in self._things:
+            origin = np.asarray(frame_pose(self._client, body).position)
+            position, orientation = self._client.getBasePositionAndOrientation(body)
+            turn = Rotation.from_euler("z", chance.uniform(-_TURN, _TURN))
+            shift = np.append(chance.uniform(-_SHIFT_M, _SHIFT_M, 2), 0.0)
+            self._client.resetBasePositionAndOrientation(
+                body,
+                origin + shift + turn.apply(np.asarray(position) - origin),
+                (turn * Rotation.from_quat(orientation)).as_quat(),
+            )
+
+    def _body(self, name: str) -> int | None:
+        return next((body for body, thing in self._things.items() if thing == name), None)
