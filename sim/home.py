@@ -161,11 +161,13 @@ def load_home(name_or_path: str) -> Home:
     """
     text, where = _read(name_or_path)
     try:
-        home = Home.model_validate({"name": Path(where).stem, **tomllib.loads(text)})
+        data = {"name": Path(where).stem, **tomllib.loads(text)}
     except tomllib.TOMLDecodeError as error:
         raise InputError(where, f"this is not TOML: {error}") from None
+    try:
+        home = Home.model_validate(data)
     except ValidationError as error:
-        raise _input_error(where, error) from None
+        raise _input_error(where, data, error) from None
     for check in (_check_rooms, _check_furniture, _check_overlaps, _check_objects):
         check(home, where)
     return home
@@ -193,15 +195,28 @@ def _read(name_or_path: str) -> tuple[str, str]:
         raise InputError(name_or_path, f"cannot read this home: {why}", known) from None
 
 
-def _input_error(where: str, error: ValidationError) -> InputError:
+def _input_error(where: str, data: Any, error: ValidationError) -> InputError:
     """The first of pydantic's complaints, with the key as the file has it."""
     first = error.errors()[0]
-    key = ".".join(str(part) for part in first["loc"])
+    key = _key(data, first["loc"])
     if first["type"] == "extra_forbidden":
         return InputError(where, f"there is no key {key}", "see sim/homes/four_rooms.toml")
     if first["type"] == "missing":
         return InputError(where, f"{key} is missing", "see sim/homes/four_rooms.toml")
     return InputError(where, f"{key} is {first['input']!r}", first["msg"].lower())
+
+
+def _key(data: Any, path: tuple[str | int, ...]) -> str:
+    """A path into the file as a person would put it: `furniture.desk.size.0`."""
+    words = []
+    for part in path:
+        try:
+            data = data[part]
+        except (KeyError, IndexError, TypeError):
+            data = None
+        name = data.get("name") if isinstance(part, int) and isinstance(data, dict) else None
+        words.append(str(part if name is None else name))
+    return ".".join(words)
 
 
 def _check_rooms(home: Home, where: str) -> None:

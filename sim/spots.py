@@ -112,7 +112,8 @@ def arrange(
                 standing[name] = place
                 break
         else:
-            raise NoRoomError(name, f"no spot is left for it on {spot.furniture}")
+            where = "no spot is left for it" if spot.at is None else f"it does not fit at {spot.at}"
+            raise NoRoomError(name, f"{where} on {spot.furniture}")
     return standing
 
 

@@ -1,0 +1,79 @@
+"""`python -m sim view [HOME]`: a picture of a home, seen from above."""
+
+import argparse
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from executive.errors import ExecutiveError
+from executive.types import Intrinsics, Pose
+from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
+from sim.camera import render
+from sim.client import connect
+from sim.home import Home, load_home
+from sim.objects import load_objects
+
+WIDTH, HEIGHT = 1280, 1080
+DISTANCE_M = 40.0
+"""From the home to the eye: so far that lines are nearly parallel."""
+STEEPNESS = np.radians(62.0)
+MARGIN = 1.08
+"""How much more than the home the picture shows."""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command; returns its exit status (0 done, 2 bad input)."""
+    parser = argparse.ArgumentParser(prog="python -m sim", description=__doc__)
+    commands = parser.add_subparsers(required=True, metavar="command")
+    view = commands.add_parser("view", help="draw a home from above into a PNG file")
+    view.add_argument("home", nargs="?", default="four_rooms", help="name or FILE.toml")
+    view.add_argument("--out", type=Path, help="the picture; default HOME.png")
+    options = parser.parse_args(arguments)
+    try:
+        home = load_home(options.home)
+    except ExecutiveError as error:
+        print(error, file=sys.stderr)
+        return 2
+    out = options.out or Path(f"{home.name}.png")
+    out.write_bytes(png(draw(home)))
+    print(out)
+    return 0
+
+
+def draw(home: Home) -> NDArray[np.uint8]:
+    """The home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
+    edges = np.array([room.rectangle for room in home.rooms])
+    lower, upper = edges[:, :2].min(axis=0), edges[:, 2:].max(axis=0)
+    focal = DISTANCE_M * WIDTH / (float(upper[0] - lower[0]) * MARGIN)
+    intrinsics = Intrinsics(WIDTH, HEIGHT, focal, focal, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
+    turn = Rotation.from_euler("x", -np.pi / 2 - STEEPNESS)
+    middle = np.array([*(lower + upper) / 2, 0.0])
+    eye = middle - DISTANCE_M * turn.as_matrix()[:, 2]
+    pose = Pose(tuple(eye.tolist()), tuple(turn.as_quat().tolist()))
+    client = connect()
+    build_home(client, home.model_copy(update={"wall_height": VIEWED_WALL_HEIGHT_M}))
+    place_objects(client, home, load_objects())
+    color = render(client, pose, intrinsics, far=2 * DISTANCE_M).color
+    client.disconnect()
+    return color
+
+
+def png(color: NDArray[np.uint8]) -> bytes:
+    """An RGB picture (height, width, 3) as a PNG file (ISO/IEC 15948)."""
+    height, width, _ = color.shape
+    rows = np.concatenate((np.zeros((height, 1), np.uint8), color.reshape(height, -1)), axis=1)
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes())), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        for kind, body in chunks
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

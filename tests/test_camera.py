@@ -1,0 +1,160 @@
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from executive.events import Ended, Inbox
+from executive.records import Picture, Record
+from executive.types import Captured, Pose, Vector3
+from sim.bodies import build_home, frame_pose, place_objects
+from sim.camera import SimulatedCamera, SimulatedDetector, pinhole, render
+from sim.client import connect
+from sim.home import load_home
+from sim.objects import load_objects
+
+pytestmark = pytest.mark.physics
+
+HOME = load_home("four_rooms")
+EYE_HEIGHT_M = 1.35
+PLACES = [place.name for place in HOME.places()]
+
+
+class Album:
+    """A Recorder that keeps pictures."""
+
+    def __init__(self) -> None:
+        self.numbers: list[int] = []
+
+    def record(self, record: Record) -> None:
+        assert isinstance(record, Picture)
+        self.numbers.append(record.frame.number)
+
+
+class Scene:
+    def __init__(self) -> None:
+        self.client: Any = connect()
+        build_home(self.client, HOME)
+        self.names = place_objects(self.client, HOME, load_objects())
+
+
+@pytest.fixture(scope="module")
+def scene() -> Iterator[Scene]:
+    scene = Scene()
+    yield scene
+    scene.client.disconnect()
+
+
+def view(place: str, target: Vector3) -> Pose:
+    """A camera over the middle of the robot that stands before a place."""
+    eye = np.array([*HOME.stand(place)[:2], EYE_HEIGHT_M])
+    forward = (np.asarray(target) - eye) / np.linalg.norm(np.asarray(target) - eye)
+    right = np.cross(forward, (0, 0, 1))
+    right /= np.linalg.norm(right)
+    axes = np.column_stack((right, np.cross(forward, right), forward))
+    return Pose(tuple(eye.tolist()), tuple(Rotation.from_matrix(axes).as_quat().tolist()))
+
+
+def camera_at(scene: Scene, pose: Pose) -> tuple[SimulatedCamera, Inbox, Album]:
+    inbox, album = Inbox(), Album()
+    return SimulatedCamera(scene.client, inbox, album, lambda: pose), inbox, album
+
+
+def rays(pose: Pose, rows: NDArray[Any], columns: NDArray[Any]) -> NDArray[np.float64]:
+    """Directions in `map` through pixels, one metre along the optical axis."""
+    lens = pinhole()
+    x, y = (columns - lens.cx) / lens.fx, (rows - lens.cy) / lens.fy
+    return Rotation.from_quat(pose.orientation).apply(np.column_stack((x, y, np.ones_like(x))))
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_every_object_is_visible_from_a_view_of_its_furniture(scene: Scene, place: str):
+    expected = {name for name, where in HOME.placement.items() if where == place}
+    found = set()
+    for target in HOME.view_targets(place):
+        camera, _, _ = camera_at(scene, view(place, target))
+        detector = SimulatedDetector(camera, scene.names, minimum_pixels=40)
+        found |= {detection.label for detection in detector.detect(camera.stream_frame())}
+    assert expected <= found
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_the_front_of_every_surface_is_in_sight_of_its_view(scene: Scene, place: str):
+    piece = HOME.furniture_named(place)
+    for surface, target in zip(piece.surfaces(), HOME.view_targets(place), strict=True):
+        eye = view(place, target).position
+        x, _, z = surface.center
+        spot = piece.to_map((x + surface.length_x / 2 - 0.13, 0.0, z + 0.03))
+        [hit] = scene.client.rayTestBatch([eye], [spot])
+        assert hit[0] == -1 or hit[0] in scene.names
+
+
+@pytest.mark.parametrize("place", ["dining_table", "shelf_lobby", "sofa"])
+def test_depth_meets_the_surface_that_a_ray_meets(scene: Scene, place: str):
+    pose = view(place, HOME.view_targets(place)[0])
+    seen = render(scene.client, pose, pinhole())
+    rows, columns = (grid.ravel() for grid in np.mgrid[4:240:12, 4:320:12])
+    reach = 8.0
+    ends = np.asarray(pose.position) + reach * rays(pose, rows, columns)
+    hits = scene.client.rayTestBatch([pose.position] * len(rows), ends.tolist())
+    same = np.array([hit[0] for hit in hits]) == seen.segmentation[rows, columns]
+    true_depth = reach * np.array([hit[2] for hit in hits])
+    assert same.mean() > 0.99
+    assert np.abs(seen.depth[rows, columns] - true_depth)[same].max() < 0.005
+
+
+def test_depth_is_infinite_where_nothing_is(scene: Scene):
+    up = Pose((7.0, 5.6, 1.0))
+    seen = render(scene.client, up, pinhole())
+    assert np.isinf(seen.depth).all()
+    assert (seen.segmentation == -1).all()
+
+
+def test_a_picture_ends_the_request_and_is_recorded(scene: Scene):
+    camera, inbox, album = camera_at(scene, view("desk", HOME.view_targets("desk")[0]))
+    camera.stream_frame()
+    request = camera.capture()
+    [event] = inbox.take_all()
+    assert isinstance(event, Ended)
+    assert event.request == request
+    assert isinstance(event.result, Captured)
+    assert event.result.frame.number == 1
+    assert album.numbers == [0, 1]
+
+
+def test_a_cancelled_picture_is_not_delivered(scene: Scene):
+    camera, inbox, _ = camera_at(scene, view("desk", HOME.view_targets("desk")[0]))
+    camera.cancel(camera.capture())
+    assert inbox.take_all() == ()
+
+
+def test_a_detection_covers_the_pixels_of_its_object_and_their_depth_lies_on_it(scene: Scene):
+    pose = view("dining_table", HOME.view_targets("dining_table")[0])
+    camera, _, _ = camera_at(scene, pose)
+    frame = camera.stream_frame()
+    detections = SimulatedDetector(camera, scene.names).detect(frame)
+    assert detections[0].label == "cracker_box"
+    [apple] = [detection for detection in detections if detection.label == "apple"]
+    rows, columns = np.nonzero(apple.mask)
+    rows, columns = rows + apple.box.top, columns + apple.box.left
+    points = rays(pose, rows, columns) * frame.depth[rows, columns][:, None] + pose.position
+    [body] = [body for body, name in scene.names.items() if name == "apple"]
+    middle = np.asarray(frame_pose(scene.client, body).position) + (0, 0, 0.0375)
+    assert np.abs(np.linalg.norm(points - middle, axis=1) - 0.0375).max() < 0.005
+
+
+def test_things_with_too_few_pixels_are_not_detected(scene: Scene):
+    camera, _, _ = camera_at(scene, view("dining_table", HOME.view_targets("dining_table")[0]))
+    frame = camera.stream_frame()
+    few = SimulatedDetector(camera, scene.names, minimum_pixels=1000).detect(frame)
+    assert [detection.label for detection in few] == ["cracker_box"]
+
+
+def test_things_rest_where_the_home_has_them(scene: Scene):
+    for body, name in scene.names.items():
+        moved = np.subtract(
+            frame_pose(scene.client, body).position, HOME.object_pose(name).position
+        )
+        assert np.linalg.norm(moved) < 0.002, name
