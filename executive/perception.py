@@ -71,11 +71,14 @@ def back_project(
 def rays(
     intrinsics: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.intp]
 ) -> NDArray[np.float64]:
-    """Directions (n, 3) in `camera_optical` through the middle of pixels, with z = 1."""
+    """Directions (n, 3) in `camera_optical` through pixels, with z = 1.
+
+    As in OpenCV and ROS, whole coordinates are the middles of pixels.
+    """
     return np.stack(
         [
-            (columns + 0.5 - intrinsics.cx) / intrinsics.fx,
-            (rows + 0.5 - intrinsics.cy) / intrinsics.fy,
+            (columns - intrinsics.cx) / intrinsics.fx,
+            (rows - intrinsics.cy) / intrinsics.fy,
             np.ones(len(rows)),
         ],
         axis=-1,

@@ -315,13 +315,6 @@ class Failed:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Captured:
-    """The camera took this picture."""
-
-    frame: Frame
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class Saw:
     """The picture with this number, and what was recognised in it, surest first."""
 
@@ -368,4 +361,4 @@ class Verdict:
     dropped: tuple[str, ...] = ()
 
 
-Result = Succeeded | Failed | Captured | Saw | Replied | Scored | Answered
+Result = Succeeded | Failed | Saw | Replied | Scored | Answered

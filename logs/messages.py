@@ -17,7 +17,6 @@ from executive.records import (
 from executive.types import (
     Answered,
     Candidate,
-    Captured,
     ChatRequest,
     Failed,
     Kind,
@@ -26,6 +25,7 @@ from executive.types import (
     RankRequest,
     Replied,
     Result,
+    Saw,
     Scored,
     Source,
     Status,
@@ -243,8 +243,9 @@ def _gist_of_result(result: Result) -> str:
             return reason
         case Answered(text):
             return text
-        case Captured(frame):
-            return f"frame {frame.number}"
+        case Saw(number, detections):
+            labels = ", ".join(detection.label for detection in detections)
+            return f"frame {number}: {labels or 'nothing'}"
         case Replied(request=request) | Scored(request=request):
             return request.label
         case _:

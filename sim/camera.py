@@ -13,10 +13,7 @@ from numpy.typing import NDArray
 from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
-from executive.events import Inbox
-from executive.interfaces import Recorder
-from executive.records import Picture
-from executive.types import Box, Captured, Detection, Frame, Intrinsics, Pose
+from executive.types import Box, Detection, Frame, Intrinsics, Pose
 
 NEAR_M, FAR_M = 0.05, 15.0
 LIGHT_DIRECTION = (-0.4, -0.3, 1.0)
@@ -78,32 +75,18 @@ class SimulatedCamera:
     def __init__(
         self,
         client: BulletClient,
-        inbox: Inbox,
-        recorder: Recorder,
         pose: Callable[[], Pose],
         intrinsics: Intrinsics | None = None,
     ) -> None:
         """Look through the camera whose optical frame in `map` is given by `pose`."""
         self._client = client
-        self._inbox = inbox
-        self._recorder = recorder
         self._pose = pose
         self.intrinsics = intrinsics or pinhole()
         self._segmentations: OrderedDict[int, NDArray[np.int32]] = OrderedDict()
         self._taken = 0
 
-    def capture(self) -> int:
-        """Take a picture; ends Captured."""
-        request = self._inbox.open()
-        self._inbox.end(request, Captured(self.stream_frame()))
-        return request
-
-    def cancel(self, request: int) -> None:
-        """Forget the picture."""
-        self._inbox.drop(request)
-
-    def stream_frame(self) -> Frame:
-        """Take a picture for the log alone, without a request."""
+    def capture(self) -> Frame:
+        """The picture of this moment."""
         pose = self._pose()
         seen = render(self._client, pose, self.intrinsics)
         frame = Frame(self._taken, seen.color, seen.depth, self.intrinsics, pose)
@@ -111,7 +94,6 @@ class SimulatedCamera:
         self._segmentations[frame.number] = seen.segmentation
         if len(self._segmentations) > KEPT_SEGMENTATIONS:
             self._segmentations.popitem(last=False)
-        self._recorder.record(Picture(frame))
         return frame
 
     def segmentation(self, number: int) -> NDArray[np.int32]:

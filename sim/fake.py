@@ -212,7 +212,7 @@ class FakeRobot:
 class FakeCamera:
     """Implements Camera: a grey picture with a coloured square for each thing in view."""
 
-    intrinsics = Intrinsics(width=160, height=120, fx=125.0, fy=125.0, cx=80.0, cy=60.0)
+    intrinsics = Intrinsics(width=160, height=120, fx=125.0, fy=125.0, cx=79.5, cy=59.5)
 
     def __init__(self, world: FakeWorld) -> None:
         """Look from the robot's head."""

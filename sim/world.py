@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 import numpy as np
+import pybullet
 from scipy.spatial.transform import Rotation
 
 from executive.events import Inbox
@@ -67,9 +68,13 @@ class PhysicsWorld:
         self._fixtures = build_home(self._client, home)
         self._things = place_objects(self._client, home, models)
         self._disturb(seed)
+        for body in self._things:
+            self._client.changeDynamics(
+                body, -1, activationState=pybullet.ACTIVATION_STATE_ENABLE_SLEEPING
+            )
         self._hardware = Hardware(self._client, home.robot_start)
         self._kinematics = Kinematics(home)
-        self.camera = SimulatedCamera(self._client, inbox, recorder, self._camera_pose)
+        self.camera = SimulatedCamera(self._client, self._camera_pose)
         self.detector = SimulatedDetector(self.camera, self._things)
         manipulator = Manipulator(self._hardware, self._kinematics, home, models, self._scan)
         self.robot = SimulatedRobot(self._hardware, manipulator, home, inbox, recorder)
@@ -139,7 +144,7 @@ class PhysicsWorld:
         if self._steps % TRANSFORMS_EVERY == 0:
             self._write_moved()
         if self._picture_every and self._steps % self._picture_every == 0:
-            self.camera.stream_frame()
+            self._recorder.record(Picture(self.camera.capture()))
 
     def _write_moved(self) -> None:
         moved = self._frames.moved()

@@ -6,9 +6,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from executive.events import Ended, Inbox
-from executive.records import Picture, Record
-from executive.types import Captured, Pose, Vector3
+from executive.types import Pose, Vector3
 from sim.bodies import build_home, frame_pose, place_objects
 from sim.camera import SimulatedCamera, SimulatedDetector, pinhole, render
 from sim.client import connect
@@ -20,17 +18,6 @@ pytestmark = pytest.mark.physics
 HOME = load_home("four_rooms")
 EYE_HEIGHT_M = 1.35
 PLACES = [place.name for place in HOME.places()]
-
-
-class Album:
-    """A Recorder that keeps pictures."""
-
-    def __init__(self) -> None:
-        self.numbers: list[int] = []
-
-    def record(self, record: Record) -> None:
-        assert isinstance(record, Picture)
-        self.numbers.append(record.frame.number)
 
 
 class Scene:
@@ -57,9 +44,8 @@ def view(place: str, target: Vector3) -> Pose:
     return Pose(tuple(eye.tolist()), tuple(Rotation.from_matrix(axes).as_quat().tolist()))
 
 
-def camera_at(scene: Scene, pose: Pose) -> tuple[SimulatedCamera, Inbox, Album]:
-    inbox, album = Inbox(), Album()
-    return SimulatedCamera(scene.client, inbox, album, lambda: pose), inbox, album
+def camera_at(scene: Scene, pose: Pose) -> SimulatedCamera:
+    return SimulatedCamera(scene.client, lambda: pose)
 
 
 def rays(pose: Pose, rows: NDArray[Any], columns: NDArray[Any]) -> NDArray[np.float64]:
@@ -74,9 +60,9 @@ def test_every_object_is_visible_from_a_view_of_its_furniture(scene: Scene, plac
     expected = {name for name, where in HOME.placement.items() if where == place}
     found = set()
     for target in HOME.view_targets(place):
-        camera, _, _ = camera_at(scene, view(place, target))
+        camera = camera_at(scene, view(place, target))
         detector = SimulatedDetector(camera, scene.names, minimum_pixels=40)
-        found |= {detection.label for detection in detector.detect(camera.stream_frame())}
+        found |= {detection.label for detection in detector.detect(camera.capture())}
     assert expected <= found
 
 
@@ -112,28 +98,15 @@ def test_depth_is_infinite_where_nothing_is(scene: Scene):
     assert (seen.segmentation == -1).all()
 
 
-def test_a_picture_ends_the_request_and_is_recorded(scene: Scene):
-    camera, inbox, album = camera_at(scene, view("desk", HOME.view_targets("desk")[0]))
-    camera.stream_frame()
-    request = camera.capture()
-    [event] = inbox.take_all()
-    assert isinstance(event, Ended)
-    assert event.request == request
-    assert isinstance(event.result, Captured)
-    assert event.result.frame.number == 1
-    assert album.numbers == [0, 1]
-
-
-def test_a_cancelled_picture_is_not_delivered(scene: Scene):
-    camera, inbox, _ = camera_at(scene, view("desk", HOME.view_targets("desk")[0]))
-    camera.cancel(camera.capture())
-    assert inbox.take_all() == ()
+def test_pictures_are_numbered(scene: Scene):
+    camera = camera_at(scene, view("desk", HOME.view_targets("desk")[0]))
+    assert [camera.capture().number for _ in range(3)] == [0, 1, 2]
 
 
 def test_a_detection_covers_the_pixels_of_its_object_and_their_depth_lies_on_it(scene: Scene):
     pose = view("dining_table", HOME.view_targets("dining_table")[0])
-    camera, _, _ = camera_at(scene, pose)
-    frame = camera.stream_frame()
+    camera = camera_at(scene, pose)
+    frame = camera.capture()
     detections = SimulatedDetector(camera, scene.names).detect(frame)
     assert detections[0].label == "cracker_box"
     [apple] = [detection for detection in detections if detection.label == "apple"]
@@ -146,8 +119,8 @@ def test_a_detection_covers_the_pixels_of_its_object_and_their_depth_lies_on_it(
 
 
 def test_things_with_too_few_pixels_are_not_detected(scene: Scene):
-    camera, _, _ = camera_at(scene, view("dining_table", HOME.view_targets("dining_table")[0]))
-    frame = camera.stream_frame()
+    camera = camera_at(scene, view("dining_table", HOME.view_targets("dining_table")[0]))
+    frame = camera.capture()
     few = SimulatedDetector(camera, scene.names, minimum_pixels=1000).detect(frame)
     assert [detection.label for detection in few] == ["cracker_box"]
 

@@ -8,7 +8,7 @@ import pytest
 from executive.perception import back_project, locate, transform
 from executive.types import Box, Detection, Frame, Intrinsics, Pose
 
-INTRINSICS = Intrinsics(width=64, height=48, fx=60.0, fy=60.0, cx=32.0, cy=24.0)
+INTRINSICS = Intrinsics(width=64, height=48, fx=60.0, fy=60.0, cx=31.5, cy=23.5)
 LOOKING_DOWN = Pose((1.0, 2.0, 1.5), (1.0, 0.0, 0.0, 0.0))
 
 

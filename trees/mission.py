@@ -11,6 +11,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.decorators import FailureIsSuccess
 
+from executive.records import Utterance
 from executive.types import Status as MissionStatus
 from trees.act import act
 from trees.nodes import Check, Step, fallback, sequence
@@ -54,6 +55,7 @@ class Understand(Step):
 
     def update(self) -> Status:
         """Read the words; what cannot be read is the person's to say again."""
+        self.team.recorder.record(Utterance("person", self.situation.words))
         command = self.team.interpreter.command(self.situation.words)
         if command is None:
             self.situation.status = MissionStatus.NOT_UNDERSTOOD
