@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, PositiveFloat
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PositiveFloat
 
 from executive.records import Shape
 from executive.types import Color, Pose, Vector3
@@ -99,7 +99,7 @@ class Furniture(BaseModel):
     pose: PoseInDegrees
     size: tuple[PositiveFloat, PositiveFloat, PositiveFloat]
     """Depth, width and height over all (metres)."""
-    boards: tuple[PositiveFloat, ...] = ()
+    boards: Annotated[tuple[PositiveFloat, ...], Field(max_length=8)] = ()
     """Heights of its boards below the top, or of a sofa's seat (metres)."""
     form: Form | None = None
     """How it is built, if not as its kind usually is."""
@@ -229,10 +229,10 @@ def _case(size: Vector3, boards: tuple[float, ...], color: Color) -> Build:
 
 def _fridge(size: Vector3, boards: tuple[float, ...], color: Color) -> Build:
     """Closed below the lowest board, open in front above it; its top is too high to be used."""
-    depth, width, _ = size
+    depth, width, height = size
     carcass = _case(size, boards, color)
-    freezer = boards[-1] - PANEL_M
-    front = box((PANEL_M, width, freezer), (depth / 2 - PANEL_M / 2, 0.0, freezer / 2), color)
+    freezer = min(boards, default=height) - PANEL_M
+    front = box((PANEL_M, width, freezer), ((depth - PANEL_M) / 2, 0.0, freezer / 2), color)
     handle = box((0.02, width * 0.5, 0.02), (depth / 2 + 0.01, 0.0, freezer - 0.06), STEEL)
     return Build((*carcass.shapes, front, handle), carcass.surfaces[1:])
 
@@ -259,23 +259,21 @@ def _sofa(size: Vector3, boards: tuple[float, ...], color: Color) -> Build:
 
 
 def _bed(size: Vector3, boards: tuple[float, ...], color: Color) -> Build:
-    """Lies along y with the pillow at its left end; used from a long side."""
+    """Lies along y with its head to the right; used from a long side."""
     depth, width, height = size
     frame = height * 0.6
     head, pillow = 0.05, 0.45
-    free = width - head - pillow
-    middle = -(head + pillow) / 2
+    right = -width / 2
+    mattress = (depth - 0.04, width - head - 0.02, height - frame)
     parts = (
         box((depth, width, frame), (0.0, 0.0, frame / 2), color),
-        box(
-            (depth - 0.04, width - head - 0.02, height - frame),
-            (0.0, -head / 2, (height + frame) / 2),
-            LINEN,
-        ),
-        box((depth, head, height + 0.4), (0.0, (width - head) / 2, (height + 0.4) / 2), color),
-        box((0.6, 0.38, 0.1), (0.0, width / 2 - head - 0.23, height + 0.05), WHITE),
+        box(mattress, (0.0, head / 2, (height + frame) / 2), LINEN),
+        box((depth, head, height + 0.4), (0.0, right + head / 2, (height + 0.4) / 2), color),
+        box((0.6, 0.38, 0.1), (0.0, right + head + 0.23, height + 0.05), WHITE),
     )
-    return Build(parts, (Surface((0.0, middle, height), depth - 0.04, free, OPEN),))
+    middle = (head + pillow) / 2
+    free = Surface((0.0, middle, height), mattress[0], width - head - pillow, OPEN)
+    return Build(parts, (free,))
 
 
 _BUILDERS: dict[Form, Callable[[Vector3, tuple[float, ...], Color], Build]] = {

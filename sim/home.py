@@ -23,9 +23,11 @@ from pydantic import (
 from executive.errors import InputError
 from executive.types import Place, Pose, Vector3
 from sim.floorplan import Door, Room, Wall, is_on_wall, walls
-from sim.furniture import FORM_OF_KIND, Furniture, PlanarPose, PoseInDegrees
+from sim.furniture import FORM_OF_KIND, Furniture, PlanarPose, PoseInDegrees, Surface
 from sim.objects import load_objects
 from sim.spots import NoRoomError, Spot, Standing, arrange
+
+__all__ = ["DELIVERY", "PERSON", "Furniture", "Home", "PlanarPose", "Surface", "load_home"]
 
 PERSON = "person"
 DELIVERY = "delivery"
@@ -246,6 +248,9 @@ def _check_furniture(home: Home, where: str) -> None:
             raise InputError(where, f"{of}: cannot build kind {piece.kind!r}", known)
         if max(piece.boards, default=0.0) >= piece.size[2]:
             raise InputError(where, f"{of}: a board is above its top", f"below {piece.size[2]} m")
+        lengths = [length for shape in piece.shapes() for length in shape.size]
+        if min(lengths) <= 0:
+            raise InputError(where, f"{of}: too small or too low to be built", "make it larger")
         if not piece.surfaces():
             raise InputError(where, f"{of}: nothing can stand on it", "give its boards")
         if not all(rooms[piece.room].holds(x, y) for x, y in piece.corners()):

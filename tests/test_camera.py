@@ -3,12 +3,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from executive.perception import locate, rays, transform
 from executive.types import Pose, Vector3
 from sim.bodies import build_home, frame_pose, place_objects
-from sim.camera import SimulatedCamera, SimulatedDetector, pinhole, render
+from sim.camera import KEPT_SEGMENTATIONS, SimulatedCamera, SimulatedDetector, pinhole, render
 from sim.client import connect
 from sim.home import load_home
 from sim.objects import load_objects
@@ -48,13 +48,6 @@ def camera_at(scene: Scene, pose: Pose) -> SimulatedCamera:
     return SimulatedCamera(scene.client, lambda: pose)
 
 
-def rays(pose: Pose, rows: NDArray[Any], columns: NDArray[Any]) -> NDArray[np.float64]:
-    """Directions in `map` through pixels, one metre along the optical axis."""
-    lens = pinhole()
-    x, y = (columns - lens.cx) / lens.fx, (rows - lens.cy) / lens.fy
-    return Rotation.from_quat(pose.orientation).apply(np.column_stack((x, y, np.ones_like(x))))
-
-
 @pytest.mark.parametrize("place", PLACES)
 def test_every_object_is_visible_from_a_view_of_its_furniture(scene: Scene, place: str):
     expected = {name for name, where in HOME.placement.items() if where == place}
@@ -83,7 +76,7 @@ def test_depth_meets_the_surface_that_a_ray_meets(scene: Scene, place: str):
     seen = render(scene.client, pose, pinhole())
     rows, columns = (grid.ravel() for grid in np.mgrid[4:240:12, 4:320:12])
     reach = 8.0
-    ends = np.asarray(pose.position) + reach * rays(pose, rows, columns)
+    ends = transform(pose, reach * rays(pinhole(), rows, columns))
     hits = scene.client.rayTestBatch([pose.position] * len(rows), ends.tolist())
     same = np.array([hit[0] for hit in hits]) == seen.segmentation[rows, columns]
     true_depth = reach * np.array([hit[2] for hit in hits])
@@ -104,18 +97,25 @@ def test_pictures_are_numbered(scene: Scene):
 
 
 def test_a_detection_covers_the_pixels_of_its_object_and_their_depth_lies_on_it(scene: Scene):
-    pose = view("dining_table", HOME.view_targets("dining_table")[0])
-    camera = camera_at(scene, pose)
+    camera = camera_at(scene, view("dining_table", HOME.view_targets("dining_table")[0]))
     frame = camera.capture()
     detections = SimulatedDetector(camera, scene.names).detect(frame)
     assert detections[0].label == "cracker_box"
     [apple] = [detection for detection in detections if detection.label == "apple"]
-    rows, columns = np.nonzero(apple.mask)
-    rows, columns = rows + apple.box.top, columns + apple.box.left
-    points = rays(pose, rows, columns) * frame.depth[rows, columns][:, None] + pose.position
+    points = locate(apple, frame).points
     [body] = [body for body, name in scene.names.items() if name == "apple"]
     middle = np.asarray(frame_pose(scene.client, body).position) + (0, 0, 0.0375)
+    assert len(points) >= 100
     assert np.abs(np.linalg.norm(points - middle, axis=1) - 0.0375).max() < 0.005
+
+
+def test_late_pictures_can_be_recognised_and_very_old_ones_are_forgotten(scene: Scene):
+    camera = camera_at(scene, view("desk", HOME.view_targets("desk")[0]))
+    frames = [camera.capture() for _ in range(KEPT_SEGMENTATIONS + 1)]
+    detector = SimulatedDetector(camera, scene.names)
+    assert [detection.label for detection in detector.detect(frames[1])] == ["scissors"]
+    with pytest.raises(KeyError):
+        detector.detect(frames[0])
 
 
 def test_things_with_too_few_pixels_are_not_detected(scene: Scene):

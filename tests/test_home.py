@@ -180,6 +180,12 @@ FAULTS = {
     ),
     "unknown kind": ('"Desk"', '"Trunk"', "cannot build kind 'Trunk'; known are Table"),
     "board too high": ("[0.4]", "[1.4]", "rack: a board is above its top"),
+    "board on the floor": ("[0.4]", "[0.01]", "rack: too small or too low to be built"),
+    "closed fridge": (
+        'kind = "Desk"',
+        'kind = "Refrigerator"',
+        "desk: nothing can stand on it; give its boards",
+    ),
     "furniture outside": ("[3, 4, -90]", "[3, 5, -90]", "desk: it sticks out of room den"),
     "same name": ('"rack"', '"desk"', "furniture 'desk' is there twice"),
     "reserved name": ('"rack"', '"person"', "furniture 'person' is there twice"),
