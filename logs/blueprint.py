@@ -64,7 +64,7 @@ def _birds_eye(entities: Iterable[Entity]) -> rrb.EyeControls3D | None:
     sizes = np.array([shape.size for shape in shapes])
     low, high = (centers - sizes / 2).min(axis=0), (centers + sizes / 2).max(axis=0)
     middle = (low + high) / 2
-    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.35, 0.55])
+    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.45, 0.75])
     return rrb.EyeControls3D(position=_vector(middle + away), look_target=_vector(middle))
 
 

@@ -17,6 +17,8 @@ CAPACITY = 1024
 """Records that may wait to be written."""
 PATIENCE_S = 0.5
 """How long the ticking thread waits for room in a full queue before a record is given up."""
+POLL_S = 0.005
+"""How often it looks for room."""
 FLUSH_S = 1.0
 """What was written reaches the disk within this time, also while nothing more happens."""
 CLOSE_S = 30.0
@@ -82,32 +84,36 @@ class _Writer:
 
     def __init__(self, sinks: Sequence[Sink]) -> None:
         self._sinks = list(sinks)
-        self._queue: queue.Queue[tuple[Stamp, Record | None]] = queue.Queue(CAPACITY)
+        self._queue: queue.SimpleQueue[tuple[Stamp, Record | None]] = queue.SimpleQueue()
         self._lost = 0
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
 
     def put(self, stamp: Stamp, record: Record) -> None:
         """Queue a record; if the sinks cannot keep up, wait once, then give up records."""
-        if self._lost and not self._queue.full():
+        if not self._has_room(0.0 if self._lost else PATIENCE_S):
+            self._lost += 1
+            return
+        if self._lost:
             text = f"{self._lost} records were lost here: the logs could not keep up"
             log.warning(text)
-            self._queue.put_nowait((stamp, Note("warning", text)))
+            self._queue.put((stamp, Note("warning", text)))
             self._lost = 0
-        try:
-            self._queue.put((stamp, record), timeout=0 if self._lost else PATIENCE_S)
-        except queue.Full:
-            self._lost += 1
+        self._queue.put((stamp, record))
+
+    def _has_room(self, patience_s: float) -> bool:
+        latest = time.monotonic() + patience_s
+        while self._queue.qsize() >= CAPACITY:
+            if time.monotonic() >= latest:
+                return False
+            time.sleep(POLL_S)
+        return True
 
     def close(self, stamp: Stamp) -> None:
-        try:
-            self._queue.put((stamp, None), timeout=CLOSE_S)
-        except queue.Full:
-            log.warning("the logs hang and are left unfinished")
-            return
+        self._queue.put((stamp, None))
         self._thread.join(CLOSE_S)
         if self._thread.is_alive():
-            log.warning("the logs were not finished within %.0f s", CLOSE_S)
+            log.warning("the logs were not finished within %g s", CLOSE_S)
 
     def _run(self) -> None:
         stamp = Stamp(0.0, 0)

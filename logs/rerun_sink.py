@@ -20,12 +20,15 @@ from executive.records import (
     Utterance,
     Verified,
 )
-from logs import blueprint, markdown, rerun_scene
+from logs import blueprint, markdown, rerun_scene, viewer
 from logs.messages import event_to_message
 from logs.recorder import Stamp
 from logs.rerun_tree import TreeView
 
 APPLICATION = "robot-executive"
+FLUSH_S = 5.0
+"""How long a flush may take."""
+
 _LEVELS = {"debug": "DEBUG", "info": "INFO", "warning": "WARN", "error": "ERROR"}
 _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 
@@ -42,15 +45,18 @@ class RerunSink:
         Args:
             path: the .rrd file, or None to write none.
             view: whether to start a viewer and show the mission live.
+
+        Raises:
+            ExecutiveError: if the viewer does not start.
         """
+        self._viewer = viewer.start() if view else None
         self._stream = rr.RecordingStream(APPLICATION)
         sinks: list[rr.FileSink | rr.GrpcSink] = []
         if path is not None:
             sinks.append(rr.FileSink(path))
             self._stream.send_recording_name(path.parent.name)
-        if view:
-            rr.spawn(connect=False)
-            sinks.append(rr.GrpcSink())
+        if self._viewer is not None:
+            sinks.append(rr.GrpcSink(self._viewer.address))
         self._stream.set_sinks(*sinks, default_blueprint=blueprint.mission_blueprint())
         self._stream.set_time(blueprint.MISSION_TIME, duration=0.0)
         self._stream.set_time("tick", sequence=0)
@@ -95,7 +101,12 @@ class RerunSink:
 
     def flush(self) -> None:
         """Bring everything to the file and the viewer."""
-        self._stream.flush()
+        try:
+            self._stream.flush(timeout_sec=FLUSH_S)
+        except RuntimeError:
+            if self._viewer is None:
+                raise
+            # The viewer was closed: no reason to end the file.
 
     def close(self) -> None:
         """Write the footer and close the file."""

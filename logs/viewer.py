@@ -1,0 +1,60 @@
+"""The rerun viewer as a program of its own, reachable from this machine only."""
+
+import socket
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from executive.errors import ExecutiveError
+
+COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
+START_S = 20.0
+"""How long a viewer may take to start."""
+
+
+def show(recording: Path) -> None:
+    """Open a recording and wait until the viewer is closed."""
+    subprocess.run([*COMMAND, str(recording)], check=False)
+
+
+@dataclass(frozen=True, slots=True)
+class LiveViewer:
+    """A viewer that waits for data at an address; it outlives this process."""
+
+    address: str
+    process: subprocess.Popen[bytes]
+
+
+def start() -> LiveViewer:
+    """Start a viewer.
+
+    Raises:
+        ExecutiveError: if it does not start, as without a display.
+    """
+    port = _free_port()
+    process = subprocess.Popen(
+        [*COMMAND, "--port", str(port), "--expect-data-soon"],
+        start_new_session=True,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    latest = time.monotonic() + START_S
+    while not _listens(port):
+        if process.poll() is not None or time.monotonic() > latest:
+            raise ExecutiveError("the rerun viewer does not start; it needs a display")
+        time.sleep(0.1)
+    return LiveViewer(f"rerun+http://127.0.0.1:{port}/proxy", process)
+
+
+def _free_port() -> int:
+    with socket.socket() as any_port:
+        any_port.bind(("127.0.0.1", 0))
+        return int(any_port.getsockname()[1])
+
+
+def _listens(port: int) -> bool:
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0

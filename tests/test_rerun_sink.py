@@ -1,0 +1,167 @@
+"""A mission's rerun recording, read with rerun's own reader."""
+
+import os
+import signal
+from collections import Counter
+from pathlib import Path
+
+import pytest
+import rerun as rr
+from rerun.chunk import RrdReader
+from sample_mission import frame, mission, robot_at, scene, tick
+
+from executive.errors import ExecutiveError
+from executive.records import Picture, Record, Scene, Seen, Shape
+from logs import viewer
+from logs.recorder import Stamp
+from logs.rerun_sink import RerunSink
+
+
+@pytest.fixture(autouse=True)
+def _strict() -> None:
+    rr.set_strict_mode(True)
+
+
+def write(path: Path, *records: tuple[float, Record]) -> Path:
+    sink = RerunSink(path)
+    for time, record in records:
+        sink.write(Stamp(time, 0), record)
+    sink.flush()
+    sink.close()
+    return path
+
+
+def rows(path: Path) -> Counter[str]:
+    """How many rows each entity has."""
+    counted: Counter[str] = Counter()
+    for chunk in RrdReader(path).stream():
+        counted[str(chunk.entity_path)] += chunk.to_record_batch().num_rows
+    return counted
+
+
+def texts(path: Path, entity: str) -> list[str]:
+    """All texts logged to an entity."""
+    found: list[str] = []
+    for chunk in RrdReader(path).stream():
+        if str(chunk.entity_path) == entity:
+            batch = chunk.to_record_batch()
+            (column,) = (name for name in batch.schema.names if name.endswith(":text"))
+            found += [row[0] for row in batch.column(column).to_pylist() if row]
+    return found
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write(tmp_path_factory.mktemp("run") / "mission.rrd", *mission())
+
+
+def test_a_mission_fills_every_view(recording: Path) -> None:
+    logged = rows(recording)
+    for entity in (
+        "/scene/home/box",
+        "/scene/robot/cylinder",
+        "/scene/robot/sphere",
+        "/frames",
+        "/plan",
+        "/camera",
+        "/camera/detections",
+        "/behaviour_tree/branch",
+        "/behaviour_tree/whole",
+        "/mission/0_doing",
+        "/belief",
+        "/llm",
+        "/dialog",
+        "/log",
+    ):
+        assert logged[entity], entity
+
+
+def test_the_recording_is_on_the_mission_time_and_the_tick_timeline(recording: Path) -> None:
+    names = {
+        name
+        for chunk in RrdReader(recording).stream()
+        if str(chunk.entity_path) == "/belief"
+        for name in chunk.to_record_batch().schema.names
+    }
+    assert {"mission_time", "tick"} <= names
+
+
+def test_a_call_reads_as_asked_answered_accepted_and_dropped(recording: Path) -> None:
+    document = texts(recording, "/llm")[1]
+    parts = ["I am searching for sugar_box", "spice rack", "accepted", "cupboard", "dropped"]
+    assert all(part in document for part in parts)
+    assert document.index("Asked") < document.index("Answered") < document.index("accepted")
+
+
+def test_a_ranking_reads_from_the_likeliest_place_down(recording: Path) -> None:
+    document = texts(recording, "/llm")[2]
+    places = [document.index(place) for place in ("| cupboard", "| dining_table", "| desk")]
+    assert places == sorted(places)
+
+
+def test_the_belief_shows_each_candidate_with_its_probability_and_what_became_of_it(
+    recording: Path,
+) -> None:
+    first, on_the_way, *_, end = texts(recording, "/belief")
+    assert "No place is known yet" in first
+    assert "| ▶ | cupboard | ●●●●●● 60% | llm |" in on_the_way
+    assert "| ✓ | cupboard |" in end
+
+
+def test_a_tree_that_did_not_change_is_not_drawn_again(tmp_path: Path) -> None:
+    tree, *_ = (record for _, record in mission())
+    same = ["RUNNING", "RUNNING", "RUNNING", "INVALID", "INVALID"]
+    ticks = [tick(number, "mission/which places/ask", *same) for number in range(5)]
+    path = write(tmp_path / "a.rrd", (0.0, tree), *((1.0, t) for t in ticks))
+    assert rows(path)["/behaviour_tree/branch"] == 1
+
+
+def test_the_scene_is_logged_once_and_only_frames_move(tmp_path: Path) -> None:
+    moves = [(float(t), robot_at(float(t))) for t in range(10)]
+    logged = rows(write(tmp_path / "a.rrd", (0.0, scene()), *moves))
+    assert logged["/scene/home/box"] == 1
+    assert logged["/frames"] == 10
+
+
+def test_what_was_seen_in_the_last_picture_is_gone_with_the_next(tmp_path: Path) -> None:
+    seen = Seen(0, ())
+    path = write(tmp_path / "a.rrd", (0.0, Picture(frame())), (0.1, seen), (1.0, Picture(frame(1))))
+    assert rows(path)["/camera/detections"] == 1 + 2 + 1
+
+
+def test_a_shape_of_unknown_kind_is_refused(tmp_path: Path) -> None:
+    entity = scene().entities[0]
+    odd = type(entity)("odd", "map", (Shape("torus", (1, 1, 1), (0, 0, 0, 1)),))
+    sink = RerunSink(tmp_path / "a.rrd")
+    with pytest.raises(ValueError, match="torus"):
+        sink.write(Stamp(0.0, 0), Scene((odd,)))
+    sink.close()
+
+
+def test_a_viewer_that_cannot_start_is_said_in_a_sentence(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(viewer, "COMMAND", ["false"])
+    with pytest.raises(ExecutiveError, match="does not start"):
+        RerunSink(tmp_path / "a.rrd", view=True)
+
+
+@pytest.mark.viewer
+def test_closing_the_live_viewer_does_not_end_the_file(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(viewer, "COMMAND", [*viewer.COMMAND, "--headless"])
+    live = viewer.start()
+    monkeypatch.setattr(viewer, "start", lambda: live)
+    sink = RerunSink(tmp_path / "a.rrd", view=True)
+    try:
+        sink.write(Stamp(0.0, 0), scene())
+        sink.flush()
+    finally:
+        os.killpg(live.process.pid, signal.SIGKILL)
+        live.process.wait()
+    for time, record in mission():
+        sink.write(Stamp(time, 0), record)
+        sink.flush()
+    sink.close()
+    assert rows(tmp_path / "a.rrd")["/dialog"] == 2

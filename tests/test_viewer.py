@@ -1,0 +1,103 @@
+"""The recording as the real viewer draws it, without a display.
+
+With `SCREENSHOTS=DIR` in the environment the pictures are kept there, to be looked at.
+"""
+
+import os
+import socket
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from rerun.experimental import ViewerClient
+from sample_mission import mission
+
+from logs.blueprint import MISSION_TIME
+from logs.recorder import Stamp
+from logs.rerun_sink import RerunSink
+
+pytestmark = pytest.mark.viewer
+
+SETTLE_S = 30.0
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ViewerClient]:
+    path = tmp_path_factory.mktemp("run") / "mission.rrd"
+    sink = RerunSink(path)
+    for mission_s, record in mission():
+        sink.write(Stamp(mission_s, 0), record)
+    sink.close()
+    with socket.socket() as any_port:
+        any_port.bind(("127.0.0.1", 0))
+        port = any_port.getsockname()[1]
+    try:
+        viewer = ViewerClient.spawn(headless=True, port=port)
+    except RuntimeError as error:
+        pytest.skip(f"the viewer does not start here (mesa-vulkan-drivers?): {error}")
+    with viewer:
+        viewer.open(str(path))
+        yield viewer
+
+
+def screenshot(client: ViewerClient, mission_s: float) -> NDArray[np.uint8]:
+    """What the viewer shows at this mission time, once three pictures in a row agree."""
+    client.set_time(MISSION_TIME, duration=mission_s, play_state="paused")
+    latest = time.monotonic() + SETTLE_S
+    pictures = [b"", client.take_screenshot()]
+    while client.get_state().loading or len(set(pictures[-3:])) > 1:
+        assert time.monotonic() < latest, "the view does not settle"
+        time.sleep(0.2)
+        pictures.append(client.take_screenshot())
+    picture = pictures[-1]
+    if folder := os.environ.get("SCREENSHOTS"):
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        (Path(folder) / f"mission-{mission_s:g}s.png").write_bytes(picture)
+    decoded = cv2.imdecode(np.frombuffer(picture, np.uint8), cv2.IMREAD_COLOR)
+    assert decoded is not None
+    return decoded.astype(np.uint8)
+
+
+def test_every_view_draws_without_complaint_and_the_picture_follows_the_time(
+    client: ViewerClient,
+) -> None:
+    while_thinking = screenshot(client, 1.5)
+    assert_healthy(client)
+    while_seeing = screenshot(client, 6.2)
+    assert_healthy(client)
+    assert (while_thinking != while_seeing).mean() > 0.01
+    assert_same(screenshot(client, 1.5), while_thinking)
+
+
+def test_the_blueprint_in_the_file_lays_out_the_views(client: ViewerClient) -> None:
+    assert {view.name for view in client.get_state().views} >= {
+        "Home",
+        "Camera",
+        "Behaviour tree: the branch at work",
+        "Where it may be",
+        "Language model",
+        "Dialogue",
+        "What ran when",
+    }
+
+
+def test_the_picture_and_its_detection_are_on_screen(client: ViewerClient) -> None:
+    assert green(screenshot(client, 6.2)) > green(screenshot(client, 5.0)) + 100
+
+
+def green(image: NDArray[np.uint8]) -> int:
+    """Pixels in the colour of a detection's rectangle."""
+    blue, green, red = image[..., 0], image[..., 1], image[..., 2]
+    return int(((abs(red.astype(int) - 60) < 12) & (green > 200) & (blue < 110)).sum())
+
+
+def assert_healthy(client: ViewerClient) -> None:
+    assert {view.name: view.reports for view in client.get_state().views if view.reports} == {}
+
+
+def assert_same(first: NDArray[np.uint8], second: NDArray[np.uint8]) -> None:
+    assert (first != second).mean() < 0.001
