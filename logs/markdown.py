@@ -1,13 +1,14 @@
 """What a person reads in the viewer beside the pictures: the model's calls, and the belief."""
 
-import json
 from collections.abc import Iterable, Mapping
+from textwrap import shorten
 from typing import Any
 
 from executive.records import LlmCall, Verified
 from executive.types import Candidate, Message, Outcome, Replied, Scored
 
 DOTS = 10
+GIST_LENGTH = 300
 
 
 def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
@@ -15,19 +16,24 @@ def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
     result, usage = call.result, call.result.usage
     parts = [
         f"### {result.request.label}",
+        f"**Asked** {_gist(result.request.messages[-1].content)}",
+    ]
+    if isinstance(result, Replied):
+        parts.append(f"**Answered** {_gist(result.text)}")
+    else:
+        parts.append(_scores(result))
+    if verified is not None:
+        parts += _verification(verified)
+    parts += [
         f"{usage.model} · {usage.total_s:.2f} s · {usage.input_tokens} tokens in "
         f"({usage.evaluated_tokens} evaluated) · {usage.output_tokens} out"
         + "".join(f" · {name} {value}" for name, value in usage.parameters.items()),
-        "**Asked**",
-        _quote(result.request.messages[-1].content),
+        "---",
+        "### The whole exchange",
+        *_turns(result.request.messages),
     ]
     if isinstance(result, Replied):
-        parts += ["**Answered**", _quote(_pretty(result.text))]
-    else:
-        parts += ["**Scored**", _scores(result)]
-    if verified is not None:
-        parts += ["**Held against the ontology**", _verification(verified)]
-    parts += ["---", "The whole prompt:", *_turns(result.request.messages)]
+        parts += _turns([Message("assistant", result.text)])
     return "\n\n".join(parts)
 
 
@@ -87,14 +93,13 @@ def _scores(scored: Scored) -> str:
     return "\n".join(rows)
 
 
-def _verification(verified: Verified) -> str:
+def _verification(verified: Verified) -> list[str]:
     rows = (
-        ("✓ accepted", verified.accepted),
-        ("▶ rooms, to be expanded", verified.rooms),
-        ("✗ dropped, not in this home", verified.dropped),
+        ("✓ In this home", verified.accepted),
+        ("▶ Rooms, to be expanded", verified.rooms),
+        ("✗ Dropped, not in this home", verified.dropped),
     )
-    lines = [f"- **{what}**: {', '.join(names)}" for what, names in rows if names]
-    return "\n".join(lines) or "- nothing was left"
+    return [f"**{what}** {', '.join(names)}" for what, names in rows if names]
 
 
 def _turns(messages: Iterable[Message]) -> list[str]:
@@ -105,12 +110,9 @@ def _quote(text: str) -> str:
     return "\n".join(f"> {line}  " for line in text.splitlines())
 
 
-def _pretty(text: str) -> str:
-    """JSON on one line, as it came but for the white space; anything else as it is."""
-    try:
-        return json.dumps(json.loads(text), ensure_ascii=False)
-    except ValueError:
-        return text
+def _gist(text: str) -> str:
+    """The text on one line, and no more of it than is read at a glance."""
+    return shorten(text, GIST_LENGTH, placeholder=" …")
 
 
 def _probability(probability: float | None) -> str:

@@ -27,7 +27,6 @@ PICTURE_FRAME = "picture"
 IMAGE_FRAME = "picture_plane"
 
 _CAMERA = (255, 255, 255, 160)
-_UNSEEN = (0, 0, 0, 0)
 _FOUND = (60, 220, 90)
 _PLANNED = (30, 130, 255)
 
@@ -40,7 +39,7 @@ def log_frames(stream: rr.RecordingStream) -> None:
     stream.log(PLAN, rr.CoordinateFrame("map"), static=True)
     stream.log(CAMERA, rr.CoordinateFrame(IMAGE_FRAME), static=True)
     stream.log(DETECTIONS, rr.CoordinateFrame(IMAGE_FRAME), static=True)
-    _log_camera(stream, Intrinsics(1, 1, 1.0, 1.0, 0.5, 0.5), Pose(), _UNSEEN)
+    _log_camera(stream, Intrinsics(1, 1, 1.0, 1.0, 0.5, 0.5), Pose(), 1e-6)
 
 
 def log_scene(stream: rr.RecordingStream, entities: Iterable[Entity]) -> None:
@@ -117,13 +116,13 @@ def log_path(stream: rr.RecordingStream, path: Path) -> None:
 
 def log_picture(stream: rr.RecordingStream, frame: Frame) -> None:
     """Log a picture with the camera that took it; what was seen in the last one is taken away."""
-    _log_camera(stream, frame.intrinsics, frame.pose, _CAMERA)
+    _log_camera(stream, frame.intrinsics, frame.pose, 0.6)
     stream.log(CAMERA, rr.EncodedImage(contents=jpeg(frame), media_type="image/jpeg"))
     stream.log(DETECTIONS, rr.Clear(recursive=False))
 
 
 def _log_camera(
-    stream: rr.RecordingStream, intrinsics: Intrinsics, pose: Pose, color: tuple[int, ...]
+    stream: rr.RecordingStream, intrinsics: Intrinsics, pose: Pose, reach_m: float
 ) -> None:
     i = intrinsics
     stream.log(
@@ -143,8 +142,9 @@ def _log_camera(
             height=i.height,
             parent_frame=PICTURE_FRAME,
             child_frame=IMAGE_FRAME,
-            image_plane_distance=0.6 if color[-1] else 1e-3,
-            color=color,
+            image_plane_distance=reach_m,
+            color=_CAMERA,
+            line_width=reach_m / 100,
         ),
     )
 

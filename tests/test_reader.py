@@ -1,5 +1,6 @@
 """Runs are read back as they were recorded, also when they end early."""
 
+import json
 import signal
 import subprocess
 import sys
@@ -19,6 +20,8 @@ from sample_mission import (
 
 from executive.errors import InputError
 from executive.records import Tick, Utterance
+from logs import report
+from logs.__main__ import main
 from logs.mcap_sink import McapSink
 from logs.reader import EventLine, Run
 from logs.recorder import Stamp
@@ -117,6 +120,63 @@ def test_a_file_cut_anywhere_still_reads(run_dir: Path, kept: float) -> None:
     data = path.read_bytes()
     path.write_bytes(data[: int(len(data) * kept)])
     assert len(list(Run(run_dir).llm_calls())) <= 2
+
+
+def test_the_timeline_says_when_each_leaf_was_at_work(run_dir: Path) -> None:
+    spans = [(s.path, s.start_s, s.end_s, s.status) for s in report.timeline(Run(run_dir))]
+    assert spans == [
+        ("mission/which places/ask", 0.0, 2.0, "SUCCESS"),
+        ("mission/drive", 2.0, 6.0, "SUCCESS"),
+        ("mission/see", 6.0, 6.0, "SUCCESS"),
+    ]
+
+
+def test_each_verification_belongs_to_the_call_before_it(run_dir: Path) -> None:
+    chat, rank = report.llm(Run(run_dir))
+    assert chat["verified"]["dropped"] == ("spice rack",)
+    assert "verified" not in rank
+    assert rank["scores"]["desk"] == 0.7
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        ("summary", "'Bring a sugar_box' done in cupboard (says llm)"),
+        ("timeline", "2.000     6.000  SUCCESS  mission/drive"),
+        ("llm", "dropped   spice rack"),
+        ("dialog", "6.500  robot   Here is the sugar_box."),
+    ],
+)
+def test_questions_are_answered_as_text_and_as_json(
+    run_dir: Path, capsys: pytest.CaptureFixture[str], question: str, answer: str
+) -> None:
+    assert main([question, str(run_dir)]) == 0
+    assert answer in capsys.readouterr().out
+    assert main([question, str(run_dir), "--json"]) == 0
+    assert isinstance(json.loads(capsys.readouterr().out), list)
+
+
+def test_frames_are_written_as_files(run_dir: Path, tmp_path: Path) -> None:
+    assert main(["frames", str(run_dir), "--out", str(tmp_path / "pictures")]) == 0
+    (picture,) = (tmp_path / "pictures").iterdir()
+    assert picture.name == "00001-6.000s.jpg"
+
+
+def test_a_broken_file_is_recovered_from_the_command_line(
+    killed: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["recover", str(killed)]) == 0
+    assert "mission.recovered.mcap" in capsys.readouterr().out
+    assert main(["summary", str(killed)]) == 0
+    assert "no outcome (the recording ends early)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("question", ["summary", "timeline", "llm", "dialog", "view", "recover"])
+def test_a_wrong_folder_is_said_in_a_sentence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], question: str
+) -> None:
+    assert main([question, str(tmp_path / "nowhere")]) == 2
+    assert "nowhere: " in capsys.readouterr().err
 
 
 def test_a_folder_without_a_recording_is_refused(tmp_path: Path) -> None:
