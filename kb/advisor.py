@@ -1,0 +1,120 @@
+"""The language model as an adviser about places: prompts, memory, parser and verification in one.
+
+The paper's section "Proposed System", less the model itself and less the order of the steps, which
+is a subtree.
+"""
+
+from executive.interfaces import LanguageModel
+from executive.types import Candidate, ChatRequest, Message, Place, RankRequest, Scored, Verdict
+from kb import ranking, verification
+from kb.memory import Memory, history_budget
+from kb.ontology import Ontology
+from kb.prompts import Prompts
+from kb.verification import Reply
+
+SITUATION = "likely places"
+"""What a summary is about."""
+
+
+class PlaceAdvisor:
+    """Implements `Advisor`."""
+
+    def __init__(
+        self,
+        ontology: Ontology,
+        model: LanguageModel,
+        *,
+        remembers: bool,
+        top: int = 5,
+        prompts: Prompts | None = None,
+    ) -> None:
+        """Advise with what the ontology knows; the model only counts tokens here.
+
+        Args:
+            ontology: what exists.
+            model: whose context window and tokenizer limit the memory.
+            remembers: whether prompts hold the dialogue so far (OKB+LLM+MEM) or not (OKB+LLM).
+            top: how many places to ask for.
+            prompts: the texts; None: those of prompts.toml.
+        """
+        self._ontology = ontology
+        self._model = model
+        self._remembers = remembers
+        self._top = top
+        self._prompts = prompts or Prompts.load()
+        self._system = Message("system", self._prompts.home(ontology.places()))
+        self._memory: Memory | None = None
+
+    def inquiry(self, name: str, among: tuple[str, ...]) -> ChatRequest:
+        """`general_pos`, or `multiple_pos` when `among` is given."""
+        if among:
+            text = self._prompts.inquiry(
+                "multiple_pos", object_name=name, position=", ".join(among)
+            )
+            return self._request("multiple_pos", text)
+        text = self._prompts.inquiry("general_pos", object_name=name, top=str(self._top))
+        return self._request("general_pos", text)
+
+    def furniture(self, name: str, room: str, among: tuple[str, ...]) -> ChatRequest:
+        """`furniture`: which furniture of this room?"""
+        choice = ", ".join(p.name for p in self._allowed(among) if p.room == room)
+        text = self._prompts.inquiry(
+            "furniture", object_name=name, room_name=room, furniture_list=choice
+        )
+        return self._request("furniture", text)
+
+    def again(self, name: str, among: tuple[str, ...]) -> ChatRequest:
+        """`again`: the reply named no real place; choose from the list."""
+        choice = ", ".join(p.name for p in self._allowed(among))
+        text = self._prompts.inquiry("again", object_name=name, furniture_list=choice)
+        return self._request("again", text)
+
+    def summarize(self, name: str, reply: str) -> ChatRequest:
+        """`summarize`: the reply, which is shown once more if no memory holds it."""
+        text = self._prompts.inquiry("summarize", object_name=name, situation=SITUATION)
+        if self._history()[-1:] == (Message("assistant", reply),):
+            return self._request("summarize", text)
+        asked = self._prompts.inquiry("general_pos", object_name=name, top=str(self._top))
+        exchange = (Message("user", asked), Message("assistant", reply))
+        return self._request("summarize", text, exchange)
+
+    def remember(self, request: ChatRequest, reply: str) -> None:
+        """Keep the exchange for the next prompts, if this system has a memory."""
+        if not self._remembers:
+            return
+        if self._memory is None:
+            system = self._model.count_tokens(self._system.content)
+            budget = history_budget(self._model.context_tokens, system)
+            self._memory = Memory(budget, self._model.count_tokens)
+        self._memory.add(request.messages[-1].content, reply)
+
+    def read(self, reply: str) -> tuple[str, ...] | None:
+        """The names in a reply, or None if it is not in the output format."""
+        return verification.read(reply)
+
+    def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
+        """Hold names against the ontology (the existence check)."""
+        return verification.verify(names, self._ontology.place_names, among)
+
+    def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
+        """Score every allowed place instead of asking for a list."""
+        kind = next(iter(self._ontology.classes_of(name)), "")
+        options = [
+            (place, ranking.answer(place, self._ontology.preposition(place)))
+            for place in self._allowed(among)
+        ]
+        return ranking.rank_request(ranking.described(name, kind), options, self._prompts.ranking)
+
+    def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
+        """Places with probabilities (they sum to 1), likeliest first."""
+        return ranking.ranked(scored)
+
+    def _allowed(self, among: tuple[str, ...]) -> tuple[Place, ...]:
+        return tuple(p for p in self._ontology.places() if not among or p.name in among)
+
+    def _history(self) -> tuple[Message, ...]:
+        return self._memory.messages() if self._memory else ()
+
+    def _request(self, label: str, text: str, before: tuple[Message, ...] = ()) -> ChatRequest:
+        messages = (self._system, *self._history(), *before, Message("user", text))
+        return ChatRequest(label, messages, Reply.model_json_schema())

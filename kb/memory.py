@@ -1,0 +1,45 @@
+"""The dialogue with the language model so far, as much of it as its context window has room for."""
+
+from collections import deque
+from collections.abc import Callable
+
+from executive.types import Message
+
+_SHARE_OF_CONTEXT = 0.5
+_SHARE_OF_DIALOGUE = 0.8
+
+
+def history_budget(context_tokens: int, system_tokens: int) -> int:
+    """Tokens that the history may take: (context / 2 - system prompt) * 0.8.
+
+    The paper's section "Memory": the other half of the window is left to the reply, and a fifth of
+    the rest to the inquiry.
+    """
+    free = context_tokens * _SHARE_OF_CONTEXT - system_tokens
+    return max(0, int(free * _SHARE_OF_DIALOGUE))
+
+
+class Memory:
+    """Exchanges, oldest first; the oldest are forgotten, each as a whole, to keep to the budget."""
+
+    def __init__(self, budget: int, count: Callable[[str], int]) -> None:
+        """Remember at most `budget` tokens, counted by `count`."""
+        self._budget = budget
+        self._count = count
+        self._exchanges: deque[tuple[int, Message, Message]] = deque()
+
+    def add(self, inquiry: str, reply: str) -> None:
+        """Keep an exchange, and forget what there is no more room for."""
+        tokens = self._count(inquiry) + self._count(reply)
+        self._exchanges.append((tokens, Message("user", inquiry), Message("assistant", reply)))
+        while self.tokens > self._budget:
+            self._exchanges.popleft()
+
+    @property
+    def tokens(self) -> int:
+        """How many tokens the history takes."""
+        return sum(tokens for tokens, _, _ in self._exchanges)
+
+    def messages(self) -> tuple[Message, ...]:
+        """The history as chat turns, oldest first."""
+        return tuple(turn for _, *turns in self._exchanges for turn in turns)

@@ -1,0 +1,194 @@
+"""The ontology: which things there are, what they are called, and where they usually are."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import owlready2
+from rapidfuzz import fuzz, process
+
+from executive.errors import InputError
+from executive.types import Place
+from kb.names import PlaceNames, index_by_words, spoken, unique, words_of
+from kb.owl import downwards, label, leaves, load, upwards, values
+
+HOUSEHOLD = Path(__file__).with_name("household.owl")
+DEFAULTS = Path(__file__).with_name("defaults.owl")
+CLASSES = "http://robot-executive.org/household.owl#"
+INDIVIDUALS = "http://robot-executive.org/home.owl#"
+
+MOST_NAMES = 3
+LEAST_SIMILARITY = 60.0
+"""Of 100, as rapidfuzz counts; below it two names share little but a few letters."""
+
+
+class Ontology:
+    """Implements `Knowledge` with OWL files and the furniture of one home.
+
+    Objects are the leaf classes below `Object`. A default location is a class restriction
+    `hasDefaultLocation value dining_table`; a thing takes them from its nearest class with any.
+    """
+
+    def __init__(
+        self, places: Sequence[Place] = (), *, defaults: bool = True, files: Sequence[Path] = ()
+    ) -> None:
+        """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
+
+        Raises:
+            InputError: if a file is no ontology or imports one that is not loaded, or if a place is
+                of a class that the ontology does not have.
+        """
+        self._world = owlready2.World()
+        self._paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
+        for path in self._paths:
+            load(self._world, path)
+        self._places = tuple(places)
+        for place in places:
+            self._add(place)
+        self._things = tuple(downwards(self._class("Object")))
+        self._objects = leaves(self._class("Object"))
+        self._objects_by_words = self._index()
+        self.place_names = PlaceNames(self._places, self._called())
+        """What the furniture and the rooms of the home are called."""
+
+    # --- the Knowledge protocol ---
+
+    def places(self) -> tuple[Place, ...]:
+        """Every piece of furniture of the home, in the home file's order."""
+        return self._places
+
+    def objects_named(self, words: str) -> tuple[str, ...]:
+        """The objects that the words may mean: none, one, or all members of a class ("fruit").
+
+        An object counts before a class, a name before a synonym.
+        """
+        return self._objects_by_words.get("".join(words_of(words)), ())
+
+    def nearest_names(self, words: str) -> tuple[str, ...]:
+        """Known names that look most like the words, best first (at most 3)."""
+        names = [(spoken(name), label(thing)) for thing in self._things for name in _names(thing)]
+        found = process.extract(
+            spoken(words),
+            [name for name, _ in names],
+            scorer=fuzz.token_sort_ratio,
+            score_cutoff=LEAST_SIMILARITY,
+            limit=None,
+        )
+        return unique(names[index][1] for _, _, index in found)[:MOST_NAMES]
+
+    def usual_places(self, name: str) -> tuple[str, ...]:
+        """Default locations of the object or its nearest class; those in this home only."""
+        usual = self.default_locations(name)
+        return tuple(place.name for place in self._places if place.name in usual)
+
+    def places_named(self, words: str) -> tuple[str, ...]:
+        """Furniture that the words name, in their order; a room stands for its furniture."""
+        return self.place_names.find(words)
+
+    # --- more about things ---
+
+    def objects(self) -> tuple[str, ...]:
+        """Names of all objects, in the files' order."""
+        return tuple(label(thing) for thing in self._objects)
+
+    def classes_of(self, name: str) -> tuple[str, ...]:
+        """What the classes above an object or a class are called, nearest first, less `Object`.
+
+        Raises:
+            InputError: if there is no such thing, here and below.
+        """
+        _, *above = upwards(self._thing(name))
+        return tuple(label(c) for c in above if c is not self._class("Object"))
+
+    def synonyms(self, name: str) -> tuple[str, ...]:
+        """Other names of an object or a class."""
+        return tuple(self._thing(name).altLabel)
+
+    def default_locations(self, name: str) -> tuple[str, ...]:
+        """Default locations of an object or its nearest class, in this home or not."""
+        for thing in upwards(self._thing(name)):
+            if usual := values(thing, self._class("hasDefaultLocation")):
+                return tuple(place.name for place in usual)
+        return ()
+
+    def preposition(self, place: Place) -> str:
+        """How things are with this piece of furniture: "in" or "on"."""
+        given = (p for kind in upwards(self._class(place.kind)) for p in kind.preposition)
+        return next(given, "on")
+
+    def files(self) -> Mapping[str, bytes]:
+        """The loaded files by name, to be kept with the log."""
+        return {path.name: path.read_bytes() for path in self._paths}
+
+    def faults(self) -> Iterator[str]:
+        """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
+        for root in ("Object", "Furniture", "Room"):
+            owners: dict[tuple[str, ...], Any] = {}
+            for thing in downwards(self._class(root)):
+                for name in unique(_names(thing)):
+                    if (other := owners.setdefault(words_of(name), thing)) is not thing:
+                        yield f"{name!r} names both {other.name} and {thing.name}"
+        for piece in self._class("Furniture").instances():
+            if piece.isIn is None:
+                yield f"{piece.name} is in no room"
+        for thing in self._things:
+            for place in values(thing, self._class("hasDefaultLocation")):
+                if not isinstance(place, self._class("Furniture")):
+                    yield f"{thing.name} has the default location {place.name}, which is nowhere"
+
+    # --- inside ---
+
+    def _class(self, name: str) -> Any:
+        return self._world[CLASSES + name]
+
+    def _thing(self, name: str) -> Any:
+        for thing in self._things:
+            if name == label(thing):
+                return thing
+        right = f"known are {', '.join(label(thing) for thing in self._things)}"
+        raise InputError("ontology", f"there is no {name!r}", right)
+
+    def _add(self, place: Place) -> None:
+        """Put a piece of furniture, and its room, in as individuals."""
+        room = self._individual(place.room, place.room_kind, "Room")
+        self._individual(place.name, place.kind, "Furniture").isIn = room
+
+    def _individual(self, name: str, kind: str, root: str) -> Any:
+        class_, root_class = self._class(kind), self._class(root)
+        if class_ is None or class_ not in downwards(root_class):
+            known = ", ".join(c.name for c in downwards(root_class))
+            raise InputError(name, f"is a {kind!r}, which the ontology lacks", f"known are {known}")
+        individual = self._world[INDIVIDUALS + name]
+        if individual is None:
+            return class_(name, namespace=self._world.get_ontology(INDIVIDUALS))
+        individual.is_a = [class_]
+        return individual
+
+    def _index(self) -> dict[str, tuple[str, ...]]:
+        """Words, run together -> names of the objects that they may mean."""
+        classes = [thing for thing in self._things if thing not in self._objects]
+        return index_by_words(
+            [(words_of(label(thing)), label(thing)) for thing in self._objects],
+            [(words_of(name), label(thing)) for thing in self._objects for name in thing.altLabel],
+            [(words_of(label(c)), label(thing)) for c in classes for thing in leaves(c)],
+            [
+                (words_of(n), label(thing))
+                for c in classes
+                for n in c.altLabel
+                for thing in leaves(c)
+            ],
+        )
+
+    def _called(self) -> dict[str, tuple[str, ...]]:
+        """Furniture or room class -> what it and the classes above it are called."""
+        roots = (self._class("Furniture"), self._class("Room"))
+        return {
+            kind.name: tuple(n for c in upwards(kind) if c not in roots for n in _names(c))
+            for root in roots
+            for kind in downwards(root)
+        }
+
+
+def _names(entity: Any) -> tuple[str, ...]:
+    """Label and synonyms."""
+    return (label(entity), *entity.altLabel)

@@ -1,0 +1,116 @@
+"""The texts for the language model: read from prompts.toml, filled in with what is known."""
+
+import json
+import re
+import tomllib
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
+
+from executive.errors import InputError
+from executive.types import Message, Place
+from kb.names import unique
+from kb.verification import Reply
+
+TEXTS = Path(__file__).with_name("prompts.toml")
+
+PLACEHOLDERS: Mapping[str, Sequence[str]] = {
+    "system": ("rooms", "furniture in rooms", "furniture", "format"),
+    "general_pos": ("object name", "top"),
+    "multiple_pos": ("object name", "position"),
+    "furniture": ("object name", "room name", "furniture list"),
+    "again": ("object name", "furniture list"),
+    "summarize": ("object name", "situation"),
+    "question": ("thing",),
+}
+"""Label of each text -> what it may speak of."""
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", str_strip_whitespace=True)
+
+    @field_validator(*PLACEHOLDERS, check_fields=False)
+    @classmethod
+    def _knows_its_placeholders(cls, text: str, info: ValidationInfo) -> str:
+        known = PLACEHOLDERS[str(info.field_name)]
+        if unknown := re.search(r"#\w+", _pattern(known).sub("", text)):
+            names = ", ".join(f"#{name}" for name in known)
+            raise ValueError(f"there is no {unknown[0]} here; known are {names}")
+        return text
+
+
+class Ranking(_Part):
+    """The chat in which places are scored."""
+
+    system: str
+    question: str
+    neutral: str
+    examples: tuple[tuple[str, str], ...]
+
+    def chat(self, thing: str) -> tuple[Message, ...]:
+        """The examples as turns, then the question about this thing."""
+        turns = [Message("system", self.system)]
+        for example, said in self.examples:
+            turns += [Message("user", self._about(example)), Message("assistant", said)]
+        return (*turns, Message("user", self._about(thing)))
+
+    def _about(self, thing: str) -> str:
+        return _fill(self.question, {"thing": thing})
+
+
+class Prompts(_Part):
+    """All texts, by the paper's labels."""
+
+    system: str
+    general_pos: str
+    multiple_pos: str
+    furniture: str
+    again: str
+    summarize: str
+    ranking: Ranking
+
+    @classmethod
+    def load(cls, path: Path = TEXTS) -> "Prompts":
+        """Read a TOML file like prompts.toml.
+
+        Raises:
+            InputError: names the text and what is wrong with it.
+        """
+        try:
+            return cls.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
+        except OSError as error:
+            raise InputError(str(path), f"cannot be read: {error.strerror}") from None
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise InputError(str(path), f"is not TOML: {error}") from None
+        except ValidationError as error:
+            fault = error.errors()[0]
+            where = ".".join(map(str, fault["loc"]))
+            raise InputError(f"{path}: {where}", fault["msg"]) from None
+
+    def inquiry(self, label: str, **values: str) -> str:
+        """The text with this label; placeholders are given with underscores: `object_name`."""
+        text: str = getattr(self, label)
+        return _fill(text, {name.replace("_", " "): value for name, value in values.items()})
+
+    def home(self, places: Sequence[Place]) -> str:
+        """The system prompt: what the model is told about the home and the output format."""
+        return _fill(
+            self.system,
+            {
+                "rooms": ", ".join(unique(p.room for p in places)),
+                "furniture": ", ".join(p.name for p in places),
+                "furniture in rooms": "\n".join(f"- {p.name}: {p.room}" for p in places),
+                "format": json.dumps(Reply.model_json_schema()),
+            },
+        )
+
+
+def _pattern(names: Iterable[str]) -> re.Pattern[str]:
+    """Matches `#name` for each of the names, the longest first."""
+    longest_first = sorted(names, key=len, reverse=True)
+    return re.compile(rf"#({'|'.join(map(re.escape, longest_first))})\b")
+
+
+def _fill(text: str, values: Mapping[str, str]) -> str:
+    return _pattern(values).sub(lambda found: values[found[1]], text)

@@ -1,0 +1,60 @@
+"""Scoring the known places instead of asking for a list: a model cannot invent what it only scores.
+
+The score of a place is the model's log-likelihood of the answer that names it, less that of the
+same answer about nothing in particular, so that a place does not win for being a common phrase
+(Holtzman et al., "Surface Form Competition", EMNLP 2021).
+"""
+
+import math
+from collections.abc import Sequence
+
+from executive.types import Candidate, Place, RankRequest, Scored, Source
+from kb.names import base_name, spoken
+from kb.prompts import Ranking
+
+
+def rank_request(thing: str, options: Sequence[tuple[Place, str]], texts: Ranking) -> RankRequest:
+    """Ask how likely each answer is for this thing.
+
+    Args:
+        thing: as `described` has it.
+        options: places, and the answers that stand for them, as `answer` has them.
+        texts: the question and its examples.
+    """
+    return RankRequest(
+        label="rank",
+        messages=texts.chat(thing),
+        neutral=texts.chat(texts.neutral),
+        options=tuple(text for _, text in options),
+        places=tuple(place.name for place, _ in options),
+    )
+
+
+def described(name: str, kind: str) -> str:
+    """A thing with its class, so that a small model knows what it is: "hammer (a tool)"."""
+    article = "an" if kind[:1] in "aeiou" else "a"
+    return f"{spoken(name)} ({article} {kind})" if kind else spoken(name)
+
+
+def answer(place: Place, preposition: str) -> str:
+    """Where a thing in this place is, in words: "in the cabinet in the kitchen"."""
+    return f"{preposition} the {base_name(place)} in the {spoken(place.room)}"
+
+
+def ranked(scored: Scored) -> tuple[Candidate, ...]:
+    """Places by softmax of their scores, likeliest first; equals in the order of the request."""
+    probabilities = softmax(scored.scores)
+    candidates = [
+        Candidate(place, Source.LLM, probability)
+        for place, probability in zip(scored.request.places, probabilities, strict=True)
+    ]
+    return tuple(sorted(candidates, key=lambda c: -(c.probability or 0.0)))
+
+
+def softmax(scores: Sequence[float]) -> list[float]:
+    """Probabilities in proportion to exp(score); alike if no score is finite."""
+    best = max(scores, default=0.0)
+    if not math.isfinite(best):
+        return [1 / len(scores)] * len(scores)
+    weights = [math.exp(score - best) for score in scores]
+    return [weight / sum(weights) for weight in weights]

@@ -1,0 +1,67 @@
+"""Reading a language model's reply, and holding what it names against what exists.
+
+The paper's output parser and existence check. Pure functions.
+"""
+
+import json
+from collections.abc import Iterator, Sequence
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from executive.types import Verdict
+from kb.names import PlaceNames, unique
+
+
+class Reply(BaseModel):
+    """The output format: a list of places."""
+
+    model_config = ConfigDict(strict=True)
+
+    places: list[str] = Field(description="names of furniture or rooms, likeliest first")
+
+
+def read(reply: str) -> tuple[str, ...] | None:
+    """The names in a reply, or None if no JSON object in it has the output format.
+
+    Text and code fences around the object do no harm. Never raises.
+    """
+    for value in _json_objects(reply):
+        try:
+            return tuple(name.strip() for name in Reply.model_validate(value).places)
+        except ValidationError:
+            continue
+    return None
+
+
+def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -> Verdict:
+    """Which of the names are furniture, which are rooms, and which are nothing here.
+
+    A name has to fit one piece of furniture or one room with all its words; it may be written as
+    people write it ("the kitchen cabinet"). With `among`, other furniture, and rooms that hold
+    none of it, are dropped as well.
+    """
+    furniture: list[str] = []
+    rooms: list[str] = []
+    dropped: list[str] = []
+    allowed_rooms = known.rooms_of(among) if among else ()
+    for name in names:
+        found = known.exactly(name)
+        if found.furniture and (not among or found.furniture[0] in among):
+            furniture.append(found.furniture[0])
+        elif found.rooms and (not among or found.rooms[0] in allowed_rooms):
+            rooms.append(found.rooms[0])
+        else:
+            dropped.append(name)
+    return Verdict(unique(furniture), unique(rooms), unique(dropped))
+
+
+def _json_objects(text: str) -> Iterator[object]:
+    decoder = json.JSONDecoder()
+    start = text.find("{")
+    while start >= 0:
+        try:
+            value, _ = decoder.raw_decode(text, start)
+            yield value
+        except (ValueError, RecursionError):
+            pass
+        start = text.find("{", start + 1)
