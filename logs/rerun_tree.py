@@ -1,6 +1,6 @@
 """The behaviour tree in rerun: a graph of the branch at work, and lanes of what ran when."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import rerun as rr
@@ -24,8 +24,12 @@ _STATUS_STYLE = rr.StateConfiguration(
 )
 _SIGNS = {"sequence": "→", "selector": "?", "decorator": "◇"}
 
-_ROW, _INDENT, _LETTER, _PADDING = 34.0, 48.0, 5.8, 20.0
-"""Layout of the graphs (viewer units): row height, indent a level, a label's letter and margin."""
+_ROW, _INDENT, _COLUMN, _LETTER, _PADDING = 34.0, 48.0, 170.0, 5.8, 20.0
+"""Layout of the graphs (viewer units): a row, a level of each layout, a label's letter and margin."""
+
+
+Layout = Callable[[Sequence[NodeShape], Sequence[str]], list[tuple[float, float]]]
+"""From nodes and their labels to the middles of the nodes."""
 
 
 class TreeView:
@@ -42,15 +46,17 @@ class TreeView:
     def show(self, tick: Tick) -> None:
         """Log what changed with this tick."""
         statuses = {node.path: node.status for node in tick.nodes}
-        self._graph(BRANCH, _branch(self._tree, tick.tip), statuses)
-        self._graph(WHOLE, self._tree.nodes, statuses)
+        self._graph(BRANCH, _branch(self._tree, tick.tip), statuses, _outline)
+        self._graph(WHOLE, self._tree.nodes, statuses, _columns)
         place = (tick.situation.get("candidate") or {}).get("place", "")
         self._lane(f"{LANES}/0_doing", tick.tip.rpartition("/")[2])
         self._lane(f"{LANES}/0_place", place)
         for number, stage in enumerate(self._stages, start=1):
             self._stage(number, stage, statuses[stage.path])
 
-    def _graph(self, path: str, nodes: Sequence[NodeShape], statuses: dict[str, str]) -> None:
+    def _graph(
+        self, path: str, nodes: Sequence[NodeShape], statuses: dict[str, str], layout: Layout
+    ) -> None:
         state = [(node.path, statuses[node.path]) for node in nodes]
         if self._shown.get(path) == state:
             return
@@ -60,7 +66,7 @@ class TreeView:
             path,
             rr.GraphNodes(
                 [node.path for node in nodes],
-                positions=_outline(nodes, labels),
+                positions=layout(nodes, labels),
                 colors=np.array([COLORS[status] for _, status in state], np.uint32),
                 labels=labels,
                 show_labels=True,
@@ -90,8 +96,28 @@ def _branch(tree: TreeShape, tip: str) -> list[NodeShape]:
 
 
 def _outline(nodes: Sequence[NodeShape], labels: Sequence[str]) -> list[tuple[float, float]]:
-    """Middles of the nodes, laid out as an outline: a row each, indented by depth."""
+    """From top to bottom, a row each, indented by depth: for a narrow view."""
     return [
-        (node.path.count("/") * _INDENT + (_PADDING + len(label) * _LETTER) / 2, row * _ROW)
+        (_depth(node) * _INDENT + (_PADDING + len(label) * _LETTER) / 2, row * _ROW)
         for row, (node, label) in enumerate(zip(nodes, labels, strict=True))
     ]
+
+
+def _columns(nodes: Sequence[NodeShape], labels: Sequence[str]) -> list[tuple[float, float]]:
+    """From left to right, a row a leaf, parents in the middle of their children."""
+    rows: dict[str, list[float]] = {}
+    leaves = len(nodes)
+    for node in reversed(nodes):
+        if node.path not in rows:
+            leaves -= 1
+            rows[node.path] = [leaves * _ROW]
+        rows.setdefault(node.parent, []).append(_middle(rows[node.path]))
+    return [(_depth(node) * _COLUMN, _middle(rows[node.path])) for node in nodes]
+
+
+def _middle(rows: Sequence[float]) -> float:
+    return (min(rows) + max(rows)) / 2
+
+
+def _depth(node: NodeShape) -> int:
+    return node.path.count("/")

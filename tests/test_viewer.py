@@ -23,6 +23,8 @@ from logs.rerun_sink import RerunSink
 pytestmark = pytest.mark.viewer
 
 SETTLE_S = 30.0
+NOTICES_PX = 80
+"""Height of the strip at the top in which the viewer shows notices of its own for a while."""
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +61,7 @@ def screenshot(client: ViewerClient, mission_s: float) -> NDArray[np.uint8]:
         (Path(folder) / f"mission-{mission_s:g}s.png").write_bytes(picture)
     decoded = cv2.imdecode(np.frombuffer(picture, np.uint8), cv2.IMREAD_COLOR)
     assert decoded is not None
-    return decoded.astype(np.uint8)
+    return decoded[NOTICES_PX:].astype(np.uint8)
 
 
 def test_every_view_draws_without_complaint_and_the_picture_follows_the_time(
