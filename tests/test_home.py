@@ -154,6 +154,28 @@ def test_what_does_not_fit_on_the_top_goes_on_a_board(four_rooms):
     assert heights == {0.80, 0.46}
 
 
+def test_a_board_too_low_for_a_thing_is_no_place_for_it(load):
+    low = FLAT.replace("[0.4]", "[0.87]")
+    with pytest.raises(InputError, match="mug: no spot is left for it on rack"):
+        load(low.replace('mug = "desk"', 'mug = { furniture = "rack", surface = 1 }'))
+
+
+def test_no_part_of_furniture_is_in_the_free_space_above_its_surfaces(four_rooms):
+    for piece in (*four_rooms.furniture, four_rooms.delivery):
+        for surface in piece.surfaces():
+            height = min(surface.clearance, 0.5)
+            x, y, z = surface.center
+            free = ((x, surface.length_x), (y, surface.length_y), (z + height / 2, height))
+            for shape in piece.shapes():
+                gaps = [
+                    abs(middle - other) - (length + size) / 2
+                    for (middle, length), other, size in zip(
+                        free, shape.pose.position, shape.size, strict=True
+                    )
+                ]
+                assert max(gaps) > -1e-6, (piece.name, shape)
+
+
 def test_the_viewer_sees_over_the_walls_and_moves_things_by_frames_of_their_names(four_rooms):
     entities = {entity.name: entity for entity in home_entities(four_rooms, load_objects())}
     assert entities["mug"].frame_id == "mug"

@@ -76,6 +76,13 @@ def test_a_room_whose_doors_are_shut_cannot_be_reached():
         plan(OccupancyGrid.from_home(shut), STANDS["start"], STANDS["bed"])
 
 
+def test_a_door_narrower_than_the_robot_is_no_way():
+    narrow = tuple(door.model_copy(update={"width": 0.64}) for door in HOME.doors)
+    grid = OccupancyGrid.from_home(HOME.model_copy(update={"doors": narrow}))
+    with pytest.raises(Unreachable, match="the way there is blocked"):
+        plan(grid, STANDS["start"], STANDS["bed"])
+
+
 @pytest.mark.parametrize("goal", [HOME.furniture[0].pose[:2], (4.2, 7.0), (-3.0, 1.0)])
 def test_nobody_can_stand_in_furniture_in_a_wall_or_outside(goal):
     with pytest.raises(Unreachable, match="no room to stand"):
