@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.hardware import Floats, Hardware
 from sim.skill import CONTROL_S, CannotError, Skill, wait_until
@@ -13,6 +14,8 @@ SLOW = 0.15
 _RAMP_S = 0.3
 _LAG = 0.2
 """A joint this far behind (radians, metres) has met something."""
+_SAME_WAY = 0.9
+"""Cosine between successive directions in joint space that are passed without stopping."""
 _SETTLED = 0.004
 _SETTLING_S = 1.0
 
@@ -41,10 +44,12 @@ def follow(
     points = np.array([hardware.arm_positions, *path])
     durations = (np.abs(np.diff(points, axis=0)) / (speed * hardware.arm_speed_limits)).max(axis=1)
     times = np.concatenate(([0.0], np.cumsum(durations)))
+    stops = times[_corners(points)]
     reached, rate = 0.0, 0.0
     before = points[0]
     while reached < times[-1] and not until():
-        rate = min(1.0, rate + CONTROL_S / _RAMP_S, _slowing(times[-1] - reached))
+        next_stop = stops[np.searchsorted(stops, reached + 1e-6)]
+        rate = min(1.0, rate + CONTROL_S / _RAMP_S, _slowing(next_stop - reached))
         reached = min(times[-1], reached + rate * CONTROL_S)
         now = np.array([np.interp(reached, times, joint) for joint in points.T])
         hardware.command_arm(now, (now - before) / CONTROL_S)
@@ -63,6 +68,14 @@ def hold(hardware: Hardware) -> None:
     """Stay where the arm is now."""
     positions = hardware.arm_positions
     hardware.command_arm(positions, np.zeros(len(positions)))
+
+
+def _corners(points: Floats) -> NDArray[np.bool_]:
+    """Which points, the last included, the joints must come to rest at: where they turn sharply."""
+    ways = np.diff(points, axis=0)
+    ways /= np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-9)
+    straight = (ways[:-1] * ways[1:]).sum(axis=1) > _SAME_WAY
+    return np.concatenate(([False], ~straight, [True]))
 
 
 def _slowing(left: float) -> float:

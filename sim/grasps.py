@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations_with_replacement, product
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
@@ -17,7 +18,7 @@ from sim.hardware import FINGER_TRAVEL
 from sim.objects import ObjectModel
 from sim.solids import Floats, sample_surface, signed_distance
 
-WIDEST = 2 * FINGER_TRAVEL - 0.006
+WIDEST = 2 * FINGER_TRAVEL - 0.0045
 """The widest stretch that the open fingers pass on both sides (metres)."""
 NARROWEST = 0.003
 TIP = 0.0075
@@ -26,10 +27,19 @@ PALM = 0.037
 """From the point between the pads back to the palm (metres)."""
 _OPENING = 0.024
 """How much wider than the thing the fingers are opened, if they can."""
-_FINGER_HALF_WIDTH, _FINGER_THICKNESS = 0.011, 0.020
+_PAD_HALF_WIDTH, _FINGER_THICKNESS, _PAD_UP = 0.009, 0.022, 0.010
+_MARGIN = 0.003
+"""For errors of position: at least this much air around the fingers (metres)."""
+_PAD_GIVE = 0.003
+"""What is this much farther from the middle than the first contact still touches the pad."""
+_FULL_PAD = 12
+"""Surface points that a pad covers at least where it lies flat."""
+_WITHIN_FRICTION = 0.85
+"""Cosine of the angle between surface normal and closing direction at which fingers hold."""
 _PALM_HALF_SIZE = (0.025, 0.105)
 _STEP_X, _STEP_Y, _STEP_Z = 0.008, 0.001, 0.004
 _DEEPEST = 0.06
+Span = tuple[float, float]
 TILTS = (0.0, np.pi / 4, np.pi / 2)
 """From straight down to level, away from the robot (radians), in order of preference."""
 
@@ -95,9 +105,9 @@ def _yaws(pose: Pose, facing: float, tilt: float) -> Iterator[float]:
 def _straddles(model: ObjectModel, pose: Pose, rotation: Rotation) -> Iterator[Grasp]:
     """All stretches that the hand can take in this orientation."""
     turn = Rotation.from_quat(pose.orientation)
-    surface, _ = sample_surface(model.shapes)
+    surface, outward = sample_surface(model.shapes)
     to_hand = rotation.inv() * turn
-    points = to_hand.apply(surface)
+    points, normals = to_hand.apply(surface), to_hand.apply(outward)
     mass = to_hand.apply(model.center_of_mass)
     base = np.asarray(pose.position)
     low, high = points.min(axis=0), points.max(axis=0)
@@ -108,28 +118,28 @@ def _straddles(model: ObjectModel, pose: Pose, rotation: Rotation) -> Iterator[G
     inside = signed_distance(model.shapes, to_hand.inv().apply(grid.reshape(-1, 3))) < 0
     stretches = _stretches(inside.reshape(grid.shape[:-1]), ys)
     for i, k in product(range(len(xs)), range(len(zs))):
-        for first, last in combinations_with_replacement(stretches[i][k], 2):
-            start, end = first[0], last[1]
+        for start, end in _wholes(stretches[i][k], model):
             middle = np.array([xs[i], (start + end) / 2, zs[k]])
             gap = min(2 * FINGER_TRAVEL, end - start + _OPENING)
-            if not NARROWEST < end - start < WIDEST or not _room(points, middle, gap):
+            if not NARROWEST < end - start < WIDEST or not _room(
+                points, middle, end - start, gap
+            ):
                 continue
             position = base + rotation.apply(middle)
             tip_height = (position + TIP * rotation.apply((0.0, 0.0, 1.0)))[2]
             if tip_height < base[2] + 0.002:
                 continue
-            slant = _slant(stretches, i, k, start, end)
+            grip = _grip(points, normals, middle, end - start)
+            if grip == 0.0:
+                continue
             lever = np.linalg.norm((rotation.apply(mass - middle))[:2])
             shallow = max(0.0, low[2] + 0.04 - zs[k])
             tight = max(0.0, end - start - 0.06)
-            cost = float(lever + 3 * slant + 0.2 * shallow + tight)
+            cost = float(lever + 0.03 * (1 - grip) + 0.2 * shallow + tight)
             yield Grasp(HandPose(position, rotation), gap, cost)
 
 
-Stretches = list[list[list[tuple[float, float]]]]
-
-
-def _stretches(inside: np.ndarray, ys: Floats) -> Stretches:
+def _stretches(inside: NDArray[np.bool_], ys: Floats) -> list[list[list[Span]]]:
     """Start and end (metres along y) of each run of points inside the thing, for each line."""
     edges = np.diff(np.pad(inside, ((0, 0), (0, 0), (1, 1))).astype(np.int8), axis=-1)
     half = _STEP_Y / 2
@@ -142,25 +152,34 @@ def _stretches(inside: np.ndarray, ys: Floats) -> Stretches:
     ]
 
 
-def _room(points: Floats, middle: Floats, gap: float) -> bool:
-    """Whether palm and open fingers would not hit the thing."""
+def _wholes(runs: list[Span], model: ObjectModel) -> Iterator[Span]:
+    """What may be between the fingers: runs and what they enclose, but of hollow things one wall."""
+    if model.grasp == "top":
+        for first, last in combinations_with_replacement(runs, 2):
+            yield first[0], last[1]
+    else:
+        yield from runs
+
+
+def _room(points: Floats, middle: Floats, width: float, gap: float) -> bool:
+    """Whether palm and fingers, while they close, would hit the thing beside the stretch."""
     x, y, z = np.abs(points[:, 0] - middle[0]), points[:, 1] - middle[1], points[:, 2] - middle[2]
     palm = (x < _PALM_HALF_SIZE[0]) & (np.abs(y) < _PALM_HALF_SIZE[1]) & (z < -PALM)
-    beside = np.abs(np.abs(y) - gap / 2 - _FINGER_THICKNESS / 2) < _FINGER_THICKNESS / 2
-    fingers = (x < _FINGER_HALF_WIDTH) & beside & (z < TIP + 0.002)
+    beside = (np.abs(y) > width / 2 + _MARGIN) & (np.abs(y) < gap / 2 + _FINGER_THICKNESS)
+    fingers = (x < _PAD_HALF_WIDTH + _MARGIN) & beside & (z < TIP + _MARGIN)
     return not (palm | fingers).any()
 
 
-def _slant(stretches: Stretches, i: int, k: int, start: float, end: float) -> float:
-    """How far the two sides lean or bulge over the width and length of the pads (metres)."""
-    worst = 0.0
-    for di, dk in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-        if not (0 <= i + di < len(stretches) and 0 <= k + dk < len(stretches[0])):
-            worst += 0.002
-            continue
-        near = [s for s in stretches[i + di][k + dk] if s[1] > start and s[0] < end]
-        if not near:
-            worst += 0.002
-            continue
-        worst += abs(near[0][0] - start) + abs(near[-1][1] - end)
-    return worst / 4
+def _grip(points: Floats, normals: Floats, middle: Floats, width: float) -> float:
+    """How well the pads would hold: 1 if all of both lies flat on the thing, 0 if it would slip."""
+    x, z = np.abs(points[:, 0] - middle[0]), points[:, 2] - middle[2]
+    opposite = (x < _PAD_HALF_WIDTH) & (z > -_PAD_UP) & (z < TIP)
+    worst = 1.0
+    for side in (-1.0, 1.0):
+        away = np.abs(points[:, 1] - middle[1] - side * width / 2)
+        flat = side * normals[opposite & (away < _PAD_GIVE), 1]
+        flat = flat[flat > 0]
+        if not len(flat) or flat.mean() < _WITHIN_FRICTION:
+            return 0.0
+        worst = min(worst, float(flat.mean()) * min(1.0, len(flat) / _FULL_PAD))
+    return worst

@@ -125,6 +125,8 @@ class Manipulator:
         yield from self.stow()
         if failure:
             raise failure
+        if self.holding:
+            raise CannotError(f"the {held.model.name} stuck to my fingers")
         self._held = None
 
     def stow(self) -> Skill:

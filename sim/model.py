@@ -14,6 +14,8 @@ from scipy.spatial.transform import Rotation
 from executive.records import Entity, Shape
 from executive.types import Color, Pose, Vector3
 
+_PADS = {"lateral_friction": "1.0", "spinning_friction": "0.006", "rolling_friction": "0.002"}
+"""Rubber on the finger tips: a pad 18 mm wide also resists turning (metres, as PyBullet has it)."""
 _WHITE: Color = (0.92, 0.92, 0.90, 1.0)
 
 
@@ -52,6 +54,8 @@ def _panda() -> ElementTree.Element:
     for mesh in panda.iter("mesh"):
         name = str(mesh.get("filename")).rsplit("/", 1)[-1]
         mesh.set("filename", str(folder / "meshes" / "collision" / name))
+    for contact in panda.iter("contact"):
+        contact[:] = [ElementTree.Element(tag, value=value) for tag, value in _PADS.items()]
     for visual in panda.iter("visual"):
         for material in visual.findall("material"):
             visual.remove(material)
