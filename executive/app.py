@@ -61,9 +61,11 @@ class Session:
         model: LanguageModel | None = None,
         view: bool = False,
         gui: bool = False,
-        out: TextIO = sys.stderr,
+        out: TextIO | None = None,
     ) -> None:
         """Build everything; `user` and `model` replace what the settings name.
+
+        The robot's words go to `out` (default: standard error).
 
         Raises:
             ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
@@ -80,7 +82,9 @@ class Session:
         )
         self.clock = SimulatedClock(self.inbox, self.world)
         self.eyes = Eyes(camera, detector, self.inbox, self.recorder)
-        self.user = user or build_user(settings, self.inbox, self.world.resting_place, out)
+        self.user = user or build_user(
+            settings, self.inbox, self.world.resting_place, out or sys.stderr
+        )
         self.advisor = (
             PlaceAdvisor(self.knowledge, self.model, remembers=settings.remembers)
             if self.model

@@ -108,7 +108,13 @@ def run_mission(
         return request
 
     robot.start = start_and_note  # type: ignore[method-assign]
-    user: User = Oracle(inbox, world.resting_place) if answers is None else Scripted(inbox, answers)
+    user: User
+    if person:
+        user = person(inbox)
+    elif answers is None:
+        user = Oracle(inbox, world.resting_place)
+    else:
+        user = Scripted(inbox, answers)
     model = ScriptedModel(replies, inbox) if llm else None
     knowledge = ontology(defaults)
     team = Team(
