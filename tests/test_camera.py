@@ -1,12 +1,15 @@
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from executive.perception import locate, rays, transform
 from executive.types import Pose, Vector3
+from sim.__main__ import HEIGHT, WIDTH, main
 from sim.bodies import build_home, frame_pose, place_objects
 from sim.camera import KEPT_SEGMENTATIONS, SimulatedCamera, SimulatedDetector, pinhole, render
 from sim.client import connect
@@ -131,3 +134,17 @@ def test_things_rest_where_the_home_has_them(scene: Scene):
             frame_pose(scene.client, body).position, HOME.object_pose(name).position
         )
         assert np.linalg.norm(moved) < 0.002, name
+
+
+def test_a_home_can_be_drawn_from_the_command_line(tmp_path: Path):
+    picture = tmp_path / "home.png"
+    assert main(["view", "--out", str(picture)]) == 0
+    color = cv2.imread(str(picture))
+    assert color is not None
+    assert color.shape == (HEIGHT, WIDTH, 3)
+    assert len(np.unique(color.reshape(-1, 3), axis=0)) > 50
+
+
+def test_drawing_an_unknown_home_says_so(capsys: pytest.CaptureFixture[str]):
+    assert main(["view", "villa"]) == 2
+    assert "packaged are four_rooms" in capsys.readouterr().err
