@@ -65,10 +65,17 @@ class Kinematics:
 
         Only the last part of a reach may come near the target.
         """
-        for body in (*self._target, *self._others):
+        self.forget_target()
+        for body in self._others:
             self._client.removeBody(body)
         self._target = {self._column_body(column) for column in target}
         self._others = {self._column_body(column) for column in others}
+
+    def forget_target(self) -> None:
+        """The target is in the hand now, or no longer where it was."""
+        for body in self._target:
+            self._client.removeBody(body)
+        self._target = set()
 
     @property
     def highest_lift(self) -> float:

@@ -103,6 +103,7 @@ class Manipulator:
         yield from drive(self._hardware, [(base[0], base[1])], base[2], CREEP_M_S)
         failure = yield from attempt(self._grasp(model.name, grasp, way))
         self._held = Held.taken(model, pose, grasp)
+        self._kinematics.forget_target()
         yield from self.stow()
         if failure:
             raise failure
