@@ -64,7 +64,7 @@ def _birds_eye(entities: Iterable[Entity]) -> rrb.EyeControls3D | None:
     sizes = np.array([shape.size for shape in shapes])
     low, high = (centers - sizes / 2).min(axis=0), (centers + sizes / 2).max(axis=0)
     middle = (low + high) / 2
-    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.45, 0.75])
+    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.4, 0.62])
     return rrb.EyeControls3D(position=_vector(middle + away), look_target=_vector(middle))
 
 
@@ -94,7 +94,7 @@ def _words() -> rrb.Vertical:
             rrb.TextLogView(origin=DIALOG, name="Dialogue", columns=columns),
             rrb.TextLogView(origin=LOG, name="Log", columns=columns),
         ),
-        row_shares=[4, 6, 3],
+        row_shares=[5, 6, 3],
     )
 
 

@@ -15,7 +15,8 @@ Row = dict[str, Any]
 class Span:
     """One behaviour at work: from the tick that started it to the tick that saw it end.
 
-    `status` is how it ended; RUNNING if the recording ends first, INVALID if it was interrupted.
+    `status` is how the last of these ticks left it: RUNNING if the recording ends first, INVALID if
+    it was interrupted, or failed and was reset within the tick because a loop went on.
     """
 
     start_s: float

@@ -36,7 +36,7 @@ _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 class RerunSink:
     """Writes an .rrd file, shows the mission in a viewer, or both.
 
-    Timelines: `mission_time` (seconds) and `tick`. The file carries its own blueprint.
+    Timelines: `mission_time` (to the millisecond) and `tick`. The file carries its own blueprint.
     """
 
     def __init__(self, path: FilePath | None, *, view: bool = False) -> None:
@@ -67,7 +67,8 @@ class RerunSink:
 
     def write(self, stamp: Stamp, record: Record) -> None:
         """Log a record where the blueprint looks for it."""
-        self._stream.set_time(blueprint.MISSION_TIME, duration=stamp.mission_s)
+        mission_s = round(stamp.mission_s, 3)
+        self._stream.set_time(blueprint.MISSION_TIME, duration=mission_s)
         self._stream.set_time("tick", sequence=self._tick)
         match record:
             case TreeShape():
@@ -93,7 +94,7 @@ class RerunSink:
                 rerun_scene.log_scene(self._stream, entities)
                 self._stream.send_blueprint(blueprint.mission_blueprint(entities))
             case Transforms():
-                self._write_transforms(stamp, record)
+                self._write_transforms(mission_s, record)
             case Path():
                 rerun_scene.log_path(self._stream, record)
             case Finished(outcome):
@@ -134,10 +135,10 @@ class RerunSink:
         text = " ".join(filter(None, (message.name, message.result, message.text)))
         self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
 
-    def _write_transforms(self, stamp: Stamp, record: Transforms) -> None:
+    def _write_transforms(self, mission_s: float, record: Transforms) -> None:
         count = len(record.transforms)
         times = (
-            rr.TimeColumn(blueprint.MISSION_TIME, duration=[stamp.mission_s] * count),
+            rr.TimeColumn(blueprint.MISSION_TIME, duration=[mission_s] * count),
             rr.TimeColumn("tick", sequence=[self._tick] * count),
         )
         rerun_scene.log_transforms(self._stream, record, times)

@@ -25,7 +25,7 @@ _STATUS_STYLE = rr.StateConfiguration(
 _SIGNS = {"sequence": "→", "selector": "?", "decorator": "◇"}
 
 _ROW, _INDENT, _COLUMN, _LETTER, _PADDING = 34.0, 48.0, 170.0, 5.8, 20.0
-"""Layout of the graphs (viewer units): a row, a level of each layout, a label's letter and margin."""
+"""Layout of the graphs (viewer units): a row, a level (of either layout), a letter, a margin."""
 
 
 Layout = Callable[[Sequence[NodeShape], Sequence[str]], list[tuple[float, float]]]

@@ -4,7 +4,7 @@ With `SCREENSHOTS=DIR` in the environment the pictures are kept there, to be loo
 """
 
 import os
-import socket
+import signal
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,11 +16,18 @@ from numpy.typing import NDArray
 from rerun.experimental import ViewerClient
 from sample_mission import mission
 
+from logs import viewer
 from logs.blueprint import MISSION_TIME
 from logs.recorder import Stamp
 from logs.rerun_sink import RerunSink
 
-pytestmark = pytest.mark.viewer
+pytestmark = [
+    pytest.mark.viewer,
+    pytest.mark.skipif(
+        not list(Path("/usr/share/vulkan/icd.d").glob("*.json")),
+        reason="no Vulkan driver: install mesa-vulkan-drivers",
+    ),
+]
 
 SETTLE_S = 30.0
 NOTICES_PX = 80
@@ -34,16 +41,16 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ViewerClient]:
     for mission_s, record in mission():
         sink.write(Stamp(mission_s, 0), record)
     sink.close()
-    with socket.socket() as any_port:
-        any_port.bind(("127.0.0.1", 0))
-        port = any_port.getsockname()[1]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(viewer, "COMMAND", [*viewer.COMMAND, "--headless"])
+        live = viewer.start()
+    client = ViewerClient.connect(live.address)
     try:
-        viewer = ViewerClient.spawn(headless=True, port=port)
-    except RuntimeError as error:
-        pytest.skip(f"the viewer does not start here (mesa-vulkan-drivers?): {error}")
-    with viewer:
-        viewer.open(str(path))
-        yield viewer
+        client.open(str(path))
+        yield client
+    finally:
+        os.killpg(live.process.pid, signal.SIGKILL)
+        live.process.wait()
 
 
 def screenshot(client: ViewerClient, mission_s: float) -> NDArray[np.uint8]:
