@@ -29,7 +29,7 @@ _STUCK_DISTANCE = 0.02
 def drive(
     hardware: Hardware, path: Sequence[tuple[float, float]], yaw: float, speed: float = SPEED
 ) -> Skill:
-    """Follow way-points (metres, in `map`) and end at the last one, facing `yaw`.
+    """Follow way-points (metres, in `map`) and park at the last one, facing `yaw`.
 
     Raises:
         CannotError: if it does not get ahead.
@@ -47,17 +47,17 @@ def drive(
         if since > _STUCK_S:
             yield from brake(hardware)
             raise CannotError("the way is blocked")
-    hardware.command_base(np.zeros(3))
+    hardware.park()
 
 
 def brake(hardware: Hardware) -> Skill:
-    """Bring the base to rest."""
+    """Bring the base to rest and park it."""
     velocity = hardware.base_velocity
     while np.abs(velocity).max() > 1e-3:
         velocity = _toward(velocity, np.zeros(3), BRAKING, TURN_BRAKING)
         hardware.command_base(velocity)
         yield
-    hardware.command_base(np.zeros(3))
+    hardware.park()
 
 
 class _Follower:

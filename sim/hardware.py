@@ -68,7 +68,7 @@ class Hardware:
         for joints, positions in ((self._base, start), (self._arm, FOLDED)):
             for joint, position in zip(joints, positions, strict=True):
                 self._client.resetJointState(self.body, joint, position)
-        self.command_base(np.zeros(3))
+        self.park()
         self.command_arm(FOLDED, np.zeros(len(ARM)))
         self.command_head(0.0, 0.4)
         self.open_fingers(0.0)
@@ -144,6 +144,11 @@ class Hardware:
     def command_base(self, velocity: Floats) -> None:
         """Drive with this velocity (m/s, m/s, rad/s) in `map`."""
         self._command(self._base, BASE, p.VELOCITY_CONTROL, targetVelocities=list(velocity))
+
+    def park(self) -> None:
+        """Hold the base where it is."""
+        positions = list(self.base_pose)
+        self._command(self._base, BASE, p.POSITION_CONTROL, targetPositions=positions)
 
     def command_arm(self, positions: Floats, velocities: Floats) -> None:
         """Servo the joints of `ARM` to positions, with the velocities fed forward."""

@@ -401,6 +401,12 @@ def test_a_thing_that_cannot_be_put_down_is_reported() -> None:
     assert (run.outcome.status, run.outcome.reason) == (Status.NOT_DONE, "the table is full")
 
 
+def test_time_spent_waiting_for_the_model_is_counted_and_no_other() -> None:
+    run = run_mission("Find an apple.", defaults=False, replies=[None])
+    assert run.outcome.thinking_time_s == 60.0
+    assert run.outcome.mission_time_s > 60.0
+
+
 def test_dropped_names_are_recorded() -> None:
     run = run_mission(
         "Find an apple.",

@@ -115,7 +115,7 @@ class ModelAction(Action):
         assert team.advisor is not None
         self.model: LanguageModel = team.model
         self.advisor: Advisor = team.advisor
-        self._began = 0.0
+        self._began: float | None = None
 
     def initialise(self) -> None:
         """Mark the time, and start."""
@@ -124,7 +124,9 @@ class ModelAction(Action):
 
     def terminate(self, new_status: Status) -> None:
         """Count the time spent thinking."""
-        self.situation.thinking_time_s += self.team.clock.now() - self._began
+        if self._began is not None:
+            self.situation.thinking_time_s += self.team.clock.now() - self._began
+            self._began = None
         super().terminate(new_status)
 
     def cancel(self, request: int) -> None:
