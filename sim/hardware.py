@@ -61,7 +61,22 @@ class Hardware:
         self._arm, self._base, self._fingers, self._head = (
             [self._joints[name] for name in names] for names in (ARM, BASE, FINGERS, HEAD)
         )
+        self._couple_fingers()
         self._reset(start)
+
+    def _couple_fingers(self) -> None:
+        """Make the fingers mirror each other, as the gear in the real hand does."""
+        gear = self._client.createConstraint(
+            self.body,
+            self._fingers[0],
+            self.body,
+            self._fingers[1],
+            jointType=p.JOINT_GEAR,
+            jointAxis=[1, 0, 0],
+            parentFramePosition=[0, 0, 0],
+            childFramePosition=[0, 0, 0],
+        )
+        self._client.changeConstraint(gear, gearRatio=-1, erp=0.1, maxForce=2 * FINGER_FORCE)
 
     def _reset(self, start: tuple[float, float, float]) -> None:
         """Set up the pose that the world begins with, and hold it."""
