@@ -128,9 +128,9 @@ def rank_call() -> LlmCall:
 
 
 def frame(number: int = 0) -> Frame:
-    """A picture of a white box on a grey floor, looking ahead from 1 m above `x` = 1 m."""
+    """A picture of an orange box on a grey floor, looking ahead from 1 m above `x` = 1 m."""
     color = np.full((120, 160, 3), 90, np.uint8)
-    color[50:80, 70:100] = (240, 240, 235)
+    color[50:80, 70:100] = (240, 170, 60)
     return Frame(
         number=number,
         color=color,
@@ -205,9 +205,9 @@ def mission() -> Iterator[tuple[float, Record]]:
     yield 0.0, EventTaken(Started(WORDS))
     running = "RUNNING"
     yield 0.0, tick(0, "mission/which places/ask", running, running, running, "INVALID", "INVALID")
+    yield 0.5, rank_call()
     yield 1.0, chat_call()
     yield 1.0, Verified("general_pos", ("cupboard",), (), ("spice rack",))
-    yield 2.0, rank_call()
     done = "SUCCESS"
     yield (
         2.0,

@@ -67,7 +67,7 @@ def test_each_tick_carries_the_status_of_every_behaviour_as_py_trees_ros_numbers
 
 
 def test_a_call_of_the_model_keeps_prompt_reply_parameters_and_cost(path: Path) -> None:
-    (_, chat), (_, rank) = write(path, *mission())["/llm/call"]
+    (_, rank), (_, chat) = write(path, *mission())["/llm/call"]
     assert chat.gen_ai_input_messages[1].content.startswith("I am searching")
     assert "spice rack" in chat.gen_ai_output_messages[0].content
     assert chat.HasField("gen_ai_request_temperature")

@@ -77,7 +77,7 @@ def test_what_is_read_equals_what_was_recorded(run_dir: Path) -> None:
     assert [(at.time_s, at.value) for at in run.ticks()] == [
         (time, record) for time, record in records if isinstance(record, Tick)
     ]
-    assert [at.value for at in run.llm_calls()] == [chat_call(), rank_call()]
+    assert [at.value for at in run.llm_calls()] == [rank_call(), chat_call()]
     assert [at.value for at in run.dialog()] == [r for _, r in records if isinstance(r, Utterance)]
     assert run.outcome() == outcome()
     assert run.metadata["seed"] == "7"
@@ -132,7 +132,7 @@ def test_the_timeline_says_when_each_leaf_was_at_work(run_dir: Path) -> None:
 
 
 def test_each_verification_belongs_to_the_call_before_it(run_dir: Path) -> None:
-    chat, rank = report.llm(Run(run_dir))
+    rank, chat = report.llm(Run(run_dir))
     assert chat["verified"]["dropped"] == ("spice rack",)
     assert "verified" not in rank
     assert rank["scores"]["desk"] == 0.7

@@ -87,7 +87,7 @@ def test_the_recording_is_on_the_mission_time_and_the_tick_timeline(recording: P
 
 
 def test_a_call_reads_as_asked_answered_accepted_and_dropped(recording: Path) -> None:
-    document = texts(recording, "/llm")[1]
+    document = texts(recording, "/llm")[2]
     parts = (
         "**Asked** I am searching for sugar_box",
         '**Answered** {"places": ["cupboard", "spice rack"]}',
@@ -100,7 +100,7 @@ def test_a_call_reads_as_asked_answered_accepted_and_dropped(recording: Path) ->
 
 
 def test_a_ranking_reads_from_the_likeliest_place_down(recording: Path) -> None:
-    document = texts(recording, "/llm")[2]
+    document = texts(recording, "/llm")[0]
     places = [document.index(place) for place in ("| cupboard", "| dining_table", "| desk")]
     assert places == sorted(places)
 
