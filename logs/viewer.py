@@ -12,11 +12,17 @@ from executive.errors import ExecutiveError
 COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
 START_S = 20.0
 """How long a viewer may take to start."""
+_NO_VIEWER = "the rerun viewer does not start; it needs a display"
 
 
 def show(recording: Path) -> None:
-    """Open a recording and wait until the viewer is closed."""
-    subprocess.run([*COMMAND, str(recording)], check=False)
+    """Open a recording and wait until the viewer is closed.
+
+    Raises:
+        ExecutiveError: if it does not start, as without a display.
+    """
+    if subprocess.run([*COMMAND, str(recording)], check=False).returncode:
+        raise ExecutiveError(_NO_VIEWER)
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +50,7 @@ def start() -> LiveViewer:
     latest = time.monotonic() + START_S
     while not _listens(port):
         if process.poll() is not None or time.monotonic() > latest:
-            raise ExecutiveError("the rerun viewer does not start; it needs a display")
+            raise ExecutiveError(_NO_VIEWER)
         time.sleep(0.1)
     return LiveViewer(f"rerun+http://127.0.0.1:{port}/proxy", process)
 

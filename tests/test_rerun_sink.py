@@ -150,6 +150,8 @@ def test_a_viewer_that_cannot_start_is_said_in_a_sentence(
     monkeypatch.setattr(viewer, "COMMAND", ["false"])
     with pytest.raises(ExecutiveError, match="does not start"):
         RerunSink(tmp_path / "a.rrd", view=True)
+    with pytest.raises(ExecutiveError, match="does not start"):
+        viewer.show(tmp_path / "a.rrd")
 
 
 @pytest.mark.viewer
