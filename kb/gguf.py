@@ -194,7 +194,12 @@ class Context:
         """Log P(option | sequence 0) of each option, many options to a batch.
 
         Has to follow `read`; sequence 0 stays as it is.
+
+        Raises:
+            ModelError: if an option is empty or longer than CHUNK_TOKENS.
         """
+        if not all(0 < len(option) <= CHUNK_TOKENS for option in options):
+            raise ModelError(f"an option has to be from 1 to {CHUNK_TOKENS} tokens long")
         first = _log_probabilities(self._scores(-1))
         for group in self._packed(options):
             checkpoint()

@@ -16,6 +16,7 @@ from executive.events import Inbox
 from executive.types import (
     ChatRequest,
     Failed,
+    Message,
     RankRequest,
     Replied,
     Result,
@@ -57,7 +58,8 @@ class LlamaCpp:
     """Implements `LanguageModel`. Requests are served one after the other, in their order.
 
     The model is loaded in the background; requests wait for it. What a prompt shares with the one
-    before it is not evaluated again; writing and scoring have a KV cache each.
+    before it is not evaluated again; writing and scoring have a KV cache each, and what was scored
+    before (the neutral prompt, above all) is remembered.
     """
 
     can_rank = True
@@ -102,6 +104,7 @@ class LlamaCpp:
         self._threads = threads
         self._grammar = grammar
         self._stops: dict[int, threading.Event] = {}
+        self._likelihoods: dict[tuple[tuple[Message, ...], tuple[str, ...]], tuple[float, ...]] = {}
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="language model")
         self._loading = self._pool.submit(self._load, gpu_layers)
 
@@ -212,17 +215,19 @@ class LlamaCpp:
                 loaded.model, self._n_ctx, sequences=1 + RANKED_AT_ONCE, threads=self._threads
             )
         options = [loaded.model.tokenize(option) for option in request.options]
-        logs: list[list[float]] = []
+        written = sum(map(len, options))
         tokens = evaluated = 0
         for messages in (request.neutral, request.messages):
             prompt = self._fitting(loaded.model.prompt(messages), CHUNK_TOKENS)
-            evaluated += loaded.ranking.read(prompt, checkpoint)
-            logs.append(list(loaded.ranking.continuations(options, checkpoint)))
-            tokens += len(prompt)
-        among = 2 * sum(map(len, options))
-        scores = tuple(given - neutral for neutral, given in zip(*logs, strict=True))
-        usage = self._usage(tokens + among, evaluated + among, 0, 0.0, began)
-        return Scored(request, scores, usage)
+            tokens += len(prompt) + written
+            if (messages, request.options) not in self._likelihoods:
+                evaluated += loaded.ranking.read(prompt, checkpoint) + written
+                likelihoods = tuple(loaded.ranking.continuations(options, checkpoint))
+                self._likelihoods[messages, request.options] = likelihoods
+        given = self._likelihoods[request.messages, request.options]
+        neutral = self._likelihoods[request.neutral, request.options]
+        scores = tuple(g - n for g, n in zip(given, neutral, strict=True))
+        return Scored(request, scores, self._usage(tokens, evaluated, 0, 0.0, began))
 
     def _fitting(self, prompt: Tokens, reserve: int) -> Tokens:
         if len(prompt) + reserve > self._n_ctx:
