@@ -28,7 +28,7 @@ FOLDED: Floats = np.array([0.08, 0.0, -0.5, 0.0, -3.0, 0.0, 2.5, 0.785])
 """The arm over the base, hand pointing down, a thing in it upright: how the robot drives."""
 
 FINGER_FORCE = 40.0
-"""How hard each finger presses (newtons); the real hand can do 70."""
+"""The most that each finger presses (newtons); the real hand can do 70."""
 FINGER_TRAVEL = 0.04
 """How far each finger opens from the middle (metres)."""
 _ENOUGH = 1e4
@@ -200,11 +200,11 @@ class Hardware:
                 maxVelocity=0.1,
             )
 
-    def squeeze(self) -> None:
-        """Close the fingers until something stops them, and keep pressing."""
+    def squeeze(self, force: float) -> None:
+        """Close the fingers until something stops them, and keep pressing (newtons each)."""
         for joint in self._fingers:
             self._client.setJointMotorControl2(
-                self.body, joint, p.VELOCITY_CONTROL, targetVelocity=-0.05, force=FINGER_FORCE
+                self.body, joint, p.VELOCITY_CONTROL, targetVelocity=-0.05, force=min(force, FINGER_FORCE)
             )
 
     # --- helpers ---

@@ -32,6 +32,8 @@ BACK_OFF_M = 0.24
 """How far the base retreats before the arm is folded."""
 CREEP_M_S = 0.35
 """Speed of the base while the arm is out or the furniture near."""
+LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
+"""How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
 FEWEST_POINTS = 30
 _GRASPS_TRIED = 8
 _SPOTS_TRIED = 12
@@ -101,7 +103,7 @@ class Manipulator:
         pose = locate(model, points)
         grasp, base, way = self._choose_grasp(model, pose, points)
         yield from drive(self._hardware, [(base[0], base[1])], base[2], CREEP_M_S)
-        failure = yield from attempt(self._grasp(model.name, grasp, way))
+        failure = yield from attempt(self._grasp(model, grasp, way))
         self._held = Held.taken(model, pose, grasp)
         self._kinematics.forget_target()
         yield from self.stow()
@@ -178,13 +180,13 @@ class Manipulator:
                             return grasp, base, way
         raise CannotError(f"I cannot reach the {model.name}")
 
-    def _grasp(self, name: str, grasp: Grasp, way: Floats) -> Skill:
-        hardware = self._hardware
+    def _grasp(self, model: ObjectModel, grasp: Grasp, way: Floats) -> Skill:
+        hardware, name = self._hardware, model.name
         reach = self._reach(grasp.hand, way, f"I cannot reach the {name}")
         hardware.open_fingers(grasp.gap)
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
-        hardware.squeeze()
+        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg)
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
         if not self.holding:
