@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 from mcap.writer import Writer
+from rerun.chunk import RrdReader
+from rerun.error_utils import RerunWarning
 from sample_mission import (
     STARTED,
     TREE,
@@ -30,13 +32,19 @@ from logs.recovery import recover
 WRITE_UNTIL_KILLED = """
 import itertools, sys, time
 from pathlib import Path
+from rerun.chunk import RrdReader
+from rerun.error_utils import RerunWarning
 from sample_mission import STARTED, TREE, tick
 from logs import recorder
 from logs.mcap_sink import McapSink
+from logs.rerun_sink import RerunSink
 recorder.FLUSH_S = 0.05
+path = Path(sys.argv[1])
+sinks = [McapSink(path, STARTED, {"a.toml": b"x = 1"}, {"seed": "7"})]
+sinks.append(RerunSink(path.with_suffix(".rrd")))
 number = 0
 fan_out = recorder.FanOut(lambda: number / 100)
-fan_out.open([McapSink(Path(sys.argv[1]), STARTED, {"a.toml": b"x = 1"}, {"seed": "7"})], STARTED)
+fan_out.open(sinks, STARTED)
 fan_out.record(TREE)
 for number in itertools.count():
     fan_out.record(tick(number, "mission/drive", *["RUNNING"] * len(TREE.nodes)))
@@ -112,6 +120,12 @@ def test_a_killed_run_recovers_to_a_whole_file_with_the_same_content(killed: Pat
     assert list(whole.ticks()) == list(Run(killed).ticks())
     with recovered.open("rb") as file:
         assert [a.name for a in make_reader(file).iter_attachments()] == ["a.toml"]
+
+
+def test_a_killed_runs_rrd_streams_too(killed: Path) -> None:
+    with pytest.warns(RerunWarning, match="no footer"):
+        chunks = RrdReader(killed.with_suffix(".rrd")).stream()
+    assert sum(c.to_record_batch().num_rows for c in chunks if c.entity_path == "/belief") > 200
 
 
 @pytest.mark.parametrize("kept", [0.3, 0.6, 0.9])
