@@ -3,6 +3,7 @@
 Nothing else knows all the rooms of the house.
 """
 
+import logging
 import sys
 import time
 from collections.abc import Callable
@@ -37,7 +38,7 @@ from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
 from kb.server import Server
 from logs.mcap_sink import McapSink
-from logs.recorder import FanOut
+from logs.recorder import FanOut, Sink
 from logs.rerun_sink import RerunSink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.home import Home, load_home
@@ -45,6 +46,8 @@ from sim.objects import load_objects
 from trees.mission import mission
 from trees.team import Rules, Team
 from trees.tree import MissionTree
+
+log = logging.getLogger(__name__)
 
 PACKAGES = ("py-trees", "pybullet", "llama-cpp-python", "owlready2", "rerun-sdk", "mcap")
 
@@ -177,14 +180,23 @@ class Session:
             "model": self.model.name if self.model else "none",
             **{name: version(name) for name in PACKAGES},
         }
-        self.recorder.open(
-            [
-                McapSink(folder / "mission.mcap", started, attachments, metadata),
-                RerunSink(folder / "mission.rrd", view=self._view),
-            ],
-            started,
+        sinks = working(
+            lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
+            lambda: RerunSink(folder / "mission.rrd", view=self._view),
         )
+        self.recorder.open(sinks, started)
         self.world.describe()
+
+
+def working(*makers: Callable[[], Sink]) -> list[Sink]:
+    """The logs that can be opened; for the others a warning, because the mission goes on."""
+    sinks = []
+    for make in makers:
+        try:
+            sinks.append(make())
+        except (OSError, RuntimeError) as error:
+            log.warning("a log cannot be opened, the mission goes on without it: %s", error)
+    return sinks
 
 
 def build_simulation(

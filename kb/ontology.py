@@ -108,7 +108,7 @@ class Ontology:
         """Default locations of an object or its nearest class, in this home or not."""
         for thing in upwards(self._thing(name)):
             if usual := values(thing, self._class("hasDefaultLocation")):
-                return tuple(place.name for place in usual)
+                return tuple(place.name for place in usual if place is not None)
         return ()
 
     def preposition(self, place: Place) -> str:
@@ -133,8 +133,10 @@ class Ontology:
                 yield f"{piece.name} is in no room"
         for thing in self._things:
             for place in values(thing, self._class("hasDefaultLocation")):
-                if not isinstance(place, self._class("Furniture")):
-                    yield f"{thing.name} has the default location {place.name}, which is nowhere"
+                if place is None:
+                    yield f"{thing.name} has a default location that no file declares"
+                elif not isinstance(place, self._class("Furniture")):
+                    yield f"{thing.name} has a default location, {place.name}, that is no furniture"
 
     # --- inside ---
 

@@ -72,7 +72,7 @@ def leaves(entity: Any) -> list[Any]:
 
 
 def values(entity: Any, relation: Any) -> list[Any]:
-    """What the class's own restrictions `relation value x` name."""
+    """What the class's own restrictions `relation value x` name; None what no file declares."""
     return [
         c.value
         for c in entity.is_a

@@ -4,7 +4,18 @@ from abc import abstractmethod
 
 from py_trees.common import Status
 
-from executive.types import DriveTo, Failed, Goal, LookAt, Pick, PutDown, Result, Saw, Succeeded
+from executive.types import (
+    DriveTo,
+    Failed,
+    Goal,
+    Halt,
+    LookAt,
+    Pick,
+    PutDown,
+    Result,
+    Saw,
+    Succeeded,
+)
 from trees.nodes import Action
 from trees.team import Team
 
@@ -23,7 +34,7 @@ class RobotAction(Action):
     def start(self) -> int:
         """Hand the goal to the robot."""
         goal = self.goal()
-        self.feedback_message = str(goal) if not isinstance(goal, Pick) else goal.detection.label
+        self.feedback_message = _in_words(goal)
         return self.team.robot.start(goal)
 
     def ended(self, result: Result) -> Status:
@@ -134,3 +145,13 @@ class SeeTarget(Action):
     def cancel(self, request: int) -> None:
         """Look no more."""
         self.team.eyes.cancel(request)
+
+
+def _in_words(goal: Goal) -> str:
+    match goal:
+        case Pick(detection):
+            return detection.label
+        case Halt():
+            return ""
+        case _:
+            return goal.place
