@@ -200,7 +200,7 @@ class Context:
         """
         if not all(0 < len(option) <= CHUNK_TOKENS for option in options):
             raise ModelError(f"an option has to be from 1 to {CHUNK_TOKENS} tokens long")
-        first = _log_probabilities(self._scores(-1))
+        first = self.log_probabilities()
         for group in self._packed(options):
             checkpoint()
             rows = []
@@ -214,10 +214,18 @@ class Context:
             for sequence, option in enumerate(group, start=1):
                 score = first[option[0]]
                 for token in option[1:]:
-                    score += _log_probabilities(self._scores(row))[token]
+                    score += self.log_probabilities(row)[token]
                     row += 1
                 llama_cpp.llama_memory_seq_rm(self._memory, sequence, *WHOLE)
                 yield float(score)
+
+    def log_probabilities(self, row: int = -1) -> NDArray[np.float64]:
+        """(vocabulary,) log P(next token) after this row of the last batch; -1: after the last."""
+        pointer = llama_cpp.llama_get_logits_ith(self.pointer, row)
+        logits = np.ctypeslib.as_array(pointer, shape=(self._vocabulary_size,)).astype(np.float64)
+        logits -= logits.max()
+        log_probabilities: NDArray[np.float64] = logits - np.log(np.exp(logits).sum())
+        return log_probabilities
 
     def close(self) -> None:
         """Free the memory."""
@@ -249,17 +257,6 @@ class Context:
             batch.logits[i] = wanted
         if code := llama_cpp.llama_decode(self.pointer, batch):
             raise ModelError(f"llama.cpp could not evaluate (code {code}): {_last_complaint()}")
-
-    def _scores(self, row: int) -> NDArray[np.float32]:
-        """(vocabulary,) logits after the token in this row of the last batch; -1: the last row."""
-        pointer = llama_cpp.llama_get_logits_ith(self.pointer, row)
-        return np.ctypeslib.as_array(pointer, shape=(self._vocabulary_size,))
-
-
-def _log_probabilities(logits: NDArray[np.float32]) -> NDArray[np.float64]:
-    shifted = logits.astype(np.float64) - logits.max()
-    log_probabilities: NDArray[np.float64] = shifted - np.log(np.exp(shifted).sum())
-    return log_probabilities
 
 
 def _shared_prefix(a: Sequence[int], b: Sequence[int]) -> int:

@@ -34,6 +34,8 @@ _PAD_GIVE = 0.003
 """What is this much farther from the middle than the first contact still touches the pad."""
 _FULL_PAD = 12
 """Surface points that a pad covers at least where it lies flat."""
+_FACING = 0.1
+"""Normals that point less than this towards the finger belong to other sides."""
 _WITHIN_FRICTION = 0.85
 """Cosine of the angle between surface normal and closing direction at which fingers hold."""
 _PALM_HALF_SIZE = (0.025, 0.105)
@@ -178,7 +180,7 @@ def _grip(points: Floats, normals: Floats, middle: Floats, width: float) -> floa
     for side in (-1.0, 1.0):
         away = np.abs(points[:, 1] - middle[1] - side * width / 2)
         flat = side * normals[opposite & (away < _PAD_GIVE), 1]
-        flat = flat[flat > 0]
+        flat = flat[flat > _FACING]
         if not len(flat) or flat.mean() < _WITHIN_FRICTION:
             return 0.0
         worst = min(worst, float(flat.mean()) * min(1.0, len(flat) / _FULL_PAD))

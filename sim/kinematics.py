@@ -169,6 +169,16 @@ class Kinematics:
                 return self._furniture[other]
         return None
 
+    def drive_obstacle(self, path: Sequence[Floats], step: float = 0.05) -> str | None:
+        """What the base would come too close to on its way through poses (x, y, yaw)."""
+        for start, end in pairwise(path):
+            count = max(1, int(np.ceil(np.linalg.norm((end - start)[:2]) / step)))
+            for part in np.linspace(0, 1, count + 1):
+                found = self.base_obstacle(start + part * (end - start))
+                if found:
+                    return found
+        return None
+
     def path_obstacle(self, base: Floats, path: list[Floats], step: float = 0.15) -> str | None:
         """What would be in the way of moving the joints along the path."""
         for start, end in pairwise(path):

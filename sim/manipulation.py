@@ -21,15 +21,13 @@ from sim.kinematics import Kinematics
 from sim.looking import look_at
 from sim.objects import ObjectModel
 from sim.placing import free_spots
-from sim.reaching import Reach, clear_path, plan_reach, standing_poses
+from sim.reaching import Reach, clear_path, plan_reach, plan_retreat, plan_stance, standing_poses
 from sim.registration import locate
 from sim.skill import CannotError, Skill, attempt, pause, wait_until
 
 APPROACH_M = (0.12, 0.05)
 """Lengths of the last straight part of a reach, in order of preference."""
 RISE_M = 0.10
-BACK_OFF_M = 0.24
-"""How far the base retreats before the arm is folded."""
 CREEP_M_S = 0.35
 """Speed of the base while the arm is out or the furniture near."""
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
@@ -101,8 +99,8 @@ class Manipulator:
         model = self._model_of(detection)
         points = np.asarray(detection.points, dtype=np.float64)
         pose = locate(model, points)
-        grasp, base, way = self._choose_grasp(model, pose, points)
-        yield from drive(self._hardware, [(base[0], base[1])], base[2], CREEP_M_S)
+        grasp, way, stance = self._choose_grasp(model, pose, points)
+        yield from self._creep(stance)
         failure = yield from attempt(self._grasp(model, grasp, way))
         self._held = Held.taken(model, pose, grasp)
         self._kinematics.forget_target()
@@ -122,8 +120,8 @@ class Manipulator:
         if held is None or not self.holding:
             raise CannotError("my hand is empty")
         piece = self._home.furniture_named(place)
-        target, base = yield from self._choose_spot(held, piece)
-        yield from drive(self._hardware, [(base[0], base[1])], base[2], CREEP_M_S)
+        target, stance = yield from self._choose_spot(held, piece)
+        yield from self._creep(stance)
         failure = yield from attempt(self._release(held.hand_for(target), held.gap))
         yield from self.stow()
         if failure:
@@ -141,8 +139,7 @@ class Manipulator:
         rise = self._kinematics.line(base, arm, self._kinematics.hand(base, arm).shifted(-RISE_M * _DOWN))
         if rise and not self._kinematics.path_obstacle(base, rise[1:]):
             yield from follow(hardware, rise[1:], SLOW)
-        back = base[:2] - BACK_OFF_M * np.array([np.cos(base[2]), np.sin(base[2])])
-        yield from drive(hardware, [(back[0], back[1])], base[2], CREEP_M_S)
+        yield from self._creep([plan_retreat(self._kinematics, base)])
         arm = hardware.arm_positions
         folded = FOLDED.copy()
         folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
@@ -163,21 +160,21 @@ class Manipulator:
 
     def _choose_grasp(
         self, model: ObjectModel, pose: Pose, points: Floats
-    ) -> tuple[Grasp, Floats, Floats]:
-        """A grasp, where to stand for it, and the last straight way to it."""
+    ) -> tuple[Grasp, Floats, list[Floats]]:
+        """A grasp, the last straight way of the hand to it, and the way to where to stand."""
         piece = self._furniture_at(pose)
         if piece is None:
             raise CannotError(f"the {model.name} is out of reach")
         self._mind_clutter(piece, points)
-        bases = list(self._free_bases(piece, np.asarray(pose.position)))
+        stances = list(self._stances(piece, np.asarray(pose.position)))
         for tilt in TILTS:
             grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:_GRASPS_TRIED]
-            for base in bases:
+            for stance in stances:
                 for grasp in grasps:
                     for length in APPROACH_M:
                         way = length * grasp.hand.approach
-                        if plan_reach(self._kinematics, base, FOLDED, grasp.hand, way):
-                            return grasp, base, way
+                        if plan_reach(self._kinematics, stance[-1], FOLDED, grasp.hand, way):
+                            return grasp, way, stance
         raise CannotError(f"I cannot reach the {model.name}")
 
     def _grasp(self, model: ObjectModel, grasp: Grasp, way: Floats) -> Skill:
@@ -198,17 +195,18 @@ class Manipulator:
 
     def _choose_spot(
         self, held: Held, piece: Furniture
-    ) -> Generator[None, None, tuple[Pose, Floats]]:
-        """Look at the furniture, then choose where to put the thing and where to stand for it."""
+    ) -> Generator[None, None, tuple[Pose, list[Floats]]]:
+        """Look, then choose where to put the thing, and the way to where to stand for it."""
         yield from look_at(self._hardware, self._home.view_targets(piece.name)[0])
         way = APPROACH_M[0] * _DOWN
         carrying = self._hardware.arm_positions
         self._mind_clutter(piece, np.empty((0, 3)))
         spots = list(free_spots(piece, held.model, self._scan()))
         for spot in spots[:_SPOTS_TRIED]:
-            for base in self._free_bases(piece, np.asarray(spot.position)):
-                if plan_reach(self._kinematics, base, carrying, held.hand_for(spot), way):
-                    return spot, base
+            for stance in self._stances(piece, np.asarray(spot.position)):
+                hand = held.hand_for(spot)
+                if plan_reach(self._kinematics, stance[-1], carrying, hand, way):
+                    return spot, stance
         clause = "I cannot reach a free spot on" if spots else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
 
@@ -242,12 +240,18 @@ class Manipulator:
             (target_columns if (off < CELL_M).any() else others).append(column)
         self._kinematics.assume_clutter(target_columns, others)
 
-    def _free_bases(self, piece: Furniture, target: Floats) -> Iterator[Floats]:
-        return (
-            base
-            for base in standing_poses(piece, target)
-            if self._kinematics.base_obstacle(base) is None
-        )
+    def _stances(self, piece: Furniture, target: Floats) -> Iterator[list[Floats]]:
+        """Ways of the base to where a point on the furniture may be reached from."""
+        here = self._hardware.base_pose
+        for base in standing_poses(piece, target):
+            way = plan_stance(self._kinematics, here, base)
+            if way is not None:
+                yield way
+
+    def _creep(self, way: list[Floats]) -> Skill:
+        """Drive slowly, straight from pose to pose."""
+        for x, y, yaw in way:
+            yield from drive(self._hardware, [(x, y)], yaw, CREEP_M_S)
 
     def _furniture_at(self, pose: Pose) -> Furniture | None:
         """The piece of furniture that something stands on, if the robot stands before it."""

@@ -13,6 +13,8 @@ from sim.kinematics import COMFORT, Kinematics
 
 NEAREST_M = 0.40
 """From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
+BACK_OFF_M = 0.24
+"""How far the base retreats, if it can, before the arm is folded."""
 OVER_M = 0.15
 """How much higher the lift goes to bring the arm in from above."""
 ASIDE_M = (0.0, 0.15, -0.15, 0.3, -0.3)
@@ -43,6 +45,30 @@ def standing_poses(piece: Furniture, target: Floats) -> Iterator[Floats]:
     for aside in ASIDE_M:
         spot = np.array([x, y]) + (piece.size[0] / 2 + NEAREST_M) * out + (along + aside) * left
         yield np.append(spot, yaw + np.pi)
+
+
+def plan_stance(kinematics: Kinematics, here: Floats, base: Floats) -> list[Floats] | None:
+    """Base poses to pass from here to a standing pose without touching anything, or None.
+
+    Straight, or first ahead and then aside, or the other way round.
+    """
+    ahead = np.array([np.cos(base[2]), np.sin(base[2]), 0.0])
+    advance = ((base - here) @ ahead) * ahead
+    for between in ([], [here + advance], [base - advance]):
+        way = [*between, base]
+        if kinematics.drive_obstacle([here, *way]) is None:
+            return way
+    return None
+
+
+def plan_retreat(kinematics: Kinematics, here: Floats) -> Floats:
+    """The pose farthest back, up to BACK_OFF_M, that the base can reach in a straight line."""
+    ahead = np.array([np.cos(here[2]), np.sin(here[2]), 0.0])
+    for part in (1.0, 0.75, 0.5, 0.25):
+        back: Floats = here - part * BACK_OFF_M * ahead
+        if kinematics.drive_obstacle([here, back]) is None:
+            return back
+    return here
 
 
 def plan_reach(

@@ -133,6 +133,24 @@ class AskWhere(Ask):
         return self.situation.search_so_far or f"I do not know where the {self.situation.object} is"
 
 
+class Announce(Step):
+    """Tells where the robot is going to look, and who says so."""
+
+    def update(self) -> Status:
+        """Say it."""
+        says = {
+            Source.ONTOLOGY: "that is its place",
+            Source.LLM: "the language model's guess",
+            Source.USER: "as you said",
+            Source.MEMORY: "I remember it there",
+        }
+        candidates = self.situation.candidates
+        places = ", then ".join(candidate.place for candidate in candidates)
+        why = says[candidates[0].source]
+        _tell(self.team, f"I look for the {self.situation.object} at {places}: {why}.")
+        return self.succeed(places)
+
+
 class Report(Step):
     """Tells what was done."""
 

@@ -6,7 +6,7 @@ from py_trees.common import Status
 from executive.types import Candidate
 from trees.location import resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import AskWhere
+from trees.person import Announce, AskWhere
 from trees.robot import LookAtCandidate, SeeTarget, Visit
 from trees.team import Team
 
@@ -15,11 +15,17 @@ def search(team: Team) -> Behaviour:
     """An object -> `situation.detection` and `situation.found`."""
     return fallback(
         "search",
-        sequence("look where it may be", resolve_location(team), visit_candidates(team)),
+        sequence(
+            "look where it may be",
+            resolve_location(team),
+            Announce("announce", team),
+            visit_candidates(team),
+        ),
         sequence(
             "look where the person says",
             Check("person may help", team, lambda: not team.situation.person_silent),
             AskWhere("ask where", team),
+            Announce("announce", team),
             visit_candidates(team),
         ),
         GiveUpSearch("not found", team),
