@@ -9,9 +9,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from conftest import Notebook
 
 from executive.app import Session
 from executive.config import KnowledgeSystem, load_settings
+from executive.events import StopRequested
+from executive.records import Transforms
 from executive.types import Kind, Outcome, Status
 
 pytestmark = [pytest.mark.physics, pytest.mark.llm]
@@ -61,3 +64,42 @@ def the_thing_is_where_it_belongs(session: Session, outcome: Outcome) -> bool:
             return resting is None and session.robot.holding
         case _:
             return resting == "delivery" and not session.robot.holding
+
+
+@pytest.mark.parametrize("knowledge", [KnowledgeSystem.OKB], ids=str)
+@pytest.mark.parametrize("defaults", [False], ids=["no defaults"])
+@pytest.mark.parametrize("when_s", [1.5, 9.0, 14.0], ids=["driving", "reaching", "carrying"])
+def test_stop_leaves_the_robot_at_rest(
+    session: Session, when_s: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    advance = session.world.advance
+
+    def advance_and_stop(at_most: float) -> float:
+        if session.clock.now() >= when_s:
+            session.inbox.post(StopRequested("the person"))
+            monkeypatch.setattr(session.world, "advance", advance)
+        return advance(at_most)
+
+    monkeypatch.setattr(session.world, "advance", advance_and_stop)
+    outcome = session.run("Bring a sugar_box.")
+    assert outcome.status == Status.STOPPED
+    assert when_s < outcome.mission_time_s < when_s + 2.0
+    assert not session.inbox.awaits_anything
+    before = where_the_robot_is(session)
+    for _ in range(30):
+        session.world.advance(1 / 60)
+    assert where_the_robot_is(session) == pytest.approx(before, abs=2e-3)
+
+
+def where_the_robot_is(session: Session) -> tuple[float, ...]:
+    """Positions of all its frames (metres), as the world draws them."""
+    notebook = Notebook()
+    record = session.recorder.record
+    session.recorder.record = notebook.record  # type: ignore[method-assign]
+    session.world.describe()
+    session.recorder.record = record  # type: ignore[method-assign]
+    [transforms] = notebook.all(Transforms)
+    things = set(session.home.placement)
+    return tuple(
+        value for t in transforms.transforms if t.child not in things for value in t.pose.position
+    )
