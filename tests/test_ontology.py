@@ -1,0 +1,316 @@
+"""What the knowledge base knows about things and places, and how people may name them."""
+
+import socket
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from conftest import four_rooms, ontology
+from hypothesis import given
+from hypothesis import strategies as st
+
+from executive.errors import InputError
+from executive.types import Place
+from kb.__main__ import main
+from kb.names import PlaceNames, stem, words_of
+from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
+
+PAPERS_OBJECTS = [
+    *("adjustable_wrench", "apple", "banana", "bleach_cleanser", "colored_wood_blocks"),
+    *("cracker_box", "hammer", "mug", "mustard_bottle", "orange", "peach", "pear", "pitcher_base"),
+    *("potted_meat_can", "power_drill", "pudding_box", "scissors", "spatula", "strawberry"),
+    *("sugar_box", "tennis_ball", "tomato_soup_can"),
+]
+SURVEY = {
+    "mug": "dining_table coffee_table counter_wagon",
+    "cracker_box": "cabinet_kitchen dining_table coffee_table counter_wagon",
+    "fruit": "dining_table counter_wagon high_table",
+    "mustard_bottle": "cabinet_kitchen dining_table counter_wagon high_table",
+    "spatula": "cabinet_kitchen counter_wagon high_table",
+    "power_drill": "shelf_lobby",
+    "pitcher_base": "cabinet_kitchen dining_table counter_wagon high_table",
+    "ball": "shelf_lobby",
+    "pudding_box": "cabinet_kitchen dining_table coffee_table counter_wagon",
+    "colored_wood_blocks": "",
+    "bleach_cleanser": "cabinet_kitchen counter_wagon",
+    "potted_meat_can": "cabinet_kitchen counter_wagon high_table",
+    "tomato_soup_can": "cabinet_kitchen counter_wagon high_table",
+    "sugar_box": "cabinet_kitchen counter_wagon high_table",
+    "hammer": "shelf_lobby",
+    "adjustable_wrench": "shelf_lobby sideboard",
+    "scissors": "sideboard desk",
+}
+FRUITS = ("apple", "banana", "orange", "peach", "pear", "strawberry")
+KNOWN = ontology(True)
+NAMES = {place.name for place in four_rooms().places()}
+
+OWL = """<rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"
+  xmlns:rdfs="http://www.w3.org/2000/01/rdf-schema#" xmlns:owl="http://www.w3.org/2002/07/owl#"
+  xmlns:household="http://robot-executive.org/household.owl#" xml:base="http://example.org/more.owl">
+  <owl:Ontology rdf:about=""/>{}</rdf:RDF>"""
+
+
+def owl_file(folder: Path, content: str) -> Path:
+    path = folder / "more.owl"
+    path.write_text(OWL.format(content))
+    return path
+
+
+def test_the_objects_are_those_of_the_paper():
+    assert sorted(KNOWN.objects()) == PAPERS_OBJECTS
+
+
+@pytest.mark.parametrize(("name", "places"), SURVEY.items())
+def test_default_locations_are_those_of_the_survey(name, places):
+    assert KNOWN.default_locations(name) == tuple(places.split())
+
+
+def test_a_thing_takes_its_default_locations_from_its_nearest_class_that_has_any():
+    assert KNOWN.default_locations("apple") == KNOWN.default_locations("fruit") != ()
+    assert KNOWN.default_locations("tennis_ball") == ("shelf_lobby",)
+
+
+def test_without_defaults_nothing_is_usually_anywhere():
+    assert not any(ontology(False).usual_places(name) for name in PAPERS_OBJECTS)
+
+
+def test_usual_places_are_those_of_this_home_only():
+    table = Place("high_table", "Table", "attic", "StorageRoom")
+    assert Ontology([table]).usual_places("sugar_box") == ("high_table",)
+
+
+@pytest.mark.parametrize(
+    ("words", "objects"),
+    [
+        ("apple", ("apple",)),
+        ("apples", ("apple",)),
+        ("strawberries", ("strawberry",)),
+        ("peaches", ("peach",)),
+        ("Sugar Box", ("sugar_box",)),
+        ("the sugar_box", ("sugar_box",)),
+        ("sugar-box", ("sugar_box",)),
+        ("sugarbox", ("sugar_box",)),
+        ("a box of sugar", ("sugar_box",)),
+        ("pitcher", ("pitcher_base",)),
+        ("drill", ("power_drill",)),
+        ("spam", ("potted_meat_can",)),
+        ("my blocks", ("colored_wood_blocks",)),
+        ("fruit", FRUITS),
+        ("fruits", FRUITS),
+        ("tool", ("hammer", "power_drill", "adjustable_wrench")),
+        ("ball", ("tennis_ball",)),
+        ("unicorn", ()),
+        ("", ()),
+    ],
+)
+def test_words_mean_an_object_or_all_members_of_a_class(words, objects):
+    assert KNOWN.objects_named(words) == objects
+
+
+def test_an_objects_name_beats_a_classs(tmp_path):
+    toy = owl_file(
+        tmp_path,
+        """<owl:Class rdf:about="#ToyFruit"><rdfs:label>fruit</rdfs:label>
+        <rdfs:subClassOf rdf:resource="http://robot-executive.org/household.owl#Toy"/></owl:Class>""",
+    )
+    assert Ontology(files=[toy]).objects_named("fruit") == ("fruit",)
+
+
+@pytest.mark.parametrize(
+    ("words", "nearest"), [("appel", "apple"), ("sugar bax", "sugar_box"), ("fruts", "fruit")]
+)
+def test_nearest_names_forgive_a_slip(words, nearest):
+    assert KNOWN.nearest_names(words)[0] == nearest
+
+
+def test_nearest_names_of_gibberish_are_none():
+    assert KNOWN.nearest_names("xyzzy qqq") == ()
+
+
+@pytest.mark.parametrize(
+    ("words", "places"),
+    [
+        ("on the kitchen cabinet or the desk", ("cabinet_kitchen", "desk")),
+        ("dining_table", ("dining_table",)),
+        ("Dining-Table!", ("dining_table",)),
+        ("the cabinet in the kitchen", ("cabinet_kitchen",)),
+        ("it is in the cupboard of the kitchen", ("cabinet_kitchen",)),
+        ("bookcase", ("bookshelf_bedroom",)),
+        ("in the fridge", ("refrigerator",)),
+        ("not on the desk but on the sofa", ("sofa",)),
+        ("I don't know, perhaps on the desk", ("desk",)),
+        ("I don't know", ()),
+        ("in the bedroom", ("bed", "desk", "bookshelf_bedroom")),
+        ("bed room", ("bed", "desk", "bookshelf_bedroom")),
+        ("the living room table", ("dining_table", "coffee_table")),
+        ("the table in the bedroom", ()),
+        ("on the roof", ()),
+        ("", ()),
+    ],
+)
+def test_places_are_found_as_people_write_them(words, places):
+    assert KNOWN.places_named(words) == places
+
+
+def test_a_name_beats_the_class_that_is_called_the_same():
+    desks = [Place("desk", "Desk", "office", "Office"), Place("dad_desk", "Desk", "den", "Office")]
+    assert PlaceNames(desks).find("on the desk") == ("desk",)
+
+
+@given(
+    st.text()
+    | st.lists(st.sampled_from(["desk", "table", "in", "kitchen", "not", ","])).map(" ".join)
+)
+def test_no_words_name_a_place_that_does_not_exist(words):
+    assert set(KNOWN.places_named(words)) <= NAMES
+
+
+@given(
+    st.sampled_from(sorted(NAMES)),
+    st.sampled_from(["{}", "the {}", "on the {}.", "{} "]),
+    st.booleans(),
+)
+def test_every_place_is_found_by_its_name(name, frame, upper):
+    written = frame.format(name.replace("_", " "))
+    assert KNOWN.places_named(written.upper() if upper else written) == (name,)
+
+
+@given(st.text())
+def test_normalised_words_do_not_depend_on_case_or_separators(text):
+    assert words_of(text.upper().lower()) == words_of(f"  {text.lower()}_-")
+
+
+@pytest.mark.parametrize(
+    ("one", "many"),
+    [("apple", "apples"), ("box", "boxes"), ("shelf", "shelves"), ("knife", "knives")]
+    + [("cookie", "cookies"), ("shoe", "shoes"), ("potato", "potatoes"), ("glass", "glasses")],
+)
+def test_a_noun_and_its_plural_have_one_stem(one, many):
+    assert stem(one) == stem(many)
+
+
+def test_things_are_in_cabinets_and_on_tables():
+    kinds = {place.kind: KNOWN.preposition(place) for place in four_rooms().places()}
+    assert (kinds["Cabinet"], kinds["Refrigerator"], kinds["Table"]) == ("in", "in", "on")
+
+
+def test_a_place_of_an_unknown_class_is_refused_with_the_classes_there_are():
+    with pytest.raises(InputError, match=r"seat: .*'Throne'.*known are .*Table.*Sofa"):
+        Ontology([Place("seat", "Throne", "hall", "Lobby")])
+
+
+def test_a_room_of_an_unknown_class_is_refused():
+    with pytest.raises(InputError, match=r"dungeon: .*'Dungeon'.*known are Room.*Kitchen"):
+        Ontology([Place("bed", "Bed", "dungeon", "Dungeon")])
+
+
+def test_an_unknown_thing_has_no_class():
+    with pytest.raises(InputError, match="there is no 'unicorn'; known are .*apple"):
+        KNOWN.classes_of("unicorn")
+
+
+@pytest.mark.parametrize(
+    ("content", "fault"),
+    [
+        ("this is no XML", "more.owl: is not XML"),
+        ("<html></html>", "more.owl: begins with <html>; save the ontology as RDF/XML"),
+    ],
+)
+def test_a_broken_file_is_refused(tmp_path, content, fault):
+    path = tmp_path / "more.owl"
+    path.write_text(content)
+    with pytest.raises(InputError, match=fault):
+        Ontology(files=[path])
+
+
+def test_a_missing_file_is_refused(tmp_path):
+    with pytest.raises(InputError, match="nowhere.owl: cannot be read: No such file"):
+        Ontology(files=[tmp_path / "nowhere.owl"])
+
+
+def test_an_import_is_never_fetched_from_the_network(tmp_path, monkeypatch):
+    monkeypatch.setattr(socket.socket, "connect", lambda *_: pytest.fail("went to the network"))
+    importing = owl_file(
+        tmp_path,
+        """<owl:Ontology rdf:about=""><owl:imports rdf:resource="http://example.org/far.owl"/>
+        </owl:Ontology>""",
+    )
+    with pytest.raises(InputError, match=r"imports http://example.org/far.owl; load first"):
+        Ontology(files=[importing])
+
+
+def test_two_knowledge_bases_do_not_share_anything():
+    one, other = Ontology([Place("desk", "Desk", "den", "Office")]), Ontology(defaults=False)
+    assert one.usual_places("scissors") == ("desk",)
+    assert other.usual_places("scissors") == ()
+
+
+def test_the_loaded_files_can_be_kept_with_the_log():
+    assert KNOWN.files() == {path.name: path.read_bytes() for path in (HOUSEHOLD, DEFAULTS)}
+
+
+@pytest.mark.parametrize("path", [HOUSEHOLD, DEFAULTS])
+def test_everything_in_the_files_is_said_once(path):
+    about = "{http://www.w3.org/1999/02/22-rdf-syntax-ns#}about"
+    named = [e.get(about) for e in ElementTree.parse(path).getroot() if e.get(about)]
+    assert len(named) == len(set(named))
+
+
+def test_check_finds_no_fault_in_the_files_that_come_with_it(capsys):
+    assert main(["check"]) == 0
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize(
+    ("content", "fault"),
+    [
+        (
+            """<owl:Class rdf:about="#Cup"><rdfs:label>Mugs</rdfs:label>
+            <rdfs:subClassOf rdf:resource="http://robot-executive.org/household.owl#Kitchenware"/>
+            </owl:Class>""",
+            "'Mugs' names both Mug and Cup",
+        ),
+        (
+            """<household:Desk rdf:about="#lost_desk"/>""",
+            "lost_desk is in no room",
+        ),
+        (
+            """<owl:Class rdf:about="http://robot-executive.org/household.owl#Mug"><rdfs:subClassOf>
+            <owl:Restriction><owl:onProperty
+              rdf:resource="http://robot-executive.org/household.owl#hasDefaultLocation"/>
+            <owl:hasValue rdf:resource="http://robot-executive.org/home.owl#kitchen"/>
+            </owl:Restriction></rdfs:subClassOf></owl:Class>""",
+            "Mug has a default location, kitchen, that is no furniture",
+        ),
+        (
+            """<owl:Class rdf:about="http://robot-executive.org/household.owl#Mug"><rdfs:subClassOf>
+            <owl:Restriction><owl:onProperty
+              rdf:resource="http://robot-executive.org/household.owl#hasDefaultLocation"/>
+            <owl:hasValue rdf:resource="http://robot-executive.org/home.owl#atlantis"/>
+            </owl:Restriction></rdfs:subClassOf></owl:Class>""",
+            "Mug has a default location that no file declares",
+        ),
+    ],
+)
+def test_check_names_the_faults_of_a_file(tmp_path, capsys, content, fault):
+    assert main(["check", str(owl_file(tmp_path, content))]) == 1
+    assert capsys.readouterr().out.splitlines() == [fault]
+
+
+def test_show_says_what_is_known_about_a_thing(capsys):
+    assert main(["show", "sugar"]) == 0
+    shown = capsys.readouterr().out
+    assert "sugar_box" in shown
+    assert "box of sugar" in shown
+    assert "packaged food" in shown
+    assert "cabinet_kitchen, counter_wagon, high_table" in shown
+
+
+def test_show_offers_the_nearest_name(capsys):
+    assert main(["show", "appel"]) == 1
+    assert "did you mean apple?" in capsys.readouterr().err
+
+
+def test_a_bad_file_ends_the_command_with_one_sentence(tmp_path, capsys):
+    assert main(["check", str(tmp_path / "nowhere.owl")]) == 2
+    assert "cannot be read" in capsys.readouterr().err
