@@ -23,7 +23,7 @@ _SHORTEST_LOOKAHEAD = 0.08
 _FACE_TRAVEL_BEYOND = 0.9
 """Farther than this from the end (metres), the robot faces where it goes."""
 _STUCK_S = 1.5
-_STUCK_DISTANCE = 0.02
+_STUCK_DISTANCE, _STUCK_ANGLE = 0.02, 0.03
 
 
 def drive(
@@ -35,16 +35,12 @@ def drive(
         CannotError: if it does not get ahead.
     """
     follower = _Follower(np.array([hardware.base_pose[:2], *path]), yaw, speed)
-    best, since = np.inf, 0.0
+    progress = _Progress()
     while not follower.arrived(hardware.base_pose, hardware.base_velocity):
         velocity = follower.velocity(hardware.base_pose)
         hardware.command_base(velocity)
         yield
-        left = follower.left(hardware.base_pose)
-        since += CONTROL_S
-        if left < best - _STUCK_DISTANCE:
-            best, since = left, 0.0
-        if since > _STUCK_S:
+        if progress.stuck(*follower.left(hardware.base_pose)):
             yield from brake(hardware)
             raise CannotError("the way is blocked")
     hardware.park()
@@ -58,6 +54,22 @@ def brake(hardware: Hardware) -> Skill:
         hardware.command_base(velocity)
         yield
     hardware.park()
+
+
+class _Progress:
+    """Notices when neither the way nor the turn that is left gets shorter."""
+
+    def __init__(self) -> None:
+        self._way, self._turn, self._since = np.inf, np.inf, 0.0
+
+    def stuck(self, way: float, turn: float) -> bool:
+        """Whether there was no progress for a while; called once per control period."""
+        self._since += CONTROL_S
+        if way < self._way - _STUCK_DISTANCE:
+            self._way, self._since = way, 0.0
+        if turn < self._turn - _STUCK_ANGLE:
+            self._turn, self._since = turn, 0.0
+        return self._since > _STUCK_S
 
 
 class _Follower:
@@ -78,10 +90,10 @@ class _Follower:
         still = np.abs(velocity).max() < 0.03
         return bool(still and off < NEAR and abs(_turn(pose[2], self._yaw)) < NEAR_ANGLE)
 
-    def left(self, pose: Floats) -> float:
-        """How much is still to do: metres, with a radian counted as half a metre."""
+    def left(self, pose: Floats) -> tuple[float, float]:
+        """How far it is to the end along the path (metres), and the turn to its yaw (radians)."""
         way = self._ends[-1] - self._done + np.linalg.norm(self._at(self._done) - pose[:2])
-        return float(way + 0.5 * abs(_turn(pose[2], self._yaw)))
+        return float(way), abs(_turn(pose[2], self._yaw))
 
     def velocity(self, pose: Floats) -> Floats:
         """The next velocity command in `map`."""

@@ -123,9 +123,7 @@ def _straddles(model: ObjectModel, pose: Pose, rotation: Rotation) -> Iterator[G
         for start, end in _wholes(stretches[i][k], model):
             middle = np.array([xs[i], (start + end) / 2, zs[k]])
             gap = min(2 * FINGER_TRAVEL, end - start + _OPENING)
-            if not NARROWEST < end - start < WIDEST or not _room(
-                points, middle, end - start, gap
-            ):
+            if not NARROWEST < end - start < WIDEST or not _room(points, middle, end - start, gap):
                 continue
             position = base + rotation.apply(middle)
             tip_height = (position + TIP * rotation.apply((0.0, 0.0, 1.0)))[2]
@@ -147,7 +145,13 @@ def _stretches(inside: NDArray[np.bool_], ys: Floats) -> list[list[list[Span]]]:
     half = _STEP_Y / 2
     return [
         [
-            list(zip(ys[np.flatnonzero(line == 1)] - half, ys[np.flatnonzero(line == -1) - 1] + half, strict=True))
+            list(
+                zip(
+                    ys[np.flatnonzero(line == 1)] - half,
+                    ys[np.flatnonzero(line == -1) - 1] + half,
+                    strict=True,
+                )
+            )
             for line in plane
         ]
         for plane in edges

@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 ARM = ("lift", *(f"panda_joint{i}" for i in range(1, 8)))
 """The joints that move the hand: the lift (metres), then the arm's seven (radians)."""
 BASE = ("base_x", "base_y", "base_yaw")
+_DRIVE_LINKS = ("drive_x", "drive_y")
+"""How the simulator moves the base; no part of the robot."""
 FINGERS = ("panda_finger_joint1", "panda_finger_joint2")
 HEAD = ("head_pan", "head_tilt")
 
@@ -58,6 +60,9 @@ class Hardware:
             carriers = {number: carrier for carrier, number in self.links.items()}
             self.parents[link] = carriers[info[16]]
             self._force[name], self._speed[name] = info[10], info[11]
+        for inner in _DRIVE_LINKS:
+            del self.parents[inner]
+        self.parents["base_link"] = "map"
         self._arm, self._base, self._fingers, self._head = (
             [self._joints[name] for name in names] for names in (ARM, BASE, FINGERS, HEAD)
         )
@@ -204,7 +209,11 @@ class Hardware:
         """Close the fingers until something stops them, and keep pressing (newtons each)."""
         for joint in self._fingers:
             self._client.setJointMotorControl2(
-                self.body, joint, p.VELOCITY_CONTROL, targetVelocity=-0.05, force=min(force, FINGER_FORCE)
+                self.body,
+                joint,
+                p.VELOCITY_CONTROL,
+                targetVelocity=-0.05,
+                force=min(force, FINGER_FORCE),
             )
 
     # --- helpers ---

@@ -13,7 +13,9 @@ from pybullet_utils.bullet_client import BulletClient
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-from sim.bodies import build_home
+from executive.records import Shape
+from executive.types import Pose
+from sim.bodies import build_home, create_body
 from sim.client import connect
 from sim.clutter import CELL_M, Column
 from sim.grasps import HandPose
@@ -28,6 +30,8 @@ ANGLE_TOLERANCE = 0.02
 _MILLIMETRE, _HALF_DEGREE = 1e-3, 1e-2
 """Units in which the solver weighs position against orientation."""
 _COMFORT_WEIGHT = 0.03
+_GRAZE = 0.004
+"""What is carried may reach this far into something: it is not known any better (metres)."""
 _HAND = "panda_grasptarget"
 _ARM_LINKS = (
     "panda_link2", "panda_link3", "panda_link4", "panda_link5", "panda_link6", "panda_link7",
@@ -59,6 +63,8 @@ class Kinematics:
         self._all = np.zeros(len(movable))
         self._target: set[int] = set()
         self._others: set[int] = set()
+        self._load: int | None = None
+        self._in_hand: HandPose | None = None
 
     def assume_clutter(self, target: Sequence[Column], others: Sequence[Column]) -> None:
         """Take these columns, and no others, for things that the arm must not touch.
@@ -77,6 +83,18 @@ class Kinematics:
             self._client.removeBody(body)
         self._target = set()
 
+    def carry(self, shapes: Sequence[Shape], in_hand: HandPose | None) -> None:
+        """Take something rigid in the hand into account; nothing if there are no shapes.
+
+        Args:
+            shapes: in the thing's frame.
+            in_hand: that frame as the hand sees it.
+        """
+        if self._load is not None:
+            self._client.removeBody(self._load)
+        self._load = create_body(self._client, shapes, Pose()) if shapes else None
+        self._in_hand = in_hand
+
     @property
     def highest_lift(self) -> float:
         """The upper end of the lift (metres)."""
@@ -89,8 +107,7 @@ class Kinematics:
     def hand(self, base: Floats, arm: Floats) -> HandPose:
         """Where the hand is with the base at (x, y, yaw) and the joints of `ARM` at these values."""
         self._assume(base, arm)
-        pose = self._robot.link_pose(_HAND)
-        return HandPose(np.array(pose.position), Rotation.from_quat(pose.orientation))
+        return self._hand()
 
     def solve(self, base: Floats, target: HandPose, near: Floats) -> Floats | None:
         """Joints of `ARM` that bring the hand to the target, or None if there are none near `near`."""
@@ -147,10 +164,18 @@ class Kinematics:
         """
         self._assume(base, arm)
         client, body, links = self._client, self._robot.body, self._robot.links
-        near = {pair[0] for pair in client.getOverlappingObjects(*self._arm_bounds(margin)) or ()}
-        for other in near - {body} - (self._target if reaching else set()):
+        near = self._near(self._arm_bounds(margin)) - (self._target if reaching else set())
+        for other in near:
             if client.getClosestPoints(body, other, margin):
                 return self._furniture.get(other, "a thing")
+        if self._load is not None:
+            self._move_load()
+            for other in self._near(client.getAABB(self._load)):
+                touching = client.getClosestPoints(self._load, other, 0.0)
+                if any(contact[8] < -_GRAZE for contact in touching):
+                    return self._furniture.get(other, "a thing")
+            if client.getClosestPoints(self._load, body, 0.0, -1, links["base_link"]):
+                return "the robot itself"
         for own in _OWN_BODY:
             for link in _ARM_LINKS[3:]:
                 if client.getClosestPoints(body, body, margin, links[link], links[own]):
@@ -161,8 +186,8 @@ class Kinematics:
         """What the base at (x, y, yaw) would come closer to than the margin."""
         self._assume(base, FOLDED)
         low, high = self._client.getAABB(self._robot.body, self._robot.links["base_link"])
-        around = (np.array(low) - (margin, margin, 0), np.array(high) + (margin, margin, 0))
-        for other in {pair[0] for pair in self._client.getOverlappingObjects(*around) or ()}:
+        reach = np.array([margin, margin, 0.0])
+        for other in self._near((np.array(low) - reach, np.array(high) + reach)):
             if other in self._furniture and self._client.getClosestPoints(
                 self._robot.body, other, margin, self._robot.links["base_link"]
             ):
@@ -190,6 +215,25 @@ class Kinematics:
         return None
 
     # --- helpers ---
+
+    def _hand(self) -> HandPose:
+        pose = self._robot.link_pose(_HAND)
+        return HandPose(np.array(pose.position), Rotation.from_quat(pose.orientation))
+
+    def _near(self, bounds: tuple[Floats, Floats]) -> set[int]:
+        """What may be within bounds: anything but the robot and what it carries."""
+        found = {pair[0] for pair in self._client.getOverlappingObjects(*bounds) or ()}
+        return found - {self._robot.body, self._load}
+
+    def _move_load(self) -> None:
+        """Put what is carried where the hand is."""
+        assert self._in_hand is not None
+        hand = self._hand()
+        self._client.resetBasePositionAndOrientation(
+            self._load,
+            hand.position + hand.rotation.apply(self._in_hand.position),
+            (hand.rotation * self._in_hand.rotation).as_quat(),
+        )
 
     def _column_body(self, column: Column) -> int:
         half = [CELL_M / 2, CELL_M / 2, (column.top - column.foot) / 2]

@@ -102,12 +102,14 @@ class Manipulator:
         grasp, way, stance = self._choose_grasp(model, pose, points)
         yield from self._creep(stance)
         failure = yield from attempt(self._grasp(model, grasp, way))
-        self._held = Held.taken(model, pose, grasp)
         self._kinematics.forget_target()
+        if failure is None:
+            self._take(Held.taken(model, pose, grasp))
         yield from self.stow()
         if failure:
             raise failure
         if not self.holding:
+            self._take(None)
             raise CannotError(f"the {model.name} slipped from my fingers")
 
     def put_down(self, place: str) -> Skill:
@@ -118,17 +120,19 @@ class Manipulator:
         """
         held = self._held
         if held is None or not self.holding:
+            self._take(None)
             raise CannotError("my hand is empty")
         piece = self._home.furniture_named(place)
         target, stance = yield from self._choose_spot(held, piece)
         yield from self._creep(stance)
         failure = yield from attempt(self._release(held.hand_for(target), held.gap))
+        if failure is None:
+            self._take(None)
         yield from self.stow()
         if failure:
             raise failure
         if self.holding:
             raise CannotError(f"the {held.model.name} stuck to my fingers")
-        self._held = None
 
     def stow(self) -> Skill:
         """Bring the arm back over the base: rise, back off, fold."""
@@ -136,7 +140,9 @@ class Manipulator:
         if np.abs(arm - FOLDED)[:7].max() < 0.05:
             return
         base = hardware.base_pose
-        rise = self._kinematics.line(base, arm, self._kinematics.hand(base, arm).shifted(-RISE_M * _DOWN))
+        rise = self._kinematics.line(
+            base, arm, self._kinematics.hand(base, arm).shifted(-RISE_M * _DOWN)
+        )
         if rise and not self._kinematics.path_obstacle(base, rise[1:]):
             yield from follow(hardware, rise[1:], SLOW)
         yield from self._creep([plan_retreat(self._kinematics, base)])
@@ -222,12 +228,18 @@ class Manipulator:
 
     # --- helpers ---
 
+    def _take(self, held: Held | None) -> None:
+        """Know, and plan with, what is in the hand."""
+        self._held = held
+        if held is None:
+            self._kinematics.carry((), None)
+        else:
+            self._kinematics.carry(held.model.shapes, HandPose(held.position, held.rotation))
+
     def _reach(self, hand: HandPose, way: Floats, otherwise: str) -> Reach:
         """The motion to a hand pose from where the robot stands now."""
         hardware = self._hardware
-        reach = plan_reach(
-            self._kinematics, hardware.base_pose, hardware.arm_positions, hand, way
-        )
+        reach = plan_reach(self._kinematics, hardware.base_pose, hardware.arm_positions, hand, way)
         if reach is None:
             raise CannotError(otherwise)
         return reach

@@ -18,6 +18,8 @@ MARGIN_M = 0.02
 CLEAR_M = 0.06
 """Around the outline of a thing, for the fingers."""
 HEADROOM_M = 0.05
+DROP_M = 0.002
+"""How far above the surface a thing is let go."""
 _STEP_M = 0.04
 _FEW_POINTS = 3
 _TURNS = (0.0, np.pi, np.pi / 2, -np.pi / 2)
@@ -43,7 +45,11 @@ def free_spots(piece: Furniture, model: ObjectModel, seen: Floats) -> Iterator[P
                 low, high = lower - CLEAR_M + (x, y), upper + CLEAR_M + (x, y)
                 inside = ((rising > low) & (rising < high)).all(axis=1)
                 if inside.sum() < _FEW_POINTS:
-                    spot = (surface.center[0] + x, surface.center[1] + y, surface.center[2])
+                    spot = (
+                        surface.center[0] + x,
+                        surface.center[1] + y,
+                        surface.center[2] + DROP_M,
+                    )
                     yield _pose(piece, spot, turn)
 
 

@@ -15,8 +15,8 @@ NEAREST_M = 0.40
 """From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
 BACK_OFF_M = 0.24
 """How far the base retreats, if it can, before the arm is folded."""
-OVER_M = 0.15
-"""How much higher the lift goes to bring the arm in from above."""
+OVER_M = (0.15, 0.3, 0.45)
+"""How much higher the lift may go to bring the arm in from above, in order of preference."""
 ASIDE_M = (0.0, 0.15, -0.15, 0.3, -0.3)
 """Where to stand, left of the thing, in order of preference."""
 _HALF_TURN = Rotation.from_euler("z", np.pi)
@@ -106,10 +106,10 @@ def clear_path(
     kinematics: Kinematics, base: Floats, start: Floats, end: Floats
 ) -> list[Floats] | None:
     """Joints to pass to get from start to end without touching anything, or None."""
-    top = min(max(start[0], end[0]) + OVER_M, kinematics.highest_lift)
-    from_above = [np.append(top, start[1:]), np.append(top, end[1:])]
-    level = np.append(max(start[0], end[0]), start[1:])
-    for between in ([], [level], from_above):
+    highest = kinematics.highest_lift
+    tops = [max(start[0], end[0]), *(min(end[0] + over, highest) for over in OVER_M)]
+    ways = [[np.append(top, start[1:]), np.append(top, end[1:])] for top in tops]
+    for between in ([], ways[0][:1], *ways):
         path = [*between, end]
         if not kinematics.path_obstacle(base, [start, *path]):
             return path

@@ -18,9 +18,7 @@ _MOVED = 1e-4
 class FrameTree:
     """The robot's links, each in the one that carries it, and the things in `map`."""
 
-    def __init__(
-        self, client: BulletClient, hardware: Hardware, things: Mapping[int, str]
-    ) -> None:
+    def __init__(self, client: BulletClient, hardware: Hardware, things: Mapping[int, str]) -> None:
         """Follow the robot and the things (names by body id)."""
         self._client = client
         self._hardware = hardware
@@ -48,7 +46,9 @@ class FrameTree:
         poses = self._hardware.link_poses()
         for child, parent in self._hardware.parents.items():
             pose = poses[child]
-            yield Transform(parent, child, pose if parent == MAP else _seen_from(poses[parent], pose))
+            yield Transform(
+                parent, child, pose if parent == MAP else _seen_from(poses[parent], pose)
+            )
         for body, name in self._things.items():
             yield Transform(MAP, name, frame_pose(self._client, body))
 

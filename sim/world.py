@@ -64,7 +64,9 @@ class PhysicsWorld:
         self._models = models
         self._recorder = recorder
         self._client = connect(gui)
-        self._client.setPhysicsEngineParameter(fixedTimeStep=STEP_S, deterministicOverlappingPairs=1)
+        self._client.setPhysicsEngineParameter(
+            fixedTimeStep=STEP_S, deterministicOverlappingPairs=1
+        )
         self._fixtures = build_home(self._client, home)
         self._things = place_objects(self._client, home, models)
         self._disturb(seed)
@@ -83,7 +85,6 @@ class PhysicsWorld:
         self._last_act = 0
         self._frames = FrameTree(self._client, self._hardware, self._things)
         self._picture_every = round(1 / camera_hz / STEP_S) if camera_hz else 0
-
 
     # --- SimulatedHome ---
 
