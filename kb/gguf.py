@@ -5,8 +5,10 @@ tokens only, while scoring continues one prompt in many ways at once.
 """
 
 import ctypes
+import operator
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +21,10 @@ from executive.errors import ModelError
 from executive.types import Message
 
 MAGIC = b"GGUF"
-CHUNK_TOKENS = 128
-"""Tokens evaluated at a time: between two chunks the caller may stop."""
+BATCH_TOKENS = 128
+"""Tokens evaluated at a time: between two batches the caller may stop."""
+TAIL_TOKENS = 32
+"""The same for what is likely to differ from prompt to prompt."""
 WHOLE = (-1, -1)
 """All positions of a sequence."""
 
@@ -83,17 +87,22 @@ class Gguf:
         )
         return list(tokens[:count])
 
-    def prompt(self, messages: Sequence[Message]) -> Tokens:
+    def prompt(self, messages: Sequence[Message], constant: int = 0) -> tuple[Tokens, int]:
         """A chat as the model was taught to read it, up to where its next turn begins.
+
+        Returns:
+            The tokens, and how many of them every chat has that begins with the same `constant`
+            messages.
 
         Raises:
             ModelError: if the model's template refuses it (some know no system turn).
         """
-        turns: Any = [{"role": m.role, "content": m.content} for m in messages]
-        try:
-            return self.tokenize(self._template(messages=turns).prompt, special=True)
-        except ValueError as error:
-            raise ModelError(f"the model's chat template refuses the prompt: {error}") from None
+        tokens = self._chat(messages)
+        if not constant:
+            return tokens, 0
+        other = self._chat((*messages[:constant], Message("user", "")))
+        head = sum(takewhile(bool, map(operator.eq, tokens[:-1], other)))
+        return tokens, head
 
     def piece(self, token: int) -> bytes:
         """The bytes that a token stands for; a character may be parted over several."""
@@ -110,6 +119,13 @@ class Gguf:
     def close(self) -> None:
         """Free the weights; contexts have to be closed before."""
         llama_cpp.llama_model_free(self.pointer)
+
+    def _chat(self, messages: Sequence[Message]) -> Tokens:
+        turns: Any = [{"role": m.role, "content": m.content} for m in messages]
+        try:
+            return self.tokenize(self._template(messages=turns).prompt, special=True)
+        except ValueError as error:
+            raise ModelError(f"the model's chat template refuses the prompt: {error}") from None
 
     def _chat_template(self, path: Path) -> Jinja2ChatFormatter:
         buffer = ctypes.create_string_buffer(1 << 16)
@@ -147,7 +163,7 @@ class Context:
         """
         params = llama_cpp.llama_context_default_params()
         params.n_ctx = tokens
-        params.n_batch = params.n_ubatch = CHUNK_TOKENS
+        params.n_batch = params.n_ubatch = BATCH_TOKENS
         params.n_seq_max = sequences
         params.kv_unified = True
         params.no_perf = True
@@ -157,36 +173,46 @@ class Context:
         if not self.pointer:
             raise ModelError(f"no context of {tokens} tokens: {_last_complaint()}")
         self._memory: Any = llama_cpp.llama_get_memory(self.pointer)
-        self._batch = llama_cpp.llama_batch_init(CHUNK_TOKENS, 0, 1)
+        self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, 1)
         self._vocabulary_size = model.vocabulary_size
         self._sequences = sequences
-        self._read: Tokens = []
+        self._batches: list[tuple[int, ...]] = []
+        self._length = 0
 
-    def read(self, tokens: Sequence[int], checkpoint: Checkpoint) -> int:
-        """Make sequence 0 these tokens; what it begins with already is not evaluated again.
+    def read(self, tokens: Sequence[int], head: int, checkpoint: Checkpoint) -> int:
+        """Make sequence 0 these tokens; the batches that it begins with already are kept.
 
-        The last token always is, so that what comes next can be sampled or scored.
+        llama.cpp's numbers depend a little on how tokens are batched. The cuts made here depend on
+        the tokens alone, not on what was read before: so a kept batch changes no result.
+
+        Args:
+            tokens: what to read, at least one token.
+            head: how many of them later prompts will begin with, too: there is a cut.
+            checkpoint: called before each batch.
 
         Returns:
-            How many tokens were evaluated.
+            How many tokens were evaluated; the last batch always is.
         """
-        kept = min(_shared_prefix(self._read, tokens), len(tokens) - 1)
+        cuts = (*range(0, head, BATCH_TOKENS), *range(head, len(tokens), TAIL_TOKENS), len(tokens))
+        batches = [tuple(tokens[start:end]) for start, end in pairwise(cuts)]
+        same = sum(takewhile(bool, map(operator.eq, self._batches, batches[:-1])))
+        kept = sum(map(len, batches[:same]))
         if not llama_cpp.llama_memory_seq_rm(self._memory, 0, kept, -1):
             llama_cpp.llama_memory_clear(self._memory, True)
-            kept = 0
-        del self._read[kept:]
-        for start in range(kept, len(tokens), CHUNK_TOKENS):
+            same = kept = 0
+        self._batches, self._length = batches[:same], kept
+        for batch in batches[same:]:
             checkpoint()
-            self.append(tokens[start : start + CHUNK_TOKENS])
+            self.append(batch)
+            self._batches.append(batch)
         return len(tokens) - kept
 
     def append(self, tokens: Sequence[int]) -> None:
-        """Evaluate further tokens of sequence 0 (at most CHUNK_TOKENS)."""
-        first = len(self._read)
-        rows = [(token, first + i, 0, False) for i, token in enumerate(tokens)]
+        """Evaluate further tokens of sequence 0 (at most BATCH_TOKENS)."""
+        rows = [(token, self._length + i, 0, False) for i, token in enumerate(tokens)]
         rows[-1] = (*rows[-1][:3], True)
         self._decode(rows)
-        self._read.extend(tokens)
+        self._length += len(tokens)
 
     def continuations(
         self, options: Sequence[Sequence[int]], checkpoint: Checkpoint
@@ -196,18 +222,19 @@ class Context:
         Has to follow `read`; sequence 0 stays as it is.
 
         Raises:
-            ModelError: if an option is empty or longer than CHUNK_TOKENS.
+            ModelError: if an option is empty or longer than BATCH_TOKENS.
         """
-        if not all(0 < len(option) <= CHUNK_TOKENS for option in options):
-            raise ModelError(f"an option has to be from 1 to {CHUNK_TOKENS} tokens long")
+        if not all(0 < len(option) <= BATCH_TOKENS for option in options):
+            raise ModelError(f"an option has to be from 1 to {BATCH_TOKENS} tokens long")
         first = self.log_probabilities()
         for group in self._packed(options):
             checkpoint()
             rows = []
             for sequence, option in enumerate(group, start=1):
                 llama_cpp.llama_memory_seq_cp(self._memory, 0, sequence, *WHOLE)
-                at = len(self._read)
-                rows += [(token, at + i, sequence, True) for i, token in enumerate(option[:-1])]
+                rows += [
+                    (token, self._length + i, sequence, True) for i, token in enumerate(option[:-1])
+                ]
             if rows:
                 self._decode(rows)
             row = 0
@@ -237,7 +264,7 @@ class Context:
         group: list[Sequence[int]] = []
         size = 0
         for option in options:
-            if group and (size + len(option) > CHUNK_TOKENS or len(group) == self._sequences - 1):
+            if group and (size + len(option) > BATCH_TOKENS or len(group) == self._sequences - 1):
                 yield group
                 group, size = [], 0
             group.append(option)
@@ -257,12 +284,6 @@ class Context:
             batch.logits[i] = wanted
         if code := llama_cpp.llama_decode(self.pointer, batch):
             raise ModelError(f"llama.cpp could not evaluate (code {code}): {_last_complaint()}")
-
-
-def _shared_prefix(a: Sequence[int], b: Sequence[int]) -> int:
-    return next(
-        (i for i, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), min(len(a), len(b))
-    )
 
 
 def _last_complaint() -> str:

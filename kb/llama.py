@@ -23,7 +23,7 @@ from executive.types import (
     Scored,
     Usage,
 )
-from kb.gguf import CHUNK_TOKENS, Checkpoint, Context, Gguf, Tokens, check_file
+from kb.gguf import BATCH_TOKENS, Checkpoint, Context, Gguf, Tokens, check_file
 from kb.sampling import Sampler, Sampling
 
 RANKED_AT_ONCE = 32
@@ -87,7 +87,7 @@ class LlamaCpp:
             temperature: 0 always takes the likeliest token.
             top_p: share of the probability that is sampled from.
             max_tokens: longest reply (tokens).
-            seed: the same requests in the same order give the same replies.
+            seed: the same seed and prompt give the same reply, whatever was asked before.
             threads: None lets llama.cpp choose.
             gpu_layers: layers that go to the GPU, if llama.cpp was built for one; -1: all.
             grammar: hold replies to the request's JSON schema.
@@ -189,8 +189,9 @@ class LlamaCpp:
         began = time.monotonic()
         loaded = self._loading.result()
         model, context = loaded.model, loaded.writing
-        prompt = self._fitting(model.prompt(request.messages), 1)
-        evaluated = context.read(prompt, checkpoint)
+        prompt, head = model.prompt(request.messages, constant=1)
+        self._check_length(prompt, 1)
+        evaluated = context.read(prompt, head, checkpoint)
         room = min(self._max_tokens, self._n_ctx - len(prompt))
         reply: Tokens = []
         first_token_s = 0.0
@@ -218,10 +219,11 @@ class LlamaCpp:
         written = sum(map(len, options))
         tokens = evaluated = 0
         for messages in (request.neutral, request.messages):
-            prompt = self._fitting(loaded.model.prompt(messages), CHUNK_TOKENS)
+            prompt, head = loaded.model.prompt(messages, constant=len(messages) - 1)
+            self._check_length(prompt, BATCH_TOKENS)
             tokens += len(prompt) + written
             if (messages, request.options) not in self._likelihoods:
-                evaluated += loaded.ranking.read(prompt, checkpoint) + written
+                evaluated += loaded.ranking.read(prompt, head, checkpoint) + written
                 likelihoods = tuple(loaded.ranking.continuations(options, checkpoint))
                 self._likelihoods[messages, request.options] = likelihoods
         given = self._likelihoods[request.messages, request.options]
@@ -229,13 +231,12 @@ class LlamaCpp:
         scores = tuple(g - n for g, n in zip(given, neutral, strict=True))
         return Scored(request, scores, self._usage(tokens, evaluated, 0, 0.0, began))
 
-    def _fitting(self, prompt: Tokens, reserve: int) -> Tokens:
+    def _check_length(self, prompt: Tokens, reserve: int) -> None:
         if len(prompt) + reserve > self._n_ctx:
             raise ModelError(
                 f"the prompt takes {len(prompt)} tokens and needs room for {reserve} more, "
                 f"but the context window has {self._n_ctx}"
             )
-        return prompt
 
     def _sampler(self, model: Gguf, request: ChatRequest) -> Sampler:
         held = self._grammar and request.schema
