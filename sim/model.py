@@ -16,6 +16,15 @@ from executive.types import Color, Pose, Vector3
 
 _PADS = {"lateral_friction": "1.0", "spinning_friction": "0.006", "rolling_friction": "0.002"}
 """Rubber on the finger tips: a pad 18 mm wide also resists turning (metres, as PyBullet has it)."""
+_FINGER_BOXES = (
+    ((0.0176, 0.0142, 0.0347), (0.0, 0.0071, 0.03635)),
+    ((0.0208, 0.0236, 0.0190), (0.0, 0.0144, 0.0095)),
+)
+"""Size and middle of the boxes that a finger is made of for contacts, in the left finger's frame.
+
+The convex hull of the finger's mesh now and then gets a contact with its normal the wrong way round
+from Bullet, and what it held sticks to it. Two boxes are handled exactly.
+"""
 _WHITE: Color = (0.92, 0.92, 0.90, 1.0)
 
 
@@ -56,10 +65,26 @@ def _panda() -> ElementTree.Element:
         mesh.set("filename", str(folder / "meshes" / "collision" / name))
     for contact in panda.iter("contact"):
         contact[:] = [ElementTree.Element(tag, value=value) for tag, value in _PADS.items()]
+    for link in panda.findall("link"):
+        if str(link.get("name")).endswith("finger"):
+            _replace_collision(link)
     for visual in panda.iter("visual"):
         for material in visual.findall("material"):
             visual.remove(material)
     return panda
+
+
+def _replace_collision(finger: ElementTree.Element) -> None:
+    """Give a finger boxes to touch with, mirrored if its mesh is."""
+    mesh = finger.find("collision")
+    assert mesh is not None
+    mirror = -1 if mesh.find("origin") is not None else 1
+    finger.remove(mesh)
+    for size, (x, y, z) in _FINGER_BOXES:
+        collision = ElementTree.SubElement(finger, "collision")
+        ElementTree.SubElement(collision, "origin", xyz=f"{x} {mirror * y} {z}")
+        geometry = ElementTree.SubElement(collision, "geometry")
+        ElementTree.SubElement(geometry, "box", size=" ".join(map(str, size)))
 
 
 def _shape(visual: ElementTree.Element, colors: dict[str | None, Color]) -> Shape:
