@@ -27,9 +27,9 @@ class Column:
 
 
 def rising_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
-    """Those of the points (n, 3) in `map` that are of things on the surface, in its furniture's frame.
+    """What of the points (n, 3) in `map` rises above the surface.
 
-    The frame is the furniture's; z counts from the surface.
+    In a frame at the middle of the surface, with the furniture's axes (metres).
     """
     x, y, yaw = piece.pose
     cos, sin = np.cos(yaw), np.sin(yaw)
@@ -38,7 +38,8 @@ def rising_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
     half = np.array([surface.length_x / 2, surface.length_y / 2]) - _EDGE_M
     over = (np.abs(local[:, :2]) < half).all(axis=1)
     height = local[:, 2]
-    return local[over & (height > _ABOVE_M) & (height < surface.clearance - _ABOVE_M)]
+    rising: Floats = local[over & (height > _ABOVE_M) & (height < surface.clearance - _ABOVE_M)]
+    return rising
 
 
 def columns(piece: Furniture, seen: Floats) -> list[Column]:

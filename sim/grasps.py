@@ -1,7 +1,7 @@
 """Where a two-finger hand can take a known thing, from its shape alone.
 
-For each orientation of the hand the thing is cut by lines along the way of the fingers. A stretch of
-a line that is inside the thing, free on both sides and not too long is what two fingers can
+For each orientation of the hand the thing is cut by lines along the way of the fingers. A stretch
+of a line that is inside the thing, free on both sides and not too long is what two fingers can
 straddle: the whole of a box, the wall of a mug, the handle of a pitcher.
 """
 
@@ -48,7 +48,7 @@ TILTS = (0.0, np.pi / 4, np.pi / 2)
 
 @dataclass(frozen=True, slots=True)
 class HandPose:
-    """The point between the finger pads in `map`; z points out of the hand, y across the fingers."""
+    """The point between the finger pads in `map`; z points out of the hand, y to a finger."""
 
     position: Floats
     rotation: Rotation
@@ -65,7 +65,7 @@ class HandPose:
 
 @dataclass(frozen=True, slots=True)
 class Grasp:
-    """Where the hand closes, how far the fingers are open before, and how poor it is (0 is ideal)."""
+    """Where the hand closes, how far it is open before, and how poor that is (0 is ideal)."""
 
     hand: HandPose
     gap: float
@@ -159,7 +159,7 @@ def _stretches(inside: NDArray[np.bool_], ys: Floats) -> list[list[list[Span]]]:
 
 
 def _wholes(runs: list[Span], model: ObjectModel) -> Iterator[Span]:
-    """What may be between the fingers: runs and what they enclose, but of hollow things one wall."""
+    """What may be between the fingers: runs and what they enclose; of hollow things one wall."""
     if model.grasp == "top":
         for first, last in combinations_with_replacement(runs, 2):
             yield first[0], last[1]

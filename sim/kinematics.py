@@ -1,4 +1,4 @@
-"""Where the hand is for given joints, which joints bring it somewhere, and what would be in the way.
+"""Where the hand is for given joints, which joints bring it somewhere, and what is in the way.
 
 Plans on a second PyBullet world of its own: the robot and the home's furniture as the map knows
 them, without any of the things that stand there. Nothing in it moves by itself.
@@ -105,12 +105,12 @@ class Kinematics:
         self._client.disconnect()
 
     def hand(self, base: Floats, arm: Floats) -> HandPose:
-        """Where the hand is with the base at (x, y, yaw) and the joints of `ARM` at these values."""
+        """Where the hand is for a base pose (x, y, yaw) and positions of the joints of `ARM`."""
         self._assume(base, arm)
         return self._hand()
 
     def solve(self, base: Floats, target: HandPose, near: Floats) -> Floats | None:
-        """Joints of `ARM` that bring the hand to the target, or None if there are none near `near`."""
+        """Joints of `ARM` that bring the hand to the target; None if there are none near `near`."""
 
         def residual(arm: Floats) -> Floats:
             hand = self.hand(base, arm)
@@ -141,7 +141,7 @@ class Kinematics:
     def line(
         self, base: Floats, start: Floats, goal: HandPose, step: float = 0.03
     ) -> list[Floats] | None:
-        """Joints along a straight line of the hand from where `start` has it, or None if it breaks."""
+        """Joints that move the hand on a straight line from where `start` has it; None if none do."""
         hand = self.hand(base, start)
         turns = (goal.rotation * hand.rotation.inv()).as_rotvec()
         way = goal.position - hand.position

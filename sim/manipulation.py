@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
-from sim.clutter import CELL_M, columns
+from sim.clutter import CELL_M, Column, columns
 from sim.driving import drive
 from sim.grasps import TILTS, Grasp, HandPose, find_grasps
 from sim.hardware import FOLDED, Floats, Hardware
@@ -46,7 +46,7 @@ _CARRY_TURNS = (FOLDED[7] + np.pi / 2, FOLDED[7] - np.pi / 2)
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """What is in the hand: the thing's pose in the hand's frame, and how far the hand opens for it."""
+    """What is in the hand: its pose in the hand's frame, and how far the hand opens for it."""
 
     model: ObjectModel
     position: Floats
@@ -246,11 +246,12 @@ class Manipulator:
 
     def _mind_clutter(self, piece: Furniture, target: Floats) -> None:
         """Plan around what stands on the furniture; the points (n, 3) are those of the target."""
-        target_columns, others = [], []
+        near: list[Column] = []
+        others: list[Column] = []
         for column in columns(piece, self._scan()):
             off = np.abs(target[:, :2] - (column.x, column.y)).max(axis=1)
-            (target_columns if (off < CELL_M).any() else others).append(column)
-        self._kinematics.assume_clutter(target_columns, others)
+            (near if (off < CELL_M).any() else others).append(column)
+        self._kinematics.assume_clutter(near, others)
 
     def _stances(self, piece: Furniture, target: Floats) -> Iterator[list[Floats]]:
         """Ways of the base to where a point on the furniture may be reached from."""

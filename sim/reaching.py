@@ -1,4 +1,4 @@
-"""Choosing where to stand and how to move so that the hand comes to where it should close or open."""
+"""Choosing where to stand and how to move to bring the hand to where it closes or opens."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -17,8 +17,8 @@ _NOISE_M = 0.003
 def locate(model: ObjectModel, points: Floats) -> Pose:
     """The pose in `map` of an upright thing that fits its visible points (n, 3) best.
 
-    Fits x, y, z and yaw so that the points lie on the model's surface. The yaw of a thing that looks
-    the same from several sides is one of several.
+    Fits x, y, z and yaw so that the points lie on the model's surface. The yaw of a thing that
+    looks the same from several sides is one of several.
     """
     few = np.asarray(points[:: max(1, len(points) // _POINTS)], dtype=np.float64)
     middle = np.append((few.min(axis=0) + few.max(axis=0))[:2] / 2, few[:, 2].max() - model.size[2])

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 
 def signed_distance(shapes: Sequence[Shape], points: Floats) -> Floats:
     """How far points (n, 3) are outside the union of the shapes: negative inside (metres, (n,))."""
-    return np.min([_distance(shape, _local(shape, points)) for shape in shapes], axis=0)
+    return np.asarray(np.min([_distance(s, _local(s, points)) for s in shapes], axis=0))
 
 
 def sample_surface(shapes: Sequence[Shape], spacing: float = 0.004) -> tuple[Floats, Floats]:
@@ -38,7 +38,7 @@ def _local(shape: Shape, points: Floats) -> Floats:
 def _distance(shape: Shape, local: Floats) -> Floats:
     half = np.asarray(shape.size) / 2
     if shape.kind == "sphere":
-        return np.linalg.norm(local, axis=1) - half[0]
+        return np.asarray(np.linalg.norm(local, axis=1) - half[0])
     if shape.kind == "cylinder":
         radial = np.linalg.norm(local[:, :2], axis=1) - half[0]
         beyond = np.column_stack((radial, np.abs(local[:, 2]) - half[2]))
