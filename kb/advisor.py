@@ -4,13 +4,14 @@ The paper's section "Proposed System", less the model itself and less the order 
 is a subtree.
 """
 
+from collections.abc import Sequence
+
 from executive.interfaces import LanguageModel
 from executive.types import Candidate, ChatRequest, Message, Place, RankRequest, Scored, Verdict
 from kb import ranking, verification
 from kb.memory import Memory, history_budget
 from kb.ontology import Ontology
 from kb.prompts import Prompts
-from kb.verification import Reply
 
 SITUATION = "likely places"
 """What a summary is about."""
@@ -34,7 +35,7 @@ class PlaceAdvisor:
             ontology: what exists.
             model: whose context window and tokenizer limit the memory.
             remembers: whether prompts hold the dialogue so far (OKB+LLM+MEM) or not (OKB+LLM).
-            top: how many places to ask for.
+            top: how many places to ask for, at most.
             prompts: the texts; None: those of prompts.toml.
         """
         self._ontology = ontology
@@ -51,32 +52,32 @@ class PlaceAdvisor:
             text = self._prompts.inquiry(
                 "multiple_pos", object_name=name, position=", ".join(among)
             )
-            return self._request("multiple_pos", text)
+            return self._request("multiple_pos", text, among)
         text = self._prompts.inquiry("general_pos", object_name=name, top=str(self._top))
-        return self._request("general_pos", text)
+        return self._request("general_pos", text, self._names())
 
     def furniture(self, name: str, room: str, among: tuple[str, ...]) -> ChatRequest:
         """`furniture`: which furniture of this room?"""
-        choice = ", ".join(p.name for p in self._allowed(among) if p.room == room)
+        choice = [p.name for p in self._allowed(among) if p.room == room]
         text = self._prompts.inquiry(
-            "furniture", object_name=name, room_name=room, furniture_list=choice
+            "furniture", object_name=name, room_name=room, furniture_list=", ".join(choice)
         )
-        return self._request("furniture", text)
+        return self._request("furniture", text, choice)
 
     def again(self, name: str, among: tuple[str, ...]) -> ChatRequest:
         """`again`: the reply named no real place; choose from the list."""
-        choice = ", ".join(p.name for p in self._allowed(among))
-        text = self._prompts.inquiry("again", object_name=name, furniture_list=choice)
-        return self._request("again", text)
+        choice = self._names(among)
+        text = self._prompts.inquiry("again", object_name=name, furniture_list=", ".join(choice))
+        return self._request("again", text, choice)
 
     def summarize(self, name: str, reply: str) -> ChatRequest:
         """`summarize`: the reply, which is shown once more if no memory holds it."""
         text = self._prompts.inquiry("summarize", object_name=name, situation=SITUATION)
         if self._history()[-1:] == (Message("assistant", reply),):
-            return self._request("summarize", text)
+            return self._request("summarize", text, self._names())
         asked = self._prompts.inquiry("general_pos", object_name=name, top=str(self._top))
         exchange = (Message("user", asked), Message("assistant", reply))
-        return self._request("summarize", text, exchange)
+        return self._request("summarize", text, self._names(), exchange)
 
     def remember(self, request: ChatRequest, reply: str) -> None:
         """Keep the exchange for the next prompts, if this system has a memory."""
@@ -112,9 +113,14 @@ class PlaceAdvisor:
     def _allowed(self, among: tuple[str, ...]) -> tuple[Place, ...]:
         return tuple(p for p in self._ontology.places() if not among or p.name in among)
 
+    def _names(self, among: tuple[str, ...] = ()) -> list[str]:
+        return [place.name for place in self._allowed(among)]
+
     def _history(self) -> tuple[Message, ...]:
         return self._memory.messages() if self._memory else ()
 
-    def _request(self, label: str, text: str, before: tuple[Message, ...] = ()) -> ChatRequest:
+    def _request(
+        self, label: str, text: str, choice: Sequence[str], before: tuple[Message, ...] = ()
+    ) -> ChatRequest:
         messages = (self._system, *self._history(), *before, Message("user", text))
-        return ChatRequest(label, messages, Reply.model_json_schema())
+        return ChatRequest(label, messages, verification.schema(choice, self._top))

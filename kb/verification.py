@@ -5,6 +5,7 @@ The paper's output parser and existence check. Pure functions.
 
 import json
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -18,6 +19,20 @@ class Reply(BaseModel):
     model_config = ConfigDict(strict=True)
 
     places: list[str] = Field(description="names of furniture or rooms, likeliest first")
+
+
+def schema(places: Sequence[str], most: int) -> dict[str, Any]:
+    """JSON schema of a reply that can name only these places, at most so many.
+
+    For a model that can be held to a schema; what it writes is verified all the same.
+    """
+    held = Reply.model_json_schema()
+    held["properties"]["places"] |= {
+        "items": {"type": "string", "enum": list(places)},
+        "minItems": 1,
+        "maxItems": most,
+    }
+    return held
 
 
 def read(reply: str) -> tuple[str, ...] | None:

@@ -12,6 +12,7 @@ from executive.types import ChatRequest, Message
 from kb.advisor import PlaceAdvisor
 from kb.prompts import TEXTS, Prompts
 from kb.scripted import Scripted
+from kb.verification import Reply
 
 PLACES = four_rooms().places()
 
@@ -39,8 +40,21 @@ def test_the_system_prompt_holds_all_rooms_furniture_and_pairs():
 
 def test_the_system_prompt_holds_the_output_format_and_every_request_its_schema():
     request = advisor().inquiry("mug", ())
-    assert json.dumps(request.schema) in request.messages[0].content
-    assert request.schema["properties"]["places"]["type"] == "array"
+    assert json.dumps(Reply.model_json_schema()) in request.messages[0].content
+    assert request.schema["properties"]["places"]["maxItems"] == 5
+
+
+@pytest.mark.parametrize(
+    ("request_", "choice"),
+    [
+        (advisor().inquiry("mug", ()), [place.name for place in PLACES]),
+        (advisor().inquiry("mug", ("desk", "sofa")), ["desk", "sofa"]),
+        (advisor().furniture("mug", "lobby", ()), ["shelf_lobby", "sideboard"]),
+        (advisor().again("mug", ("desk", "sofa")), ["sofa", "desk"]),
+    ],
+)
+def test_a_model_that_can_be_held_to_a_schema_can_only_name_allowed_places(request_, choice):
+    assert request_.schema["properties"]["places"]["items"]["enum"] == choice
 
 
 def test_without_default_locations_the_question_is_general():
