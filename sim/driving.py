@@ -20,6 +20,8 @@ NEAR_ANGLE = np.radians(0.8)
 """How well it arrives (metres, radians)."""
 _LOOKAHEAD_S = 0.2
 _SHORTEST_LOOKAHEAD = 0.08
+_NEXT_BIT = np.arange(0.0, 0.3, 0.01)
+"""Lengths of path ahead (metres) among which the nearest point to the robot is looked for."""
 _FACE_TRAVEL_BEYOND = 0.9
 """Farther than this from the end (metres), the robot faces where it goes."""
 _STUCK_S = 1.5
@@ -118,15 +120,13 @@ class _Follower:
         return self._yaw
 
     def _advance(self, position: Floats) -> None:
-        """Move the done length on to the nearest point of the next half metre of path."""
-        ahead = np.arange(self._done, min(self._done + 0.5, self._ends[-1]) + 0.01, 0.01)
-        ahead = np.minimum(ahead, self._ends[-1])
-        spots = np.array([self._at(length) for length in ahead])
+        """Move the done length on to the nearest point of the next bit of path."""
+        ahead = np.minimum(self._done + _NEXT_BIT, self._ends[-1])
+        spots = np.column_stack([np.interp(ahead, self._ends, axis) for axis in self._points.T])
         self._done = float(ahead[np.argmin(np.linalg.norm(spots - position, axis=1))])
 
     def _at(self, length: float) -> Floats:
-        x, y = (np.interp(length, self._ends, self._points[:, axis]) for axis in (0, 1))
-        return np.array([x, y])
+        return np.array([np.interp(length, self._ends, axis) for axis in self._points.T])
 
 
 def _slowing(distance: float, fastest: float, deceleration: float) -> float:

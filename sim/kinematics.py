@@ -141,7 +141,7 @@ class Kinematics:
     def line(
         self, base: Floats, start: Floats, goal: HandPose, step: float = 0.03
     ) -> list[Floats] | None:
-        """Joints that move the hand on a straight line from where `start` has it; None if none do."""
+        """Joints that move the hand straight to a pose from where `start` has it; None if none."""
         hand = self.hand(base, start)
         turns = (goal.rotation * hand.rotation.inv()).as_rotvec()
         way = goal.position - hand.position

@@ -2,9 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-import numpy as np
 from pybullet_utils.bullet_client import BulletClient
-from scipy.spatial.transform import Rotation
 
 from executive.records import Transform
 from executive.types import Pose
@@ -27,39 +25,40 @@ class FrameTree:
 
     def all(self) -> tuple[Transform, ...]:
         """Every transform, as of now."""
-        found = tuple(self._transforms())
-        self._last = {transform.child: transform.pose for transform in found}
-        return found
+        self._last.clear()
+        return self.moved()
 
     def moved(self) -> tuple[Transform, ...]:
         """The transforms that differ from when they were last returned."""
-        found = tuple(
-            transform
-            for transform in self._transforms()
-            if transform.child not in self._last
-            or _differ(transform.pose, self._last[transform.child])
-        )
-        self._last.update({transform.child: transform.pose for transform in found})
-        return found
+        return (*self._moved_links(), *self._moved_things())
 
-    def _transforms(self) -> Iterator[Transform]:
+    def _moved_links(self) -> Iterator[Transform]:
         poses = self._hardware.link_poses()
         for child, parent in self._hardware.parents.items():
-            pose = poses[child]
-            yield Transform(
-                parent, child, pose if parent == MAP else _seen_from(poses[parent], pose)
-            )
+            pose = poses[child] if parent == MAP else self._seen_from(poses[parent], poses[child])
+            if self._differs(child, pose):
+                yield Transform(parent, child, pose)
+
+    def _moved_things(self) -> Iterator[Transform]:
         for body, name in self._things.items():
-            yield Transform(MAP, name, frame_pose(self._client, body))
+            if self._differs(name, Pose(*self._client.getBasePositionAndOrientation(body))):
+                yield Transform(MAP, name, frame_pose(self._client, body))
+
+    def _seen_from(self, parent: Pose, pose: Pose) -> Pose:
+        back = self._client.invertTransform(parent.position, parent.orientation)
+        return Pose(*self._client.multiplyTransforms(*back, pose.position, pose.orientation))
+
+    def _differs(self, name: str, pose: Pose) -> bool:
+        """Whether a pose differs from the last one of this name; if so, it takes its place."""
+        last = self._last.get(name)
+        if last is not None and _near(pose, last):
+            return False
+        self._last[name] = pose
+        return True
 
 
-def _seen_from(parent: Pose, pose: Pose) -> Pose:
-    back = Rotation.from_quat(parent.orientation).inv()
-    x, y, z = back.apply(np.subtract(pose.position, parent.position))
-    qx, qy, qz, qw = (back * Rotation.from_quat(pose.orientation)).as_quat()
-    return Pose((float(x), float(y), float(z)), (float(qx), float(qy), float(qz), float(qw)))
-
-
-def _differ(one: Pose, other: Pose) -> bool:
-    change = np.subtract((*one.position, *one.orientation), (*other.position, *other.orientation))
-    return bool(np.abs(change).max() > _MOVED)
+def _near(one: Pose, other: Pose) -> bool:
+    pairs = zip(
+        (*one.position, *one.orientation), (*other.position, *other.orientation), strict=True
+    )
+    return all(abs(a - b) < _MOVED for a, b in pairs)
