@@ -1,0 +1,31 @@
+"""Both worlds keep the robot's contract."""
+
+from collections.abc import Iterator
+
+import pytest
+from conftest import Notebook, four_rooms
+from contracts.robot import Bench, RobotContract
+
+from executive.events import Inbox
+from sim.fake import FakeRobot, FakeWorld
+from sim.objects import load_objects
+
+
+class TestFakeRobot(RobotContract):
+    @pytest.fixture
+    def bench(self) -> Bench:
+        inbox = Inbox()
+        world = FakeWorld(four_rooms(), inbox, Notebook())
+        return Bench(FakeRobot(world), inbox, world.advance)
+
+
+@pytest.mark.physics
+class TestSimulatedRobot(RobotContract):
+    @pytest.fixture
+    def bench(self) -> Iterator[Bench]:
+        from sim.world import PhysicsWorld
+
+        inbox = Inbox()
+        world = PhysicsWorld(four_rooms(), load_objects(), inbox, Notebook(), camera_hz=0.0)
+        yield Bench(world.robot, inbox, world.advance)
+        world.close()
