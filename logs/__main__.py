@@ -3,101 +3,152 @@
 import argparse
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any, NamedTuple
 
 from executive.errors import ExecutiveError, InputError
-from logs import report, viewer
-from logs.reader import Run
-from logs.recovery import recover
+from logs import comparison, pictures, report, viewer
+from logs.reader import FILE_NAME, Run
+from logs.recovery import damaged_at, recover
+from logs.why import why, why_text
+
+
+class Answer(NamedTuple):
+    """To a question: as data, as text, and as exit status (1: the two are not the same)."""
+
+    data: Any
+    text: str
+    status: int = 0
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Answer one question; return the exit status (2: bad input)."""
     options = _parser().parse_args(arguments)
-    answer: Callable[[argparse.Namespace], str] = options.answer
+    ask: Callable[[argparse.Namespace], Answer] = options.ask
     try:
-        print(answer(options))
+        answer = ask(options)
     except ExecutiveError as error:
         print(error, file=sys.stderr)
         return 2
-    return 0
+    print(json.dumps(answer.data, default=str) if options.json else answer.text)
+    return answer.status
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m logs", description="Questions to recorded missions."
+        prog="python -m logs",
+        description="Questions to recorded missions.",
+        epilog="exit: 0 answered, 1 compare or replay: not the same, 2 bad usage or input",
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
-    def add(
-        name: str, answer: Callable[[argparse.Namespace], str], what: str
-    ) -> argparse.ArgumentParser:
+    def add(name: str, ask: Callable[[argparse.Namespace], Answer], what: str, *runs: str) -> Any:
         command = commands.add_parser(name, help=what, description=what)
-        command.set_defaults(answer=answer)
+        command.set_defaults(ask=ask)
+        for run in runs:
+            command.add_argument(run, type=Path, metavar=run.upper(), help="a run's folder")
+        command.add_argument("--json", action="store_true", help="answer as JSON")
         return command
 
-    summary = add("summary", _summary, "how each mission ended, and what it took")
-    summary.add_argument("runs", nargs="+", type=Path, metavar="RUN", help="a run's folder")
-    timeline = add("timeline", _timeline, "which behaviours ran when (from, to: mission time, s)")
-    llm = add("llm", _llm, "calls of the language model and their verification")
-    dialog = add("dialog", _dialog, "what was said")
-    frames = add("frames", _frames, "write the camera's pictures as JPEG files")
-    view = add("view", _view, "show the mission in the rerun viewer")
-    for command in (timeline, llm, dialog, frames, view):
-        command.add_argument("run", type=Path, metavar="RUN", help="a run's folder")
-    for command in (summary, timeline, llm, dialog):
-        command.add_argument("--json", action="store_true", help="answer as JSON")
-    frames.add_argument(
-        "--out", type=Path, required=True, metavar="DIR", help="where to write them"
+    summary = add("summary", _summary, "how missions ended, and what they took")
+    summary.add_argument(
+        "runs", nargs="+", type=Path, metavar="RUN", help="a run's folder, or a folder of runs"
     )
+    add("why", _why, "the chain from words to deed: decisions, sources, alternatives", "run")
+    add("ticks", _ticks, "each tick: its events, and the behaviours that it changed", "run")
+    add("timeline", _timeline, "which behaviours ran when (from, to: mission time, s)", "run")
+    add("llm", _llm, "calls of the language model and their verification", "run")
+    add("dialog", _dialog, "what was said", "run")
+    frames = add("frames", _frames, "write the camera's pictures", "run")
+    frames.add_argument(
+        "--out", type=Path, required=True, metavar="DIR or FILE.mp4", help="files, or a video"
+    )
+    frames.add_argument("--png", action="store_true", help="PNG files (default: JPEG, as recorded)")
+    add("compare", _compare, "where two missions part", "one", "other")
+    add("view", _view, "show the mission in the rerun viewer", "run")
     mend = add("recover", _recover, "write a broken mcap file whole again, as far as it reads")
     mend.add_argument("file", type=Path, metavar="FILE")
     return parser
 
 
-def _summary(options: argparse.Namespace) -> str:
-    rows = [report.summary(Run(run)) for run in options.runs]
-    return json.dumps(rows) if options.json else report.summary_text(rows)
+def _summary(options: argparse.Namespace) -> Answer:
+    rows = list(_summaries(options.runs))
+    return Answer(rows, report.summary_text(rows))
 
 
-def _timeline(options: argparse.Namespace) -> str:
+def _summaries(folders: Iterable[Path]) -> Iterator[report.Row]:
+    """One row a run; in a folder of runs, what cannot be read has a row that says so."""
+    for folder in folders:
+        runs = sorted(found.parent for found in folder.glob(f"*/{FILE_NAME}"))
+        if not runs or (folder / FILE_NAME).exists():
+            yield report.summary(Run(folder))
+            continue
+        for run in runs:
+            try:
+                yield report.summary(Run(run))
+            except InputError as error:
+                yield {"run": run.name, "error": str(error).removeprefix(f"{run / FILE_NAME}: ")}
+
+
+def _why(options: argparse.Namespace) -> Answer:
+    decisions = why(Run(options.run))
+    return Answer([asdict(decision) for decision in decisions], why_text(decisions))
+
+
+def _ticks(options: argparse.Namespace) -> Answer:
+    rows = report.ticks(Run(options.run))
+    return Answer(rows, report.ticks_text(rows))
+
+
+def _timeline(options: argparse.Namespace) -> Answer:
     spans = report.timeline(Run(options.run))
-    if options.json:
-        return json.dumps([asdict(span) for span in spans])
-    return report.timeline_text(spans)
+    return Answer([asdict(span) for span in spans], report.timeline_text(spans))
 
 
-def _llm(options: argparse.Namespace) -> str:
+def _llm(options: argparse.Namespace) -> Answer:
     rows = report.llm(Run(options.run))
-    return json.dumps(rows) if options.json else report.llm_text(rows)
+    return Answer(rows, report.llm_text(rows))
 
 
-def _dialog(options: argparse.Namespace) -> str:
+def _dialog(options: argparse.Namespace) -> Answer:
     rows = report.dialog(Run(options.run))
-    return json.dumps(rows) if options.json else report.dialog_text(rows)
+    return Answer(rows, report.dialog_text(rows))
 
 
-def _frames(options: argparse.Namespace) -> str:
-    run = Run(options.run)
-    options.out.mkdir(parents=True, exist_ok=True)
-    count = 0
-    for count, at in enumerate(run.frames(), start=1):
-        (options.out / f"{count:05}-{at.time_s:.3f}s.jpg").write_bytes(at.value)
-    return f"{count} pictures in {options.out}"
+def _frames(options: argparse.Namespace) -> Answer:
+    frames, out = Run(options.run).frames(), options.out
+    if out.suffix == ".mp4":
+        count = pictures.write_video(frames, out)
+        return Answer([str(out)], f"{count} pictures, {count / pictures.VIDEO_HZ:g} s, in {out}")
+    files = pictures.write_files(frames, out, png=options.png)
+    return Answer([str(file) for file in files], f"{len(files)} pictures in {out}")
 
 
-def _recover(options: argparse.Namespace) -> str:
-    return f"recovered: {recover(options.file)}"
+def _compare(options: argparse.Namespace) -> Answer:
+    compared = comparison.compare(Run(options.one), Run(options.other))
+    return Answer(
+        asdict(compared), comparison.compare_text(compared), int(compared.parting is not None)
+    )
 
 
-def _view(options: argparse.Namespace) -> str:
+def _recover(options: argparse.Namespace) -> Answer:
+    file, damaged = options.file, None
+    recovered = recover(file)
+    damaged = damaged_at(file)
+    where = "nothing was missing" if damaged is None else f"{file} does not read at byte {damaged}"
+    return Answer(
+        {"recovered": str(recovered), "damaged_at": damaged}, f"recovered: {recovered}; {where}"
+    )
+
+
+def _view(options: argparse.Namespace) -> Answer:
     recording = options.run / "mission.rrd" if options.run.is_dir() else options.run
     if not recording.is_file():
         raise InputError(str(options.run), "holds no mission.rrd", "name a run's folder")
     viewer.show(recording)
-    return f"shown: {recording}"
+    return Answer(str(recording), f"shown: {recording}")
 
 
 if __name__ == "__main__":

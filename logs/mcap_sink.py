@@ -115,8 +115,9 @@ class McapSink:
                 self._add_own("/llm/verification", messages.verified_to_message(record), ns, stamp)
             case Utterance():
                 self._add_own("/dialog", messages.utterance_to_message(record), ns, stamp)
-            case EventTaken():
-                self._add_own("/event", messages.event_to_message(record), ns, stamp)
+            case EventTaken(event):
+                message = messages.event_to_message(event, stamp.mission_s)
+                self._add_own("/event", message, ns, stamp)
             case Finished(outcome):
                 self._add_own("/outcome", messages.outcome_to_message(outcome), ns, stamp)
             case Picture(frame):

@@ -5,17 +5,18 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
-from mcap.reader import NonSeekingReader, make_reader
-from mcap.records import Channel, Metadata
+from mcap.reader import McapReader, NonSeekingReader, make_reader
+from mcap.records import Attachment, Channel, Metadata
 from mcap_protobuf.decoder import DecoderFactory
 
 from executive.errors import InputError
+from executive.events import Event
 from executive.records import LlmCall, Tick, TreeShape, Utterance, Verified
 from executive.types import Outcome
 from logs import messages
-from logs.recovery import BREAKS, is_whole, records_to_the_break
+from logs.recovery import BREAKS, SoundRecords, damaged_at, is_whole
 from logs.times import nanoseconds
 
 FILE_NAME = "mission.mcap"
@@ -32,13 +33,15 @@ class At(Generic[T]):
 
 
 @dataclass(frozen=True, slots=True)
-class EventLine:
-    """An event in words: its type, the request and the result's type if it ended one, its gist."""
+class Turn:
+    """One turn of the executive: the events that it took, and the tick that followed.
 
-    name: str
-    request: int | None
-    result: str
-    text: str
+    There is no tick after a stop, and where the recording ends. `time_s` is mission time, exact.
+    """
+
+    time_s: float
+    events: tuple[Event, ...]
+    tick: Tick | None
 
 
 class Run:
@@ -53,10 +56,15 @@ class Run:
         self.path = folder / FILE_NAME if folder.is_dir() else folder
         if not self.path.is_file():
             raise InputError(str(folder), f"holds no {FILE_NAME}", "name a run's folder")
+        named = self.path.parent if self.path.name == FILE_NAME else self.path
+        self.name = named.resolve().name
+        """What to call it: its folder's name."""
         self.whole = is_whole(self.path)
         """Whether the recording was closed; False after a crash."""
         self.metadata: dict[str, str] = {}
         """Facts about the run: start, seed, versions, model."""
+        self.attachments: dict[str, bytes] = {}
+        """Files kept with it, by name: configuration, home, ontology."""
         self._check()
 
     def tree(self) -> TreeShape:
@@ -80,9 +88,26 @@ class Run:
         """What was said."""
         return self._read("/dialog", messages.utterance_from_message)
 
-    def events(self) -> Iterator[At[EventLine]]:
-        """Every event that the executive took."""
-        return self._read("/event", _event_line)
+    def events(self) -> Iterator[At[Event]]:
+        """Every event that the executive took; of what was seen, points without masks."""
+        return self._read("/event", messages.event_from_message)
+
+    def turns(self) -> Iterator[Turn]:
+        """Events and ticks as they belong together."""
+        time_s, events = 0.0, list[Event]()
+        decoders: dict[str, Callable[[Any], _Exact | Tick]] = {
+            "/event": _exact_event,
+            "/bt/tick": messages.tick_from_message,
+        }
+        for _, at in self._read_all(decoders):
+            if isinstance(at.value, Tick):
+                yield Turn(time_s, tuple(events), at.value)
+                events.clear()
+            else:
+                time_s = at.value.time_s
+                events.append(at.value.event)
+        if events:
+            yield Turn(time_s, tuple(events), None)
 
     def frames(self) -> Iterator[At[bytes]]:
         """Every camera picture, as JPEG."""
@@ -95,15 +120,20 @@ class Run:
 
     def _check(self) -> None:
         """Read the facts at the start of the file; refuse what is no mission."""
-        for record in records_to_the_break(self.path):
+        records = SoundRecords(self.path)
+        for record in records:
             if isinstance(record, Metadata) and record.name == "run":
                 self.metadata = record.metadata
+            elif isinstance(record, Attachment):
+                self.attachments[record.name] = record.data
             elif isinstance(record, Channel) and record.topic == "/bt/tree":
                 break
         else:
+            damaged = records.damaged_at
             raise InputError(
                 str(self.path),
-                "records no mission: topic /bt/tree is missing",
+                "records no mission: topic /bt/tree is missing"
+                + (f" (nothing can be read from byte {damaged} on)" if damaged else ""),
                 f"name a run's folder or its {FILE_NAME}",
             )
         try:
@@ -114,29 +144,47 @@ class Run:
         self._origin_ns = nanoseconds(started)
 
     def _read(self, topic: str, decode: Callable[[Any], T]) -> Iterator[At[T]]:
+        return (at for _, at in self._read_all({topic: decode}))
+
+    def _read_all(self, decoders: dict[str, Callable[[Any], T]]) -> Iterator[tuple[str, At[T]]]:
+        """What was recorded under these topics, in the order in which it was."""
+        topic = ", ".join(decoders)
         try:
-            for time_ns, message in self._messages(topic):
-                yield At((time_ns - self._origin_ns) / 1e9, decode(message))
-        except (*BREAKS, AttributeError) as error:
-            raise InputError(str(self.path), f"{topic} cannot be read: {error}") from error
+            for topic, time_ns, message in self._messages(tuple(decoders)):
+                yield topic, At((time_ns - self._origin_ns) / 1e9, decoders[topic](message))
+        except AttributeError as error:
+            what = f"{topic} is not as this version records it: {error}"
+            raise InputError(str(self.path), what) from error
+        except BREAKS as error:
+            where = damaged_at(self.path)
+            what = f"{topic} cannot be read: " + (
+                str(error) if where is None else f"the file is damaged at byte {where}"
+            )
+            right = f"`python -m logs recover {self.path}` saves the rest"
+            raise InputError(str(self.path), what, right) from error
 
-    def _messages(self, topic: str) -> Iterator[tuple[int, Any]]:
-        """Log times (ns) and decoded messages: by the index, or from the start to the break."""
-        decoders = [DecoderFactory()]
+    def _messages(self, topics: tuple[str, ...]) -> Iterator[tuple[str, int, Any]]:
+        """Topics, log times (ns), decoded messages: all, or from the start to the break."""
+        factories = [DecoderFactory()]
         with self.path.open("rb") as file:
+            reader: McapReader
+            broken: contextlib.AbstractContextManager[None]
             if self.whole:
-                whole = make_reader(file, decoder_factories=decoders)
-                for _, _, message, decoded in whole.iter_decoded_messages(topics=topic):
-                    yield message.log_time, decoded
-                return
-            with contextlib.suppress(*BREAKS):
-                part = NonSeekingReader(file, decoder_factories=decoders)
-                for _, _, message, decoded in part.iter_decoded_messages(
-                    topic, log_time_order=False
+                reader, broken = make_reader(file, True, factories), contextlib.nullcontext()
+            else:
+                reader = NonSeekingReader(file, decoder_factories=factories)
+                broken = contextlib.suppress(*BREAKS)
+            with broken:
+                for _, channel, message, decoded in reader.iter_decoded_messages(
+                    topics, log_time_order=False
                 ):
-                    yield message.log_time, decoded
+                    yield channel.topic, message.log_time, decoded
 
 
-def _event_line(message: Any) -> EventLine:
-    request = message.request if message.HasField("request") else None
-    return EventLine(message.name, request, message.result, message.text)
+class _Exact(NamedTuple):
+    time_s: float
+    event: Event
+
+
+def _exact_event(message: Any) -> _Exact:
+    return _Exact(message.mission_time_s, messages.event_from_message(message))

@@ -1,4 +1,4 @@
-"""Reading mcap files that end early, as a killed run leaves them, and making them whole again."""
+"""Reading mcap files that end early or are damaged, and making them whole again."""
 
 import contextlib
 import struct
@@ -8,8 +8,8 @@ from typing import Any
 
 from mcap.exceptions import McapError
 from mcap.reader import make_reader
-from mcap.records import Attachment, Channel, Header, McapRecord, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader
+from mcap.records import Attachment, Channel, Chunk, Header, McapRecord, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.writer import Writer
 from zstandard import ZstdError
 
@@ -40,10 +40,48 @@ def is_whole(path: Path) -> bool:
         raise InputError(str(path), "is not an mcap file", "its header is missing") from error
 
 
-def records_to_the_break(path: Path) -> Iterator[McapRecord]:
-    """All records from the start, until the file ends or cannot be read any further."""
-    with path.open("rb") as file, contextlib.suppress(*BREAKS):
-        yield from StreamReader(file, validate_crcs=True).records
+class SoundRecords:
+    """The records of a file that read: damaged chunks are passed over, a break ends it."""
+
+    def __init__(self, path: Path) -> None:
+        """Read this file when iterated over."""
+        self._path = path
+        self.damaged_at: int | None = None
+        """Offset (bytes) of the first record that does not read, as far as was iterated."""
+
+    def __iter__(self) -> Iterator[McapRecord]:
+        """All records, those in chunks singly."""
+        with self._path.open("rb") as file:
+            offset = 0
+            try:
+                for record in StreamReader(file, emit_chunks=True).records:
+                    if isinstance(record, Chunk):
+                        yield from self._inside(record, offset)
+                    else:
+                        yield record
+                    offset = file.tell()
+            except BREAKS:
+                self._note(offset)
+
+    def _inside(self, chunk: Chunk, offset: int) -> Iterator[McapRecord]:
+        try:
+            records = list(breakup_chunk(chunk, validate_crc=True))
+        except BREAKS:
+            self._note(offset)
+            return
+        yield from records
+
+    def _note(self, offset: int) -> None:
+        if self.damaged_at is None:
+            self.damaged_at = offset
+
+
+def damaged_at(path: Path) -> int | None:
+    """Offset (bytes) of the first record that does not read; None if all do."""
+    records = SoundRecords(path)
+    for _ in records:
+        pass
+    return records.damaged_at
 
 
 def recover(path: Path) -> Path:
@@ -58,7 +96,7 @@ def recover(path: Path) -> Path:
         writer: Any = Writer(file, chunk_size=CHUNK_BYTES)
         schemas: dict[int, int] = {0: 0}
         channels: dict[int, int] = {}
-        for record in records_to_the_break(path):
+        for record in SoundRecords(path):
             match record:
                 case Header():
                     writer.start(record.profile, record.library)
@@ -73,7 +111,7 @@ def recover(path: Path) -> Path:
                         schemas[record.schema_id],
                         record.metadata,
                     )
-                case Message():
+                case Message() if record.channel_id in channels:
                     writer.add_message(
                         channels[record.channel_id],
                         record.log_time,

@@ -1,14 +1,20 @@
 """What can be said about recorded missions, as plain data and as text."""
 
-from collections.abc import Iterable, Mapping
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from textwrap import shorten
 from typing import Any
 
-from executive.records import Tick
+from executive.records import NodeState, Tick
 from executive.types import Replied, Scored
+from logs.messages import in_words
 from logs.reader import At, Run
 
 Row = dict[str, Any]
+
+MESSAGE_LENGTH = 120
+"""Of a behaviour's message, what fits on a line (characters)."""
 
 
 @dataclass(slots=True)
@@ -27,17 +33,49 @@ class Span:
 
 
 def summary(run: Run) -> Row:
-    """The outcome, and how much there is to see."""
+    """The outcome, where the time went, and how much there is to see."""
     outcome = run.outcome()
-    name = run.path.parent.name if run.path.stem == "mission" else run.path.name
     return {
-        "run": name,
+        "run": run.name,
         "whole": run.whole,
         "ticks": sum(1 for _ in run.ticks()),
         "frames": sum(1 for _ in run.frames()),
+        "time_by_behaviour_s": time_split(run),
         "metadata": run.metadata,
         "outcome": asdict(outcome) if outcome else None,
     }
+
+
+def time_split(run: Run) -> dict[str, float]:
+    """Mission time (s) that each behaviour was at work, by name, the longest first."""
+    seconds: dict[str, float] = defaultdict(float)
+    for span in timeline(run):
+        seconds[span.path.rpartition("/")[2]] += span.end_s - span.start_s
+    longest_first = sorted(seconds.items(), key=lambda item: -item[1])
+    return {name: round(spent, 3) for name, spent in longest_first if spent > 0}
+
+
+def ticks(run: Run) -> list[Row]:
+    """Each tick: the events that caused it, who decided, and which behaviours changed."""
+    rows: list[Row] = []
+    before: dict[str, NodeState] = {}
+    for turn in run.turns():
+        row: Row = {"time_s": turn.time_s, "events": [in_words(event) for event in turn.events]}
+        if (tick := turn.tick) is not None:
+            changed = [n for n in tick.nodes if _decided(n) != _decided(before.get(n.path))]
+            row |= {
+                "tick": tick.number,
+                "tip": tick.tip,
+                "duration_s": tick.duration_s,
+                "changed": [asdict(node) for node in changed],
+            }
+            before = {node.path: node for node in tick.nodes}
+        rows.append(row)
+    return rows
+
+
+def _decided(node: NodeState | None) -> str:
+    return node.status if node else "INVALID"
 
 
 def timeline(run: Run) -> list[Span]:
@@ -107,12 +145,14 @@ def dialog(run: Run) -> list[Row]:
 # --- as text ---
 
 
-def summary_text(rows: Iterable[Row]) -> str:
-    """A line for each run."""
-    return "\n".join(_summary_line(row) for row in rows)
+def summary_text(rows: Sequence[Row]) -> str:
+    """One run in words; several as a table."""
+    if len(rows) == 1:
+        return _in_words(rows[0])
+    return table([_cells(row) for row in rows])
 
 
-def _summary_line(row: Row) -> str:
+def _in_words(row: Row) -> str:
     size = f"{row['ticks']} ticks, {row['frames']} frames"
     outcome = row["outcome"]
     if outcome is None:
@@ -120,20 +160,84 @@ def _summary_line(row: Row) -> str:
         return f"{row['run']}: no outcome{why}; {size}"
     where = f" in {outcome['location']} (says {outcome['source']})" if outcome["location"] else ""
     reason = f": {outcome['reason']}" if outcome["reason"] else ""
+    split = ", ".join(f"{name} {spent:.1f}" for name, spent in row["time_by_behaviour_s"].items())
     return (
         f"{row['run']}: {outcome['command']!r} {outcome['status']}{where}{reason}\n"
         f"    {outcome['mission_time_s']:.1f} s, "
         f"of them {outcome['thinking_time_s']:.1f} s thinking; "
         f"{outcome['llm_calls']} calls of the model, {outcome['inquiries']} questions, "
-        f"{len(outcome['visited'])} places visited; {size}"
+        f"{len(outcome['visited'])} places visited; {size}\n"
+        f"    seconds by behaviour: {split or 'none'}"
     )
+
+
+def _cells(row: Row) -> Row:
+    """A run as a row of the table."""
+    outcome = row.get("outcome") or {}
+    status = row.get("error") or outcome.get("status") or "no outcome"
+    return {
+        "run": row["run"],
+        "command": outcome.get("command"),
+        "status": status if row.get("whole", True) else f"{status}, ends early",
+        "source": outcome.get("source"),
+        "location": outcome.get("location"),
+        "visited": len(outcome["visited"]) if outcome else None,
+        "asked": outcome.get("inquiries"),
+        "llm": outcome.get("llm_calls"),
+        "ticks": row.get("ticks"),
+        "frames": row.get("frames"),
+        "thinking_s": outcome.get("thinking_time_s"),
+        "mission_s": outcome.get("mission_time_s"),
+        "wall_s": outcome.get("wall_time_s"),
+    }
+
+
+def table(rows: Sequence[Row]) -> str:
+    """Rows with the same keys under their names; numbers to the right."""
+    if not rows:
+        return ""
+    names = list(rows[0])
+    texts = [names] + [[_cell(row[name]) for name in names] for row in rows]
+    widths = [max(len(line[i]) for line in texts) for i in range(len(names))]
+    right = [all(isinstance(row[n], int | float | None) for row in rows) for n in names]
+    return "\n".join(
+        "  ".join(
+            text.rjust(width) if is_number else text.ljust(width)
+            for text, width, is_number in zip(line, widths, right, strict=True)
+        ).rstrip()
+        for line in texts
+    )
+
+
+def _cell(value: Any) -> str:
+    return "-" if value is None else f"{value:.1f}" if isinstance(value, float) else str(value)
+
+
+def ticks_text(rows: Iterable[Row]) -> str:
+    """A line for each tick and its cause, and one for each behaviour that it changed."""
+    return "\n".join(_tick_text(row) for row in rows)
+
+
+def _tick_text(row: Row) -> str:
+    number = f"{row['tick']:4}" if "tick" in row else "   -"
+    lines = [f"{row['time_s']:9.3f} {number}  {'; '.join(row['events'])}"]
+    lines += [
+        f"{'':16}{node['status']:8} {node['path']}"
+        + (f"  ({_one_line(node['message'])})" if node["message"] else "")
+        for node in row.get("changed", ())
+    ]
+    return "\n".join(lines)
+
+
+def _one_line(text: str) -> str:
+    return shorten(text, MESSAGE_LENGTH, placeholder=" …")
 
 
 def timeline_text(spans: Iterable[Span]) -> str:
     """A line for each span: from, to, status, behaviour, message."""
     return "\n".join(
         f"{s.start_s:9.3f} {s.end_s:9.3f}  {s.status:8} {s.path}"
-        + (f"  ({s.message})" if s.message else "")
+        + (f"  ({_one_line(s.message)})" if s.message else "")
         for s in spans
     )
 

@@ -21,7 +21,7 @@ from executive.records import (
     Verified,
 )
 from logs import blueprint, markdown, rerun_scene, viewer
-from logs.messages import event_to_message
+from logs.messages import in_words
 from logs.recorder import Stamp
 from logs.rerun_tree import TreeView
 
@@ -131,8 +131,7 @@ class RerunSink:
         self._stream.log(blueprint.LLM, _document(text))
 
     def _write_event(self, taken: EventTaken) -> None:
-        message = event_to_message(taken)
-        text = " ".join(filter(None, (message.name, message.result, message.text)))
+        text = in_words(taken.event)
         self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
 
     def _write_transforms(self, mission_s: float, record: Transforms) -> None:

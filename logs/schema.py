@@ -8,7 +8,7 @@ for time (`timestamp`), and OpenTelemetry's conventions for generative AI, dots 
 
 from typing import Any
 
-from foxglove_schemas_protobuf import KeyValuePair_pb2
+from foxglove_schemas_protobuf import KeyValuePair_pb2, Point3_pb2
 from google.protobuf import descriptor_pool, message_factory, timestamp_pb2
 from google.protobuf.descriptor_pb2 import (
     DescriptorProto,
@@ -82,12 +82,26 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "dropped": "repeated string",
     },
     "Utterance": {**_STAMPED, "speaker": "string", "text": "string"},
+    "Detection": {
+        "label": "string",
+        "confidence": "double",
+        "left": "int64",
+        "top": "int64",
+        "width": "int64",
+        "height": "int64",
+        "position": "foxglove.Point3",
+    },
     "Event": {
         **_STAMPED,
         "name": "string",
         "request": "optional uint64",
         "result": "string",
         "text": "string",
+        "mission_time_s": "double",
+        "deadline_s": "optional double",
+        "frame_number": "optional int64",
+        "detections": "repeated Detection",
+        "llm_call": "LlmCall",
     },
     "Candidate": {"place": "string", "source": "string", "probability": "optional double"},
     "Outcome": {
@@ -149,7 +163,9 @@ def _describe() -> FileDescriptorProto:
         name=f"{PACKAGE}.proto",
         package=PACKAGE,
         syntax="proto3",
-        dependency=[timestamp_pb2.DESCRIPTOR.name, KeyValuePair_pb2.DESCRIPTOR.name],
+        dependency=[
+            module.DESCRIPTOR.name for module in (timestamp_pb2, KeyValuePair_pb2, Point3_pb2)
+        ],
     )
     status = file.enum_type.add(name="Status")
     for number, name in enumerate(STATUS):

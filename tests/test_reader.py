@@ -21,11 +21,13 @@ from sample_mission import (
 )
 
 from executive.errors import InputError
+from executive.events import Ended, Started
 from executive.records import Tick, Utterance
+from executive.types import Succeeded
 from logs import report
 from logs.__main__ import main
 from logs.mcap_sink import McapSink
-from logs.reader import EventLine, Run
+from logs.reader import Run
 from logs.recorder import Stamp
 from logs.recovery import recover
 
@@ -91,11 +93,11 @@ def test_what_is_read_equals_what_was_recorded(run_dir: Path) -> None:
     assert run.metadata["seed"] == "7"
 
 
-def test_events_are_read_in_words(run_dir: Path) -> None:
-    assert [at.value for at in Run(run_dir).events()] == [
-        EventLine("Started", None, "", "Bring a sugar_box"),
-        EventLine("Ended", 3, "Succeeded", ""),
-    ]
+def test_events_are_read_as_they_were_taken(run_dir: Path) -> None:
+    started, ended = (at.value for at in Run(run_dir).events())
+    assert started == Started("Bring a sugar_box")
+    assert isinstance(ended, Ended)
+    assert (ended.request, ended.result) == (3, Succeeded())
 
 
 def test_frames_are_jpegs(run_dir: Path) -> None:

@@ -1,0 +1,228 @@
+"""Why the robot did it: the chain from words to deed, read from the recorded ticks.
+
+Every fallback of the tree is a decision. Its children are the alternatives: the one that succeeded
+was taken, those before it failed and said why, those after it were not needed.
+"""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+from executive.records import LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
+from executive.types import Scored
+from logs.reader import At, Run
+
+SOURCES = {"Ontology": "ontology", "Rank": "llm", "Adopt": "llm", "Ask": "user"}
+"""Who speaks through a behaviour whose class name begins so."""
+
+NOT_NEEDED = "not needed"
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """What could have been instead, and why it was not."""
+
+    what: str
+    why_not: str
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """One link of the chain.
+
+    Attributes:
+        time_s: mission time at which it was settled.
+        question: what was to be settled, as the tree names it.
+        answer: what came of it.
+        source: `person`, `ontology`, `llm`, `user` or `eyes`; empty where the tree itself decides.
+        by: the behaviour that settled it.
+        alternatives: what was not taken.
+    """
+
+    time_s: float
+    question: str
+    answer: str
+    source: str
+    by: str
+    alternatives: tuple[Alternative, ...] = ()
+
+
+def why(run: Run) -> list[Decision]:
+    """Every decision of a mission, in order, up to how it ended."""
+    decisions = list(_Chain(run).decisions())
+    outcome = run.outcome()
+    if outcome is not None:
+        ending = outcome.reason or outcome.status
+        decisions.append(Decision(outcome.mission_time_s, "outcome", ending, "", outcome.status))
+    return decisions
+
+
+class _Chain:
+    """Follows the fallbacks of one mission from tick to tick."""
+
+    def __init__(self, run: Run) -> None:
+        self._run = run
+        self._family = _Family(run.tree())
+        self._reasons: dict[str, str] = {}
+        self._thoughts = [
+            *((at.time_s, _outranked(at.value)) for at in run.llm_calls()),
+            *((at.time_s, _dropped(at.value)) for at in run.verifications()),
+        ]
+        self._since = -1.0
+
+    def decisions(self) -> Iterator[Decision]:
+        before: At[Tick] | None = None
+        for at in self._run.ticks():
+            states = {node.path: node for node in at.value.nodes}
+            if before is None and at.value.situation.get("command"):
+                yield self._understood(at, states)
+            yield from _visits(before, at)
+            earlier = {node.path: node.status for node in before.value.nodes} if before else {}
+            for fallback in self._family.fallbacks:
+                status = states[fallback.path].status
+                if status in ("SUCCESS", "FAILURE") and earlier.get(fallback.path) != status:
+                    yield self._decision(at, fallback, states)
+            self._remember(states)
+            before = at
+
+    def _understood(self, at: At[Tick], states: dict[str, NodeState]) -> Decision:
+        command = at.value.situation["command"]
+        by = next((n for n in self._family.leaves if n.class_name == "Understand"), None)
+        answer = f"{command['kind']} {command['target']}"
+        return Decision(at.time_s, "what is asked", answer, "person", by.path if by else "")
+
+    def _decision(
+        self, at: At[Tick], fallback: NodeShape, states: dict[str, NodeState]
+    ) -> Decision:
+        alternatives: list[Alternative] = []
+        taken: NodeShape | None = None
+        for child in self._family.children[fallback.path]:
+            if taken is not None:
+                alternatives.append(Alternative(child.name, NOT_NEEDED))
+            elif states[child.path].status == "SUCCESS":
+                taken = child
+            else:
+                alternatives.append(Alternative(child.name, self._reason(child, states)))
+        if taken is None:
+            return Decision(at.time_s, fallback.name, "nothing worked", "", "", tuple(alternatives))
+        last = self._last(taken, lambda leaf: states[leaf.path].status == "SUCCESS") or taken
+        source = _source(last)
+        if source == "llm":
+            alternatives += self._passed_over(at, last)
+        answer = states[last.path].message or taken.name
+        return Decision(at.time_s, fallback.name, answer, source, last.path, tuple(alternatives))
+
+    def _passed_over(self, at: At[Tick], by: NodeShape) -> Iterator[Alternative]:
+        """What the model named or scored since the last such decision, and did not come through."""
+        taken = {c["place"] for c in at.value.situation.get("candidates") or ()}
+        for time_s, thoughts in self._thoughts:
+            if self._since < time_s <= at.time_s:
+                yield from (thought for thought in thoughts if thought.what not in taken)
+        self._since = at.time_s
+
+    def _reason(self, child: NodeShape, states: dict[str, NodeState]) -> str:
+        """Why a child failed: the message of the last leaf in it that failed, now or before."""
+        leaf = self._last(
+            child, lambda leaf: states[leaf.path].status == "FAILURE" or leaf.path in self._reasons
+        )
+        if leaf is None:
+            return "did not succeed"
+        now = states[leaf.path]
+        said = now.message if now.status == "FAILURE" else self._reasons[leaf.path]
+        return said or f"not {leaf.name}"
+
+    def _last(self, node: NodeShape, holds: Callable[[NodeShape], bool]) -> NodeShape | None:
+        inside = (leaf for leaf in self._family.leaves if _is_in(leaf.path, node.path))
+        return next((leaf for leaf in reversed(list(inside)) if holds(leaf)), None)
+
+    def _remember(self, states: dict[str, NodeState]) -> None:
+        for path, state in states.items():
+            if state.status == "FAILURE":
+                self._reasons[path] = state.message
+            elif state.status == "SUCCESS":
+                self._reasons.pop(path, None)
+
+
+class _Family:
+    """Who is whose child; fallbacks in the order in which they are settled: inner ones first."""
+
+    def __init__(self, tree: TreeShape) -> None:
+        self.children: dict[str, list[NodeShape]] = defaultdict(list)
+        for node in tree.nodes:
+            self.children[node.parent].append(node)
+        self.leaves = [node for node in tree.nodes if node.path not in self.children]
+        self.fallbacks = [
+            node
+            for root in self.children[""]
+            for node in self._inner_first(root)
+            if node.kind == "selector" and node.parent
+        ]
+
+    def _inner_first(self, node: NodeShape) -> Iterator[NodeShape]:
+        for child in self.children.get(node.path, ()):
+            yield from self._inner_first(child)
+        yield node
+
+
+def _is_in(path: str, ancestor: str) -> bool:
+    return path == ancestor or path.startswith(f"{ancestor}/")
+
+
+def _source(leaf: NodeShape) -> str:
+    return next((who for prefix, who in SOURCES.items() if leaf.class_name.startswith(prefix)), "")
+
+
+def _visits(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
+    """Where the thing was looked for, told when the robot is through with the place."""
+    if before is None:
+        return
+    was, now = before.value.situation, at.value.situation
+    if not was.get("candidate"):
+        return
+    place = was["candidate"]["place"]
+    tip = before.value.tip
+    for lost, why_not in (now.get("unreached") or {}).items():
+        if lost not in (was.get("unreached") or {}):
+            yield Decision(at.time_s, f"look at {lost}", f"not reached: {why_not}", "", tip)
+    if now.get("found") and not was.get("found"):
+        yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
+    elif not now.get("found") and place in (was.get("visited") or ()) and _is_left(was, now, at):
+        yield Decision(at.time_s, f"look at {place}", "not seen there", "eyes", tip)
+
+
+def _is_left(was: dict[str, object], now: dict[str, object], at: At[Tick]) -> bool:
+    """Whether the search went on to another place, or ended."""
+    searching = any(
+        node.status == "RUNNING" and node.path.endswith("/go and look") for node in at.value.nodes
+    )
+    return now.get("candidate") != was.get("candidate") or not searching
+
+
+def _outranked(call: LlmCall) -> list[Alternative]:
+    if not isinstance(call.result, Scored):
+        return []
+    ranked = sorted(zip(call.result.scores, call.result.request.places, strict=True), reverse=True)
+    return [Alternative(place, f"scored {score:.2f}") for score, place in ranked]
+
+
+def _dropped(verified: Verified) -> list[Alternative]:
+    return [Alternative(name, "no such place here") for name in verified.dropped]
+
+
+def why_text(decisions: Iterable[Decision]) -> str:
+    """A paragraph for each decision: what was settled, by whom, and what was not taken."""
+    return "\n".join(_text(decision) for decision in decisions)
+
+
+def _text(decision: Decision) -> str:
+    says = f"  [{decision.source}]" if decision.source else ""
+    lines = [f"{decision.time_s:9.3f}  {decision.question}: {decision.answer}{says}"]
+    lines += [
+        f"{'':13}not {a.what}: {a.why_not}"
+        for a in decision.alternatives
+        if a.why_not != NOT_NEEDED
+    ]
+    spare = [a.what for a in decision.alternatives if a.why_not == NOT_NEEDED]
+    if spare:
+        lines.append(f"{'':13}not needed: {', '.join(spare)}")
+    return "\n".join(lines)

@@ -1,0 +1,234 @@
+"""Questions to recorded missions: why, tick by tick, side by side, in pictures."""
+
+import json
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+import cv2
+import pytest
+from mcap.reader import make_reader
+from sample_mission import STARTED, TREE, frame, mission, rank_call, tick
+
+from executive.records import Picture, Record, Verified
+from logs import report
+from logs.__main__ import main
+from logs.comparison import compare
+from logs.difference import parting
+from logs.mcap_sink import McapSink
+from logs.reader import Run
+from logs.recorder import Stamp
+from logs.recovery import damaged_at, recover
+from logs.why import Alternative, why
+
+
+def record(folder: Path, records: Iterable[tuple[float, Record]], config: str = "") -> Path:
+    """A run's folder with these records."""
+    folder.mkdir(parents=True, exist_ok=True)
+    sink = McapSink(folder / "mission.mcap", STARTED, {"config.toml": config.encode()}, {})
+    for time, entry in records:
+        sink.write(Stamp(time, 0), entry)
+    sink.close()
+    return folder
+
+
+@pytest.fixture
+def run_dir(tmp_path: Path) -> Path:
+    return record(tmp_path / "one", mission())
+
+
+def damage_a_chunk(path: Path, number: int) -> int:
+    """Change a few bytes of a chunk; return its offset."""
+    with path.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    assert summary is not None
+    offset = summary.chunk_indexes[number].chunk_start_offset
+    data = bytearray(path.read_bytes())
+    data[offset + 60 : offset + 68] = b"\0" * 8
+    path.write_bytes(data)
+    return offset
+
+
+# --- why ---
+
+
+def test_a_fallback_is_a_decision_between_its_children(tmp_path: Path) -> None:
+    decided = tick(0, "mission/drive", "RUNNING", "SUCCESS", "SUCCESS", "RUNNING", "INVALID")
+    (decision,) = why(Run(record(tmp_path, [(0.0, TREE), (1.0, decided)])))
+    assert (decision.question, decision.source, decision.time_s) == ("which places", "user", 1.0)
+    assert decision.by == "mission/which places/ask"
+
+
+def test_what_failed_on_the_way_to_a_decision_says_why(tmp_path: Path) -> None:
+    failed = tick(0, "mission/which places/ask", "FAILURE", "FAILURE", *["FAILURE"] * 3)
+    (decision,) = why(Run(record(tmp_path, [(0.0, TREE), (1.0, failed)])))
+    assert decision.answer == "nothing worked"
+    assert decision.alternatives == (Alternative("ask", "not ask"),)
+
+
+def test_what_the_model_named_in_vain_is_an_alternative(tmp_path: Path) -> None:
+    shape = tuple(
+        type(node)(node.path, node.parent, node.name, node.kind, "RankPlaces")
+        if node.name == "ask"
+        else node
+        for node in TREE.nodes
+    )
+    decided = tick(0, "mission/drive", "RUNNING", "SUCCESS", "SUCCESS", "RUNNING", "INVALID")
+    records = [
+        (0.0, type(TREE)(shape)),
+        (0.5, rank_call()),
+        (0.6, Verified("general_pos", (), (), ("spice rack",))),
+        (1.0, decided),
+    ]
+    (decision,) = why(Run(record(tmp_path, records)))
+    assert decision.source == "llm"
+    assert Alternative("desk", "scored 0.70") in decision.alternatives
+    assert Alternative("spice rack", "no such place here") in decision.alternatives
+
+
+def test_the_chain_ends_with_the_outcome(run_dir: Path) -> None:
+    assert why(Run(run_dir))[-1].question == "outcome"
+
+
+# --- ticks and summary ---
+
+
+def test_each_tick_tells_its_events_and_what_it_changed(run_dir: Path) -> None:
+    first, second, third = report.ticks(Run(run_dir))
+    assert first["events"] == ["Started Bring a sugar_box"]
+    assert [node["path"] for node in second["changed"]] == [
+        "mission/which places",
+        "mission/which places/ask",
+        "mission/drive",
+    ]
+    assert third["events"] == ["Ended Succeeded"]
+
+
+def test_the_summary_says_where_the_time_went(run_dir: Path) -> None:
+    assert report.summary(Run(run_dir))["time_by_behaviour_s"] == {"drive": 4.0, "ask": 2.0}
+
+
+def test_a_folder_of_runs_is_one_table_in_which_a_broken_one_has_its_row(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    record(tmp_path / "a", mission())
+    (record(tmp_path / "b", mission()) / "mission.mcap").write_bytes(b"hello, hello, hello")
+    assert main(["summary", str(tmp_path)]) == 0
+    head, a, b = capsys.readouterr().out.splitlines()
+    assert head.split()[:4] == ["run", "command", "status", "source"]
+    assert a.split()[:5] == ["a", "Bring", "a", "sugar_box", "done"]
+    assert "is not an mcap file" in b
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        ("why", "2.000  which places: ask  [user]"),
+        ("ticks", "RUNNING  mission/drive  (on the way)"),
+        ("summary", "seconds by behaviour: drive 4.0, ask 2.0"),
+    ],
+)
+def test_questions_are_answered_in_words_and_as_json(
+    run_dir: Path, capsys: pytest.CaptureFixture[str], question: str, answer: str
+) -> None:
+    assert main([question, str(run_dir)]) == 0
+    assert answer in capsys.readouterr().out
+    assert main([question, str(run_dir), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)
+
+
+# --- side by side ---
+
+
+def test_a_mission_does_not_part_from_itself(
+    run_dir: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert parting(Run(run_dir), Run(run_dir)) is None
+    assert main(["compare", str(run_dir), str(run_dir)]) == 0
+    assert "decided alike, tick for tick" in capsys.readouterr().out
+
+
+def test_two_missions_part_at_the_first_tick_that_is_not_the_same(
+    tmp_path: Path, run_dir: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lost = tick(2, "mission/see", "FAILURE", "SUCCESS", "SUCCESS", "SUCCESS", "FAILURE")
+    changed = [(t, lost if getattr(r, "number", 0) == 2 else r) for t, r in mission()]
+    other = record(tmp_path / "other", changed, "seed = 8\n")
+    compared = compare(Run(run_dir), Run(other))
+    assert compared.parting is not None
+    assert (compared.parting.tick, compared.parting.time_s) == (2, 6.0)
+    see = compared.parting.aspects[-1]
+    assert (see.what, see.one, see.other) == ("mission/see", "SUCCESS", "FAILURE")
+    assert [aspect.what for aspect in compared.setup] == ["seed"]
+    assert main(["compare", str(run_dir), str(other), "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["parting"]["tick"] == 2
+
+
+def test_a_mission_that_ends_earlier_parts_where_it_ends(tmp_path: Path, run_dir: Path) -> None:
+    shorter = record(tmp_path / "other", [e for e in mission() if e[0] < 6.0])
+    found = parting(Run(run_dir), Run(shorter))
+    assert found is not None
+    assert (found.tick, found.aspects[0].other) == (2, "has ended")
+
+
+# --- pictures ---
+
+
+def test_pictures_are_written_as_png(run_dir: Path, tmp_path: Path) -> None:
+    out = tmp_path / "pictures"
+    assert main(["frames", str(run_dir), "--png", "--out", str(out)]) == 0
+    (file,) = out.iterdir()
+    picture = cv2.imread(str(file))
+    assert file.suffix == ".png"
+    assert picture is not None
+    assert picture.shape == (120, 160, 3)
+
+
+def test_a_second_of_the_video_is_a_second_of_the_mission(tmp_path: Path) -> None:
+    seen = [(0.0, TREE), *((float(2 * n), Picture(frame(n))) for n in range(3))]
+    out = tmp_path / "mission.mp4"
+    assert main(["frames", str(record(tmp_path / "run", seen)), "--out", str(out)]) == 0
+    video = cv2.VideoCapture(str(out))
+    pictures, hz = video.get(cv2.CAP_PROP_FRAME_COUNT), video.get(cv2.CAP_PROP_FPS)
+    assert pictures / hz == pytest.approx(4.1)
+
+
+def test_a_recording_without_pictures_makes_no_video(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = record(tmp_path / "run", [(0.0, TREE)])
+    assert main(["frames", str(run), "--out", str(tmp_path / "mission.mp4")]) == 2
+    assert "holds no pictures" in capsys.readouterr().err
+
+
+# --- damage ---
+
+
+def test_damage_is_named_by_its_offset_and_the_rest_is_saved(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "mission.mcap"
+    sink = McapSink(path, STARTED, {}, {})
+    for time, entry in mission():
+        sink.write(Stamp(time, 0), entry)
+        sink.flush()
+    sink.close()
+    offset = damage_a_chunk(path, 5)
+    assert damaged_at(path) == offset
+    assert main(["ticks", str(tmp_path)]) == 2
+    assert f"the file is damaged at byte {offset}; `python -m logs recover" in (
+        capsys.readouterr().err
+    )
+    assert Run(recover(path)).outcome() is not None
+
+
+def test_recover_says_where_the_file_breaks(
+    run_dir: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = run_dir / "mission.mcap"
+    shutil.copy(path, path.with_name("whole.mcap"))
+    path.write_bytes(path.read_bytes()[:-2000])
+    assert main(["recover", str(path)]) == 0
+    assert "does not read at byte" in capsys.readouterr().out
+    assert main(["recover", str(path.with_name("whole.mcap"))]) == 0
+    assert "nothing was missing" in capsys.readouterr().out
