@@ -48,7 +48,7 @@ def follow(
     reached, rate = 0.0, 0.0
     before = points[0]
     while reached < times[-1] and not until():
-        next_stop = stops[np.searchsorted(stops, reached + 1e-6)]
+        next_stop = stops[np.searchsorted(stops, reached, side="right")]
         rate = min(1.0, rate + CONTROL_S / _RAMP_S, _slowing(next_stop - reached))
         reached = min(times[-1], reached + rate * CONTROL_S)
         now = np.array([np.interp(reached, times, joint) for joint in points.T])

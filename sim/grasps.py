@@ -34,6 +34,8 @@ _PAD_GIVE = 0.003
 """What is this much farther from the middle than the first contact still touches the pad."""
 _FULL_PAD = 12
 """Surface points that a pad covers at least where it lies flat."""
+_LOWEST_TIP, _EASY_TIP = 0.0025, 0.012
+"""Finger tips do not go lower over what the thing stands on (metres), and better not that low."""
 _FACING = 0.1
 """Normals that point less than this towards the finger belong to other sides."""
 _WITHIN_FRICTION = 0.85
@@ -127,7 +129,8 @@ def _straddles(model: ObjectModel, pose: Pose, rotation: Rotation) -> Iterator[G
                 continue
             position = base + rotation.apply(middle)
             tip_height = (position + TIP * rotation.apply((0.0, 0.0, 1.0)))[2]
-            if tip_height < base[2] + 0.002:
+            over_base = tip_height - base[2]
+            if over_base < _LOWEST_TIP:
                 continue
             grip = _grip(points, normals, middle, end - start)
             if grip == 0.0:
@@ -135,7 +138,8 @@ def _straddles(model: ObjectModel, pose: Pose, rotation: Rotation) -> Iterator[G
             lever = np.linalg.norm((rotation.apply(mass - middle))[:2])
             shallow = max(0.0, low[2] + 0.04 - zs[k])
             tight = max(0.0, end - start - 0.06)
-            cost = float(lever + 0.03 * (1 - grip) + 0.2 * shallow + tight)
+            low_tip = max(0.0, _EASY_TIP - over_base)
+            cost = float(lever + 0.03 * (1 - grip) + 0.2 * shallow + low_tip + tight)
             yield Grasp(HandPose(position, rotation), gap, cost)
 
 

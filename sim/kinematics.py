@@ -30,6 +30,8 @@ ANGLE_TOLERANCE = 0.02
 _MILLIMETRE, _HALF_DEGREE = 1e-3, 1e-2
 """Units in which the solver weighs position against orientation."""
 _COMFORT_WEIGHT = 0.03
+_CHECKED: Floats = np.array([0.03, *[0.1] * 7])
+"""How far apart the joints are between checks of a path (metres, radians)."""
 _GRAZE = 0.004
 """What is carried may reach this far into something: it is not known any better (metres)."""
 _HAND = "panda_grasptarget"
@@ -204,10 +206,10 @@ class Kinematics:
                     return found
         return None
 
-    def path_obstacle(self, base: Floats, path: list[Floats], step: float = 0.15) -> str | None:
+    def path_obstacle(self, base: Floats, path: Sequence[Floats]) -> str | None:
         """What would be in the way of moving the joints along the path."""
         for start, end in pairwise(path):
-            count = max(1, int(np.ceil(np.abs(end - start).max() / step)))
+            count = max(1, int(np.ceil((np.abs(end - start) / _CHECKED).max())))
             for part in np.linspace(0, 1, count + 1):
                 found = self.obstacle(base, start + part * (end - start))
                 if found:
