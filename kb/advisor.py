@@ -10,6 +10,7 @@ from executive.interfaces import LanguageModel
 from executive.types import Candidate, ChatRequest, Message, Place, RankRequest, Scored, Verdict
 from kb import ranking, verification
 from kb.memory import Memory, history_budget
+from kb.names import spoken
 from kb.ontology import Ontology
 from kb.prompts import Prompts
 
@@ -99,12 +100,11 @@ class PlaceAdvisor:
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
         """Score every allowed place instead of asking for a list."""
-        kind = next(iter(self._ontology.classes_of(name)), "")
         options = [
             (place, ranking.answer(place, self._ontology.preposition(place)))
             for place in self._allowed(among)
         ]
-        return ranking.rank_request(ranking.described(name, kind), options, self._prompts.ranking)
+        return ranking.rank_request(spoken(name), options, self._prompts.ranking)
 
     def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
         """Places with probabilities (they sum to 1), likeliest first."""

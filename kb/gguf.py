@@ -6,6 +6,7 @@ tokens only, while scoring continues one prompt in many ways at once.
 
 import ctypes
 import operator
+import os
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise, takewhile
@@ -158,6 +159,9 @@ class Context:
     ) -> None:
         """Room for so many tokens, and for so many sequences that share them.
 
+        Without `threads` one token at a time is evaluated by half of the cores, whose other half
+        would only wait for memory, and batches by all.
+
         Raises:
             ModelError: if there is not enough memory.
         """
@@ -167,8 +171,9 @@ class Context:
         params.n_seq_max = sequences
         params.kv_unified = True
         params.no_perf = True
-        if threads:
-            params.n_threads = params.n_threads_batch = threads
+        cores = os.cpu_count() or 1
+        params.n_threads = threads or max(1, cores // 2)
+        params.n_threads_batch = threads or cores
         self.pointer: Any = llama_cpp.llama_init_from_model(model.pointer, params)
         if not self.pointer:
             raise ModelError(f"no context of {tokens} tokens: {_last_complaint()}")

@@ -88,7 +88,7 @@ class LlamaCpp:
             top_p: share of the probability that is sampled from.
             max_tokens: longest reply (tokens).
             seed: the same seed and prompt give the same reply, whatever was asked before.
-            threads: None lets llama.cpp choose.
+            threads: None: half of the cores to write, all of them to read and to score.
             gpu_layers: layers that go to the GPU, if llama.cpp was built for one; -1: all.
             grammar: hold replies to the request's JSON schema.
 

@@ -17,7 +17,8 @@ def rank_request(thing: str, options: Sequence[tuple[Place, str]], texts: Rankin
     """Ask how likely each answer is for this thing.
 
     Args:
-        thing: as `described` has it.
+        thing: its name in words, "sugar box". With its class beside it ("hammer (a tool)") the
+            embedded model ranked worse.
         options: places, and the answers that stand for them, as `answer` has them.
         texts: the question and its examples.
     """
@@ -28,12 +29,6 @@ def rank_request(thing: str, options: Sequence[tuple[Place, str]], texts: Rankin
         options=tuple(text for _, text in options),
         places=tuple(place.name for place, _ in options),
     )
-
-
-def described(name: str, kind: str) -> str:
-    """A thing with its class, so that a small model knows what it is: "hammer (a tool)"."""
-    article = "an" if kind[:1] in "aeiou" else "a"
-    return f"{spoken(name)} ({article} {kind})" if kind else spoken(name)
 
 
 def answer(place: Place, preposition: str) -> str:

@@ -97,7 +97,9 @@ def report(title: str, order: Order, rows: dict[str, tuple[str, ...]], rounds: i
     )
 
 
-def compare(title: str, places: Sequence[Place], path: Path, rounds: int, threads: int) -> None:
+def compare(
+    title: str, places: Sequence[Place], path: Path, rounds: int, threads: int | None
+) -> None:
     """Print one table, for one set of places."""
     told, untold = Ontology(places), Ontology(places, defaults=False)
     rows = survey(told)
@@ -120,7 +122,7 @@ def main() -> None:
     parser.add_argument("--model", type=Path, help="a GGUF file; default: the embedded model")
     parser.add_argument("--home", default="four_rooms")
     parser.add_argument("--rounds", type=int, default=1, help="lists that are written an object")
-    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--threads", type=int, help="default: as the model chooses")
     given = parser.parse_args()
     try:
         path = given.model or embedded_model()
