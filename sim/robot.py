@@ -67,6 +67,12 @@ class SimulatedRobot:
     # --- for the world ---
 
     @property
+    def base_pose(self) -> tuple[float, float, float]:
+        """Where `base_link` is in `map`: x and y (metres), yaw (radians)."""
+        x, y, yaw = (float(value) for value in self._hardware.base_pose)
+        return x, y, yaw
+
+    @property
     def active(self) -> bool:
         """Whether a skill is under way."""
         return self._skill is not None

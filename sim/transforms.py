@@ -58,7 +58,8 @@ class FrameTree:
 
 
 def _near(one: Pose, other: Pose) -> bool:
-    pairs = zip(
-        (*one.position, *one.orientation), (*other.position, *other.orientation), strict=True
-    )
-    return all(abs(a - b) < _MOVED for a, b in pairs)
+    """Whether two poses are alike; a quaternion and its negative are the same rotation."""
+    if any(abs(a - b) > _MOVED for a, b in zip(one.position, other.position, strict=True)):
+        return False
+    pairs = list(zip(one.orientation, other.orientation, strict=True))
+    return all(abs(a - b) < _MOVED for a, b in pairs) or all(abs(a + b) < _MOVED for a, b in pairs)

@@ -1,0 +1,162 @@
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from conftest import Notebook, four_rooms
+from contracts.robot import Bench
+from scipy.spatial.transform import Rotation
+
+from executive.events import Inbox
+from executive.perception import locate as locate_pixels
+from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
+from sim.grasps import WIDEST, find_grasps
+from sim.home import Home
+from sim.kinematics import COMFORT, Kinematics
+from sim.objects import load_objects
+from sim.placing import free_spots
+from sim.registration import locate
+from sim.solids import sample_surface, signed_distance
+from sim.world import PhysicsWorld
+
+pytestmark = pytest.mark.physics
+
+MODELS = load_objects()
+
+
+def home_before(place: str) -> Home:
+    """The home with the robot already standing before a place."""
+    return four_rooms().model_copy(update={"robot_start": four_rooms().stand(place)})
+
+
+class Kitchen(Bench):
+    """The robot before the counter wagon, where the sugar_box is."""
+
+    def __init__(self) -> None:
+        inbox = Inbox()
+        self.world = PhysicsWorld(
+            home_before("counter_wagon"), MODELS, inbox, Notebook(), seed=1, camera_hz=0.0
+        )
+        super().__init__(self.world.robot, inbox, self.world.advance, "counter_wagon")
+
+    def detection_of(self, name: str) -> Detection:
+        assert self.do(LookAt(self.place)) == Succeeded()
+        frame = self.world.camera.capture()
+        (found,) = (d for d in self.world.detector.detect(frame) if d.label == name)
+        return locate_pixels(found, frame)
+
+
+@pytest.fixture
+def kitchen() -> Iterator[Kitchen]:
+    kitchen = Kitchen()
+    kitchen.do(DriveTo(kitchen.place))
+    yield kitchen
+    kitchen.world.close()
+
+
+def test_what_it_sees_it_picks_up_and_puts_down_again(kitchen: Kitchen) -> None:
+    before = kitchen.world.truth("sugar_box")
+    assert kitchen.world.resting_place("sugar_box") == "counter_wagon"
+    assert kitchen.do(Pick(kitchen.detection_of("sugar_box"))) == Succeeded()
+    assert kitchen.robot.holding
+    assert kitchen.world.resting_place("sugar_box") is None
+    assert kitchen.do(PutDown(kitchen.place)) == Succeeded()
+    assert not kitchen.robot.holding
+    assert kitchen.world.resting_place("sugar_box") == "counter_wagon"
+    assert kitchen.world.truth("sugar_box").position[2] == pytest.approx(
+        before.position[2], abs=2e-3
+    )
+
+
+def test_a_held_thing_is_put_nowhere_else_than_where_the_robot_is(kitchen: Kitchen) -> None:
+    assert kitchen.do(PutDown("desk")) == Failed("I am not at the desk")
+
+
+def test_what_is_hardly_seen_is_not_picked(kitchen: Kitchen) -> None:
+    seen = kitchen.detection_of("sugar_box")
+    hardly = Detection(seen.label, seen.confidence, seen.box, seen.mask, seen.points[:5])
+    result = kitchen.do(Pick(hardly))
+    assert result == Failed("I could not see the sugar_box well enough")
+
+
+def test_an_unknown_thing_is_not_picked(kitchen: Kitchen) -> None:
+    seen = kitchen.detection_of("sugar_box")
+    unknown = Detection("anvil", 1.0, seen.box, seen.mask, seen.points)
+    assert kitchen.do(Pick(unknown)) == Failed("I do not know how to grasp the anvil")
+
+
+def test_what_was_taken_away_meanwhile_is_not_held(kitchen: Kitchen) -> None:
+    seen = kitchen.detection_of("sugar_box")
+    body = kitchen.world._body("sugar_box")
+    kitchen.world._client.resetBasePositionAndOrientation(body, (5.0, 5.0, 0.1), (0, 0, 0, 1))
+    result = kitchen.do(Pick(seen))
+    assert result == Failed("I could not get hold of the sugar_box")
+    assert not kitchen.robot.holding
+
+
+@pytest.mark.parametrize("name", ["sugar_box", "mug", "mustard_bottle", "hammer"])
+def test_the_visible_side_of_a_thing_tells_where_it_stands(name: str) -> None:
+    model = MODELS[name]
+    turn, stand = Rotation.from_euler("z", 0.3), np.array([2.0, 1.0, 0.8])
+    points, normals = sample_surface(model.shapes)
+    points, normals = turn.apply(points) + stand, turn.apply(normals)
+    visible = ((np.array([1.2, 1.2, 1.4]) - points) * normals).sum(axis=1) > 0.05
+    found = locate(model, points[visible])
+    back = Rotation.from_quat(found.orientation).inv().apply(points - found.position)
+    assert np.abs(signed_distance(model.shapes, back)).mean() < 2e-3
+
+
+@pytest.mark.parametrize("name", sorted(MODELS))
+def test_there_is_a_grasp_from_above_for_everything(name: str) -> None:
+    grasps = find_grasps(MODELS[name], Pose((0.0, 0.0, 1.0)), facing=0.0, tilt=0.0)
+    assert grasps
+    assert all(grasp.hand.approach[2] == pytest.approx(-1.0) for grasp in grasps)
+
+
+def test_a_box_is_taken_across_its_narrow_side() -> None:
+    best = find_grasps(MODELS["cracker_box"], Pose(), facing=0.0, tilt=0.0)[0]
+    across = best.hand.rotation.apply((0.0, 1.0, 0.0))
+    assert abs(across[0]) > 0.95
+
+
+def test_of_a_mug_one_wall_is_taken() -> None:
+    grasps = find_grasps(MODELS["mug"], Pose(), facing=0.0, tilt=0.0)
+    off_middle = [np.hypot(*grasp.hand.position[:2]) for grasp in grasps[:5]]
+    assert min(off_middle) > 0.03
+    assert max(grasp.gap for grasp in grasps[:5]) < WIDEST
+
+
+def test_a_spot_is_free_where_nothing_rises() -> None:
+    piece = four_rooms().furniture_named("delivery")
+    empty = np.empty((0, 3))
+    first = next(free_spots(piece, MODELS["mug"], empty)).position
+    crowd = np.array(first) + np.random.default_rng(0).normal(0.0, 0.01, (50, 3)) + (0, 0, 0.05)
+    second = next(free_spots(piece, MODELS["mug"], crowd)).position
+    assert np.hypot(second[0] - first[0], second[1] - first[1]) > 0.05
+
+
+@pytest.fixture(scope="module")
+def kinematics() -> Iterator[Kinematics]:
+    kinematics = Kinematics(four_rooms())
+    yield kinematics
+    kinematics.close()
+
+
+def test_solved_joints_bring_the_hand_to_its_target(kinematics: Kinematics) -> None:
+    base = np.array(four_rooms().robot_start)
+    target = kinematics.hand(base, COMFORT).shifted(np.array([0.05, -0.1, 0.1]))
+    found = kinematics.solve(base, target, COMFORT)
+    assert found is not None
+    assert np.linalg.norm(kinematics.hand(base, found).position - target.position) < 1e-3
+
+
+def test_what_is_out_of_reach_has_no_solution(kinematics: Kinematics) -> None:
+    base = np.array(four_rooms().robot_start)
+    far = kinematics.hand(base, COMFORT).shifted(np.array([2.0, 0.0, 0.0]))
+    assert kinematics.solve(base, far, COMFORT) is None
+
+
+def test_furniture_in_the_way_of_the_arm_is_named(kinematics: Kinematics) -> None:
+    x, y, yaw = four_rooms().stand("high_table")
+    near = np.array([x + 0.25 * np.cos(yaw), y + 0.25 * np.sin(yaw), yaw])
+    assert kinematics.obstacle(near, COMFORT) == "high_table"
+    assert kinematics.base_obstacle(np.array([x, y, yaw])) is None
