@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from datetime import UTC, datetime
 from importlib.metadata import version
+from importlib.resources import files
 from pathlib import Path
 from typing import TextIO
 
@@ -29,6 +30,7 @@ from executive.interfaces import (
 from executive.loop import Executive
 from executive.perception import Eyes
 from executive.records import Finished
+from executive.rules import rules
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
 from executive.types import Answered, Outcome
@@ -44,7 +46,7 @@ from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.home import Home, load_home
 from sim.objects import load_objects
 from trees.mission import mission
-from trees.team import Rules, Team
+from trees.team import Team
 from trees.tree import MissionTree
 
 log = logging.getLogger(__name__)
@@ -77,6 +79,7 @@ class Session:
         self._view = view
         self.inbox = inbox or Inbox()
         self.home = load_home(settings.home).with_placement(settings.place)
+        self._home_file = home_file(settings.home)
         self.knowledge = Ontology(self.home.places(), defaults=settings.defaults)
         self.model = model or build_model(settings, self.inbox)
         self.recorder = FanOut(lambda: self.clock.now())
@@ -162,20 +165,21 @@ class Session:
             user=self.user,
             model=self.model,
             advisor=self.advisor,
-            rules=Rules(
-                elicit=settings.elicitation,
-                top=settings.top,
-                answer_s=settings.answer_timeout_s,
-                model_s=settings.llm_timeout_s,
-                action_s=settings.action_timeout_s,
-            ),
+            rules=rules(settings),
         )
 
     def _open_logs(self, folder: Path, started: datetime) -> None:
         config = self.settings.to_toml()
         write(folder / "config.toml", config)
-        attachments = {"config.toml": config.encode(), **self.knowledge.files()}
+        attachments = {
+            "config.toml": config.encode(),
+            "home.toml": self._home_file,
+            **self.knowledge.files(),
+        }
+        request = self.inbox.open()
+        self.inbox.drop(request)
         metadata = {
+            "requests_before": str(request),
             "seed": str(self.settings.seed),
             "model": self.model.name if self.model else "none",
             **{name: version(name) for name in PACKAGES},
@@ -186,6 +190,13 @@ class Session:
         )
         self.recorder.open(sinks, started)
         self.world.describe()
+
+
+def home_file(name_or_path: str) -> bytes:
+    """The home as its file has it, to be kept with the log."""
+    packaged = files("sim").joinpath("homes", f"{name_or_path}.toml")
+    is_path = name_or_path.endswith(".toml")
+    return Path(name_or_path).read_bytes() if is_path else packaged.read_bytes()
 
 
 def working(*makers: Callable[[], Sink]) -> list[Sink]:

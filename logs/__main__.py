@@ -67,6 +67,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     frames.add_argument("--png", action="store_true", help="PNG files (default: JPEG, as recorded)")
     add("compare", _compare, "where two missions part", "one", "other")
+    again = add("replay", _replay, "feed recorded events to a fresh tree: are its ticks the same?")
+    again.add_argument(
+        "runs", nargs="+", type=Path, metavar="RUN", help="a run's folder, or a folder of runs"
+    )
     add("view", _view, "show the mission in the rerun viewer", "run")
     mend = add("recover", _recover, "write a broken mcap file whole again, as far as it reads")
     mend.add_argument("file", type=Path, metavar="FILE")
@@ -80,16 +84,20 @@ def _summary(options: argparse.Namespace) -> Answer:
 
 def _summaries(folders: Iterable[Path]) -> Iterator[report.Row]:
     """One row a run; in a folder of runs, what cannot be read has a row that says so."""
+    for run in _runs_in(folders):
+        try:
+            yield report.summary(Run(run))
+        except InputError as error:
+            if run in folders:
+                raise
+            yield {"run": run.name, "error": str(error).removeprefix(f"{run / FILE_NAME}: ")}
+
+
+def _runs_in(folders: Iterable[Path]) -> Iterator[Path]:
+    """Runs, and the runs in folders of runs."""
     for folder in folders:
-        runs = sorted(found.parent for found in folder.glob(f"*/{FILE_NAME}"))
-        if not runs or (folder / FILE_NAME).exists():
-            yield report.summary(Run(folder))
-            continue
-        for run in runs:
-            try:
-                yield report.summary(Run(run))
-            except InputError as error:
-                yield {"run": run.name, "error": str(error).removeprefix(f"{run / FILE_NAME}: ")}
+        inside = sorted(found.parent for found in folder.glob(f"*/{FILE_NAME}"))
+        yield from [folder] if (folder / FILE_NAME).exists() or not inside else inside
 
 
 def _why(options: argparse.Namespace) -> Answer:
@@ -131,6 +139,15 @@ def _compare(options: argparse.Namespace) -> Answer:
     return Answer(
         asdict(compared), comparison.compare_text(compared), int(compared.parting is not None)
     )
+
+
+def _replay(options: argparse.Namespace) -> Answer:
+    from executive.replay import replay, replay_text
+
+    replays = [replay(run) for run in _runs_in(options.runs)]
+    parted = any(replayed.parting for replayed in replays)
+    text = "\n".join(replay_text(replayed) for replayed in replays)
+    return Answer([asdict(replayed) for replayed in replays], text, int(parted))
 
 
 def _recover(options: argparse.Namespace) -> Answer:

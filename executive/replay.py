@@ -1,0 +1,348 @@
+"""A recorded mission run again, without robot, model or person.
+
+Only events drive ticks: the recorded events are the mission. They are fed, at their times, to a
+fresh tree under the same executive, and each tick is held against the recorded one. So a recording
+is a regression test:
+
+    assert replay(Path("runs/20260101T120000Z-find-an-apple")).parting is None
+"""
+
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+from typing import TypeVar
+
+from executive.command import EnglishInterpreter
+from executive.config import Settings
+from executive.errors import InputError
+from executive.events import DeadlinePassed, Ended, Inbox, StopRequested
+from executive.interfaces import Tree
+from executive.loop import Executive
+from executive.records import Record, Tick, TreeShape
+from executive.rules import rules
+from executive.situation import Situation
+from executive.types import ChatRequest, Goal, Place, Question, RankRequest
+from kb.advisor import PlaceAdvisor
+from kb.ontology import Ontology
+from logs.difference import (
+    ENDED,
+    Aspect,
+    Parting,
+    aspects_text,
+    outcome_aspects,
+    tick_aspects,
+)
+from logs.reader import Run, Turn
+from sim.home import Home, load_home
+from trees.mission import mission
+from trees.team import Team
+from trees.tree import MissionTree
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Replay:
+    """What came of it.
+
+    Attributes:
+        run: name of the recording.
+        ticks: how many ticks were as recorded.
+        recorded_s: mission time of the last of them.
+        took_s: wall time of the replay.
+        parting: the first tick that was not as recorded (None: all were, and the outcome).
+        notes: what has changed since the recording; whether it ends early.
+    """
+
+    run: str
+    ticks: int
+    recorded_s: float
+    took_s: float
+    parting: Parting | None
+    notes: tuple[str, ...]
+
+
+def mission_tree(team: Team) -> Tree:
+    """The tree that missions are run with."""
+    return MissionTree(mission(team))
+
+
+def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay:
+    """Feed a recorded mission to a fresh tree.
+
+    Args:
+        folder: the run's folder, or its mcap file.
+        build: makes the tree.
+
+    Raises:
+        InputError: if the recording cannot be read, or lacks what the tree is built from.
+    """
+    began = perf_counter()
+    run = Run(folder)
+    inbox, situation = Inbox(), Situation()
+    clock = RecordedTime(run.turns(), inbox, int(_kept(run, run.metadata, "requests_before")))
+    judge = Judge(clock)
+    absent = Absent(inbox)
+    team, notes = _team(run, situation, clock, judge, absent)
+    executive = Executive(
+        build(team), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
+    )
+    clock.wait(None)
+    executive.run()
+    parting = judge.parting or _late_parting(run, clock, situation)
+    notes += judge.changes(run.tree())
+    if run.outcome() is None:
+        notes.append("the recording ends early")
+    return Replay(run.name, judge.same, judge.time_s, perf_counter() - began, parting, tuple(notes))
+
+
+class RecordedTime:
+    """The Clock of a replay: each wait goes on to the next events of the recording."""
+
+    def __init__(self, turns: Iterable[Turn], inbox: Inbox, requests_before: int) -> None:
+        """Play these turns; their requests are numbered on from `requests_before`."""
+        self._turns = iter(turns)
+        self._inbox = inbox
+        self._requests_before = requests_before
+        self._now = 0.0
+        self._stopped = False
+        self.turn: Turn | None = None
+        """The turn of the recording that is played; None at its end."""
+        self.missed: Turn | None = None
+        """The first turn in which the tree was not ticked although it was when recorded."""
+        self._ticked = False
+
+    def now(self) -> float:
+        """The recorded mission time (s)."""
+        return self._now
+
+    def restart(self) -> None:
+        """Nothing to do: the recording has its own start."""
+
+    def wait(self, deadline: float | None) -> None:
+        """Post what was recorded next; at the end say stop, then let the deadline pass."""
+        if self._inbox.has_events:
+            return
+        turn = self.next_turn()
+        if turn is not None:
+            self._play(turn)
+        elif self._stopped and deadline is not None:
+            self._now = deadline
+        else:
+            self.stop("the end of the recording")
+
+    def next_turn(self) -> Turn | None:
+        """Go on to the next turn of the recording."""
+        if self.missed is None and self.turn and self.turn.tick and not self._ticked:
+            self.missed = self.turn
+        self.turn, self._ticked = next(self._turns, None), False
+        return self.turn
+
+    def tick(self) -> Tick | None:
+        """The tick that was recorded for the one that is made now."""
+        self._ticked = True
+        return self.turn.tick if self.turn else None
+
+    def stop(self, by: str) -> None:
+        """End the replay."""
+        self._stopped = True
+        self._inbox.post(StopRequested(by))
+
+    def _play(self, turn: Turn) -> None:
+        self._now = turn.time_s
+        for event in turn.events:
+            match event:
+                case Ended(request, result):
+                    self._inbox.end(request - self._requests_before, result)
+                case DeadlinePassed():
+                    pass  # the executive finds its inbox empty, as it did then
+                case StopRequested(by):
+                    self.stop(by)
+                case _:
+                    self._inbox.post(event)
+
+
+class Judge:
+    """The Recorder of a replay: holds every tick against the recorded one."""
+
+    def __init__(self, clock: RecordedTime) -> None:
+        """Judge by the turn that the clock plays."""
+        self._clock = clock
+        self._shape = TreeShape(())
+        self.same = 0
+        """Ticks as recorded, so far."""
+        self.time_s = 0.0
+        """When the last of them was (mission time)."""
+        self.parting: Parting | None = None
+        """The first tick that was not as recorded."""
+
+    def record(self, record: Record) -> None:
+        """Compare a tick; after the first that differs, the replay ends."""
+        match record:
+            case TreeShape():
+                self._shape = record
+            case Tick() if self.parting is None:
+                self._compare(record)
+
+    def changes(self, recorded: TreeShape) -> list[str]:
+        """Behaviours that one tree has and the other has not, a note each."""
+        then, now = ({node.path: None for node in s.nodes} for s in (recorded, self._shape))
+        return [f"behaviour gone since: {path}" for path in then if path not in now] + [
+            f"behaviour new since: {path}" for path in now if path not in then
+        ]
+
+    def _compare(self, tick: Tick) -> None:
+        recorded = self._clock.tick()
+        aspects = (
+            tuple(tick_aspects(recorded, tick, exact=True))
+            if recorded
+            else (Aspect("mission", ENDED, f"{tick.cause}, then {tick.tip}"),)
+        )
+        if aspects:
+            self.parting = Parting(tick.number, self._clock.now(), aspects)
+            self._clock.stop("the replay, which has parted from the recording")
+            return
+        self.same += 1
+        self.time_s = self._clock.now()
+
+
+class Absent:
+    """Stands in for robot, eyes, model and person: numbers requests, whose ends are recorded."""
+
+    name = "absent"
+    context_tokens = 4096
+    can_rank = True
+    holding = False
+
+    def __init__(self, inbox: Inbox) -> None:
+        """Open requests in this inbox."""
+        self._inbox = inbox
+        self.home: Home | None = None
+        """Whose furniture takes several views; None: one is enough."""
+
+    def start(self, goal: Goal) -> int:
+        """Pursue nothing."""
+        return self._inbox.open()
+
+    def see(self) -> int:
+        """Look at nothing."""
+        return self._inbox.open()
+
+    def chat(self, request: ChatRequest) -> int:
+        """Think nothing."""
+        return self._inbox.open()
+
+    def rank(self, request: RankRequest) -> int:
+        """Think nothing."""
+        return self._inbox.open()
+
+    def ask(self, question: Question) -> int:
+        """Ask nobody."""
+        return self._inbox.open()
+
+    def tell(self, text: str) -> None:
+        """Tell nobody."""
+
+    def cancel(self, request: int) -> None:
+        """Its end, had it come, was not recorded."""
+        self._inbox.drop(request)
+
+    def views(self, place: str) -> int:
+        """As many as the simulated robot has."""
+        return len(self.home.view_targets(place)) if self.home else 1
+
+    def count_tokens(self, text: str) -> int:
+        """None: prompts are not judged, and memory need not be short."""
+        return 0
+
+    def close(self) -> None:
+        """Nothing to free."""
+
+
+def _team(
+    run: Run, situation: Situation, clock: RecordedTime, judge: Judge, absent: Absent
+) -> tuple[Team, list[str]]:
+    """The team of the recorded mission, and what of its knowledge has changed since."""
+    recorded = tomllib.loads(_kept(run, run.attachments, "config.toml").decode())
+    unset = {name: field.default for name, field in Settings.model_fields.items()}
+    settings = Settings(**{**unset, "place": {}, **recorded})
+    home = _home(_kept(run, run.attachments, "home.toml"))
+    knowledge = _ontology(home.places(), settings.defaults)
+    if settings.world == "physics":
+        absent.home = home
+    thinks = _kept(run, run.metadata, "model") != "none"
+    advisor = PlaceAdvisor(knowledge, absent, remembers=settings.remembers) if thinks else None
+    changed = [
+        f"changed since: {name}"
+        for name, data in knowledge.files().items()
+        if run.attachments.get(name) != data
+    ]
+    team = Team(
+        situation=situation,
+        clock=clock,
+        recorder=judge,
+        interpreter=EnglishInterpreter(),
+        knowledge=knowledge,
+        robot=absent,
+        eyes=absent,
+        user=absent,
+        model=absent if thinks else None,
+        advisor=advisor,
+        rules=rules(settings),
+    )
+    return team, changed
+
+
+def _kept(run: Run, kept: Mapping[str, T], name: str) -> T:
+    if name not in kept:
+        raise InputError(str(run.path), f"keeps no {name!r}", "replay needs a newer recording")
+    return kept[name]
+
+
+@cache
+def _home(text: bytes) -> Home:
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "home.toml"
+        file.write_bytes(text)
+        return load_home(str(file))
+
+
+@cache
+def _ontology(places: tuple[Place, ...], defaults: bool) -> Ontology:
+    return Ontology(places, defaults=defaults)
+
+
+def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Parting | None:
+    """What differs although every tick did not: the recording goes on, or the outcome."""
+    while clock.next_turn() is not None:
+        pass
+    if clock.missed and (tick := clock.missed.tick):
+        goes_on = f"{tick.cause}, then {tick.tip}"
+        return Parting(tick.number, clock.missed.time_s, (Aspect("mission", goes_on, ENDED),))
+    recorded = run.outcome()
+    if recorded is None:
+        return None
+    outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
+    aspects = tuple(outcome_aspects(recorded, outcome, exact=True))
+    return Parting(None, recorded.mission_time_s, aspects) if aspects else None
+
+
+def replay_text(replayed: Replay) -> str:
+    """That all was as recorded; or where it parts, and in what."""
+    notes = "".join(f"\n  note: {note}" for note in replayed.notes)
+    speed = replayed.recorded_s / replayed.took_s
+    if replayed.parting is None:
+        return (
+            f"{replayed.run}: {replayed.ticks} ticks as recorded, {replayed.recorded_s:.1f} s in "
+            f"{replayed.took_s:.3f} s ({speed:.0f} times as fast){notes}"
+        )
+    at = replayed.parting
+    tick = "after the last tick" if at.tick is None else f"at tick {at.tick}"
+    return (
+        f"{replayed.run}: {replayed.ticks} ticks as recorded; parts {tick}, {at.time_s:.3f} s"
+        f"{notes}\n{aspects_text(at.aspects, ('recorded', 'replayed'))}"
+    )

@@ -1,0 +1,227 @@
+"""A recorded mission, fed to a fresh tree, is the same mission."""
+
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from py_trees.common import Status as NodeStatus
+from sample_mission import STARTED, mission
+from test_outcomes import CASES, Case, favouring
+
+from executive.app import Session
+from executive.config import KnowledgeSystem, Settings
+from executive.errors import InputError
+from executive.events import Inbox, StopRequested
+from executive.replay import replay
+from executive.types import DriveTo, Goal, Kind, LookAt, Pick, PutDown, Status
+from executive.user import Console, Scripted
+from kb.scripted import Scripted as ScriptedModel
+from logs.__main__ import main
+from logs.mcap_sink import McapSink
+from logs.recorder import Stamp
+from sim.fake import FakeWorld
+from trees.robot import SeeTarget
+from trees.search import search
+from trees.tree import MissionTree
+
+
+def knowledge(llm: bool, remembers: bool) -> KnowledgeSystem:
+    if not llm:
+        return KnowledgeSystem.OKB
+    return KnowledgeSystem.OKB_LLM_MEM if remembers else KnowledgeSystem.OKB_LLM
+
+
+def recorded(
+    runs: Path,
+    words: str,
+    *,
+    answers: Any = None,
+    replies: Any = (),
+    llm: bool = True,
+    remembers: bool = True,
+    fault: Callable[[Goal], str | None] = lambda goal: None,
+    during: Callable[[Goal, Inbox], None] = lambda goal, inbox: None,
+    **settings: Any,
+) -> Path:
+    """Run a mission in the instant world as the program does; return its folder."""
+    inbox = Inbox()
+    session = Session(
+        Settings(
+            world="fake",
+            user="oracle",
+            runs=runs,
+            knowledge=knowledge(llm, remembers),
+            **settings,
+        ),
+        inbox=inbox,
+        user=None if answers is None else Scripted(inbox, answers),
+        model=ScriptedModel(replies, inbox) if llm else None,
+        out=io.StringIO(),
+    )
+    assert isinstance(session.world, FakeWorld)
+    session.world.fault = fault
+    start = session.robot.start
+
+    def start_and_note(goal: Goal) -> int:
+        request = start(goal)
+        during(goal, inbox)
+        return request
+
+    session.robot.start = start_and_note  # type: ignore[method-assign]
+    outcome = session.run(words)
+    session.close()
+    return Path(outcome.run_dir or "")
+
+
+@pytest.mark.parametrize("case", CASES, ids=[case.says for case in CASES])
+def test_every_branch_replays_tick_for_tick(tmp_path: Path, case: Case) -> None:
+    again = replay(recorded(tmp_path, case.words, **case.given))
+    assert again.parting is None
+    assert again.notes == ()
+    assert again.ticks > 0
+
+
+@pytest.mark.parametrize("kind", list(Kind))
+@pytest.mark.parametrize("defaults", [True, False])
+@pytest.mark.parametrize(("llm", "remembers"), [(False, False), (True, False), (True, True)])
+def test_all_systems_situations_and_kinds_replay(
+    tmp_path: Path, kind: Kind, defaults: bool, llm: bool, remembers: bool
+) -> None:
+    among = {"among": ("cabinet_kitchen", "counter_wagon", "high_table")} if defaults else {}
+    run = recorded(
+        tmp_path,
+        f"{kind} a sugar_box",
+        llm=llm,
+        remembers=remembers,
+        defaults=defaults,
+        elicit="rank",
+        replies=[favouring("high_table", "counter_wagon", **among)],
+    )
+    assert replay(run).parting is None
+
+
+@pytest.mark.parametrize("failing", [DriveTo, LookAt, Pick, PutDown])
+@pytest.mark.parametrize("always", [True, False], ids=["always", "once"])
+def test_failures_of_the_robot_replay(tmp_path: Path, failing: type, always: bool) -> None:
+    failed: list[Goal] = []
+
+    def fault(goal: Goal) -> str | None:
+        if not isinstance(goal, failing) or (failed and not always):
+            return None
+        failed.append(goal)
+        return "the way is blocked"
+
+    run = recorded(tmp_path, "Bring a power_drill", llm=False, fault=fault)
+    assert failed
+    assert replay(run).parting is None
+
+
+def test_a_stopped_mission_replays(tmp_path: Path) -> None:
+    def stop(goal: Goal, inbox: Inbox) -> None:
+        if isinstance(goal, Pick):
+            inbox.post(StopRequested("the person"))
+
+    run = recorded(tmp_path, "Take a power_drill", llm=False, during=stop)
+    assert json.loads((run / "outcome.json").read_text())["status"] == Status.STOPPED
+    again = replay(run)
+    assert (again.parting, again.notes) == (None, ())
+
+
+def test_waiting_in_vain_replays_to_the_last_digit(tmp_path: Path) -> None:
+    run = recorded(
+        tmp_path,
+        "Find an apple",
+        defaults=False,
+        replies=[None],
+        answers=[None],
+        elicit="rank",
+        llm_timeout_s=0.1 + 0.2,
+        answer_timeout_s=0.7,
+    )
+    assert replay(run).parting is None
+
+
+def test_the_second_mission_of_a_session_replays(tmp_path: Path) -> None:
+    settings = Settings(world="fake", runs=tmp_path, knowledge=KnowledgeSystem.OKB)
+    inbox = Inbox()
+    typed = io.StringIO("Find a power_drill\nTake a hammer\n")
+    session = Session(settings, inbox=inbox, user=Console(inbox, typed, io.StringIO()))
+    while (words := session.next_command()) is not None:
+        session.run(words)
+    session.close()
+    first, second = sorted(tmp_path.iterdir(), key=lambda run: "take" in run.name)
+    assert replay(first).parting is None
+    assert replay(second).parting is None
+
+
+def test_a_killed_mission_replays_as_far_as_it_goes(tmp_path: Path) -> None:
+    run = recorded(tmp_path, "Find a power_drill", llm=False)
+    whole = replay(run)
+    file = run / "mission.mcap"
+    file.write_bytes(file.read_bytes()[: -file.stat().st_size // 3])
+    again = replay(run)
+    assert again.parting is None
+    assert again.ticks <= whole.ticks
+
+
+# --- what has changed ---
+
+
+def test_a_changed_behaviour_parts_at_the_tick_where_it_decides_otherwise(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = recorded(tmp_path, "Find a power_drill", llm=False)
+    monkeypatch.setattr(SeeTarget, "ended", lambda self, result: NodeStatus.FAILURE)
+    again = replay(run)
+    assert again.parting is not None
+    assert (again.ticks, again.parting.tick) == (3, 3)
+    see = next(aspect for aspect in again.parting.aspects if aspect.what.endswith("/see"))
+    assert see.one == "SUCCESS power_drill, confidence 1.00"
+    assert main(["replay", str(run)]) == 1
+    assert "3 ticks as recorded; parts at tick 3, 7.001 s" in capsys.readouterr().out
+
+
+def test_a_tree_of_another_shape_is_told_by_its_behaviours(tmp_path: Path) -> None:
+    run = recorded(tmp_path, "Find a power_drill", llm=False)
+    again = replay(run, lambda team: MissionTree(search(team)))
+    assert "behaviour gone since: mission/serve/act" in again.notes
+    assert "behaviour new since: search" in again.notes
+
+
+def test_a_tree_that_ends_early_parts_where_the_recording_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = recorded(tmp_path, "Find a power_drill", llm=False)
+    monkeypatch.setattr(SeeTarget, "update", lambda self: 1 / 0)
+    again = replay(run)
+    assert again.parting is not None
+    assert (again.parting.tick, again.parting.aspects[0].other) == (3, "has ended")
+
+
+def test_a_changed_ontology_is_noted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run = recorded(tmp_path, "Find a power_drill", llm=False)
+    monkeypatch.setattr("kb.ontology.Ontology.files", lambda self: {"household.owl": b"new"})
+    assert replay(run).notes == ("changed since: household.owl",)
+
+
+def test_a_recording_without_its_home_is_refused(tmp_path: Path) -> None:
+    sink = McapSink(tmp_path / "mission.mcap", STARTED, {}, {})
+    for time, record in mission():
+        sink.write(Stamp(time, 0), record)
+    sink.close()
+    with pytest.raises(InputError, match="keeps no 'requests_before'"):
+        replay(tmp_path)
+
+
+def test_recordings_replay_from_the_command_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    recorded(tmp_path, "Find a power_drill", llm=False)
+    assert main(["replay", str(tmp_path)]) == 0
+    assert "ticks as recorded" in capsys.readouterr().out
+    assert main(["replay", str(tmp_path), "--json"]) == 0
+    (answer,) = json.loads(capsys.readouterr().out)
+    assert answer["parting"] is None
