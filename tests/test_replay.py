@@ -198,7 +198,7 @@ def test_a_tree_that_ends_early_parts_where_the_recording_goes_on(
     monkeypatch.setattr(SeeTarget, "update", lambda self: 1 / 0)
     again = replay(run)
     assert again.parting is not None
-    assert (again.parting.tick, again.parting.aspects[0].other) == (3, "has ended")
+    assert (again.parting.tick, again.parting.aspects[0].other) == (2, "has ended")
 
 
 def test_a_changed_ontology_is_noted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
