@@ -1,6 +1,7 @@
 """The ontology: which things there are, what they are called, and where they usually are."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -43,8 +44,10 @@ class Ontology:
         for path in self._paths:
             load(self._world, path)
         self._places = tuple(places)
-        for place in places:
-            self._add(place)
+        self._home = self._world.get_ontology(INDIVIDUALS)
+        with self._home:
+            for place in places:
+                self._add(place)
         self._things = tuple(downwards(self._class("Object")))
         self._objects = leaves(self._class("Object"))
         self._objects_by_words = self._index()
@@ -117,8 +120,11 @@ class Ontology:
         return next(given, "on")
 
     def files(self) -> Mapping[str, bytes]:
-        """The loaded files by name, to be kept with the log."""
-        return {path.name: path.read_bytes() for path in self._paths}
+        """The loaded files by name, and what the home adds to them, to be kept with the log."""
+        home = BytesIO()
+        self._home.save(home, format="rdfxml")
+        loaded = {path.name: path.read_bytes() for path in self._paths}
+        return {**loaded, "home.owl": home.getvalue()}
 
     def faults(self) -> Iterator[str]:
         """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
@@ -162,7 +168,7 @@ class Ontology:
             raise InputError(name, f"is a {kind!r}, which the ontology lacks", f"known are {known}")
         individual = self._world[INDIVIDUALS + name]
         if individual is None:
-            return class_(name, namespace=self._world.get_ontology(INDIVIDUALS))
+            return class_(name, namespace=self._home)
         individual.is_a = [class_]
         return individual
 

@@ -8,12 +8,14 @@ import pytest
 from conftest import four_rooms, ontology
 from hypothesis import given
 from hypothesis import strategies as st
+from owlready2 import World
 
 from executive.errors import InputError
 from executive.types import Place
 from kb.__main__ import main
 from kb.names import PlaceNames, stem, words_of
 from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
+from kb.owl import load
 
 PAPERS_OBJECTS = [
     *("adjustable_wrench", "apple", "banana", "bleach_cleanser", "colored_wood_blocks"),
@@ -246,7 +248,21 @@ def test_two_knowledge_bases_do_not_share_anything():
 
 
 def test_the_loaded_files_can_be_kept_with_the_log():
-    assert KNOWN.files() == {path.name: path.read_bytes() for path in (HOUSEHOLD, DEFAULTS)}
+    files = KNOWN.files()
+    assert files["household.owl"] == HOUSEHOLD.read_bytes()
+    assert files["defaults.owl"] == DEFAULTS.read_bytes()
+
+
+def test_what_the_home_adds_is_kept_as_an_ontology_and_has_the_last_word(tmp_path):
+    den = [Place("desk", "Table", "den", "Office"), Place("cot", "Bed", "den", "Office")]
+    moved = Ontology(den)
+    (tmp_path / "home.owl").write_bytes(moved.files()["home.owl"])
+    world = World()
+    for path in (HOUSEHOLD, tmp_path / "home.owl"):
+        load(world, path)
+    desk = world["http://robot-executive.org/home.owl#desk"]
+    assert (desk.is_a[0].name, desk.isIn.name) == ("Table", "den")
+    assert world["http://robot-executive.org/home.owl#cot"].isIn is desk.isIn
 
 
 @pytest.mark.parametrize("path", [HOUSEHOLD, DEFAULTS])
