@@ -1,0 +1,75 @@
+"""`python -m trees show`: the tree that a mission is run with, printed and drawn."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from py_trees.behaviour import Behaviour
+from py_trees.display import unicode_tree
+
+from executive.errors import ExecutiveError, InputError
+from executive.situation import Situation
+from trees.drawing import svg
+from trees.mission import mission
+from trees.team import Rules, Team
+
+KNOWLEDGE = ("okb", "okb+llm", "okb+llm+mem")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command; return the exit status (0 done, 2 bad input)."""
+    parser = argparse.ArgumentParser(prog="python -m trees", description=__doc__)
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    show = commands.add_parser("show", help="print the tree, and draw it into a file")
+    show.add_argument(
+        "--knowledge", choices=KNOWLEDGE, default=KNOWLEDGE[-1], help="default: %(default)s"
+    )
+    show.add_argument(
+        "--elicit", choices=["generate", "rank"], default="rank", help="default: %(default)s"
+    )
+    show.add_argument("--svg", type=Path, metavar="FILE", help="draw it, too")
+    options = parser.parse_args(arguments)
+    tree = build(options.knowledge, options.elicit)
+    print(unicode_tree(tree), end="")
+    try:
+        if options.svg:
+            _write(options.svg, svg(tree))
+    except ExecutiveError as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+def build(knowledge: str, elicit: str) -> Behaviour:
+    """The tree of these settings, with nobody in the team: it is to be looked at, not ticked."""
+    nobody: Any = object()
+    llm = None if knowledge == "okb" else nobody
+    return mission(
+        Team(
+            situation=Situation(),
+            clock=nobody,
+            recorder=nobody,
+            interpreter=nobody,
+            knowledge=nobody,
+            robot=nobody,
+            eyes=nobody,
+            user=nobody,
+            model=llm,
+            advisor=llm,
+            rules=Rules(elicit=elicit),
+        )
+    )
+
+
+def _write(file: Path, text: str) -> None:
+    try:
+        file.write_text(text, encoding="utf-8")
+    except OSError as error:
+        right = "name a file in an existing folder"
+        raise InputError(str(file), f"cannot be written: {error.strerror}", right) from error
+    print(file, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
