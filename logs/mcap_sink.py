@@ -1,6 +1,7 @@
 """The mission as one mcap file, for Foxglove, rerun and `logs.reader`."""
 
 import mimetypes
+import os
 from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path as FilePath
@@ -100,9 +101,17 @@ class McapSink:
         self._sequence = dict.fromkeys(TOPICS, 0)
         self._camera_frame_published = False
         self._picture = (-1, 0)
+        self._begun = False
+        self.flush()
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Write a record to its topic or topics."""
+        """Write a record to its topic or topics; the first is flushed, and all topics with it."""
+        self._write(stamp, record)
+        if not self._begun:
+            self._begun = True
+            self.flush()
+
+    def _write(self, stamp: Stamp, record: Record) -> None:
         ns = self._origin_ns + round(stamp.mission_s * 1e9)
         match record:
             case TreeShape():
@@ -138,8 +147,9 @@ class McapSink:
                 self._add("/log", foxglove.log_line(record, ns), ns)
 
     def flush(self) -> None:
-        """Finish the chunk, so that it survives the process."""
+        """Finish the chunk and have it written to the disk: it survives process and power."""
         self._writer.flush()
+        os.fsync(self._file.fileno())
 
     def close(self) -> None:
         """Write the index and close the file."""

@@ -120,16 +120,15 @@ class _Writer:
         flush_at: float | None = None
         while True:
             left = None if flush_at is None else max(0.0, flush_at - time.monotonic())
-            try:
+            with contextlib.suppress(queue.Empty):
                 stamp, record = self._queue.get(timeout=left)
-            except queue.Empty:
+                if record is None:
+                    break
+                self._write(stamp, record)
+                flush_at = flush_at or time.monotonic() + FLUSH_S
+            if flush_at is not None and time.monotonic() >= flush_at:
                 self._each(stamp, lambda sink: sink.flush())
                 flush_at = None
-                continue
-            if record is None:
-                break
-            self._write(stamp, record)
-            flush_at = flush_at or time.monotonic() + FLUSH_S
         self._finish(stamp)
 
     def _write(self, stamp: Stamp, record: Record) -> None:
