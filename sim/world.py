@@ -25,9 +25,6 @@ from sim.transforms import FrameTree
 
 STEP_S = 1 / 240
 """Physics step: with longer ones, what the fingers hold creeps."""
-SOLVER_ITERATIONS = 25
-"""Half of PyBullet's default: a grasp holds as well, and each step with a thing in the hand is a
-third cheaper."""
 STEPS_PER_CONTROL = round(CONTROL_S / STEP_S)
 TRANSFORMS_EVERY = 24
 """Steps between records of what moved: ten a second."""
@@ -69,7 +66,6 @@ class PhysicsWorld:
         self._client = connect(gui)
         self._client.setPhysicsEngineParameter(
             fixedTimeStep=STEP_S,
-            numSolverIterations=SOLVER_ITERATIONS,
             deterministicOverlappingPairs=1,
         )
         self._fixtures = build_home(self._client, home)
