@@ -92,7 +92,7 @@ class Session:
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
         self.advisor = (
-            PlaceAdvisor(self.knowledge, self.model, remembers=settings.remembers)
+            PlaceAdvisor(self.knowledge, self.model, remembers=settings.remembers, top=settings.top)
             if self.model
             else None
         )
@@ -243,6 +243,8 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         return Server(
             settings.llm,
             inbox,
+            n_ctx=settings.context_tokens,
+            timeout_s=settings.llm_timeout_s,
             temperature=settings.temperature,
             top_p=settings.top_p,
             max_tokens=settings.max_tokens,

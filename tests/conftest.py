@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
+import hypothesis
 import pytest
 
 from executive.clock import SimulatedClock
@@ -25,6 +26,9 @@ from sim.home import Home, load_home
 from trees.mission import mission
 from trees.team import Rules, Team
 from trees.tree import MissionTree
+
+hypothesis.settings.register_profile("machines are noisy", deadline=None)
+hypothesis.settings.load_profile("machines are noisy")
 
 
 @cache
