@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from mcap.reader import McapReader, NonSeekingReader, make_reader
-from mcap.records import Attachment, Channel, Metadata
+from mcap.records import Attachment, Channel, Message, Metadata
 from mcap_protobuf.decoder import DecoderFactory
 
 from executive.errors import InputError
@@ -117,6 +117,14 @@ class Run:
         """How it ended, or None if the recording ends before the mission did."""
         outcomes = self._read("/outcome", messages.outcome_from_message)
         return next((at.value for at in outcomes), None)
+
+    def last_time_s(self) -> float:
+        """Mission time of the last message of all (s)."""
+        last = self._origin_ns
+        for record in SoundRecords(self.path):
+            if isinstance(record, Message):
+                last = max(last, record.log_time)
+        return (last - self._origin_ns) / 1e9
 
     def _check(self) -> None:
         """Read the facts at the start of the file; refuse what is no mission."""
