@@ -52,7 +52,7 @@ class Settings(BaseSettings):
     answer_timeout_s: float = Field(120.0, gt=0, description="how long to wait for the person")
     llm_timeout_s: float = Field(60.0, gt=0, description="how long to wait for the model")
     action_timeout_s: float = Field(120.0, gt=0, description="how long an action may take")
-    camera_hz: float = Field(2.0, ge=0, description="pictures for the log while the robot moves")
+    camera_hz: float = Field(1.0, ge=0, description="pictures for the log while the robot moves")
 
     @field_validator("llm")
     @classmethod

@@ -47,7 +47,7 @@ class PhysicsWorld:
         recorder: Recorder,
         seed: int = 0,
         gui: bool = False,
-        camera_hz: float = 2.0,
+        camera_hz: float = 1.0,
     ) -> None:
         """Build the home with the robot in it.
 
