@@ -4,15 +4,15 @@ Every drawn thing names its frame (`CoordinateFrame`), and frames hang together 
 so entity paths carry no geometry.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import rerun as rr
 
-from executive.records import Entity, Path, Seen, Shape, Transforms
+from executive.records import Entity, Path, Seen, Shape, Transform
 from executive.types import Color, Frame, Intrinsics, Pose
 from logs.images import jpeg
 
@@ -29,6 +29,14 @@ IMAGE_FRAME = "picture_plane"
 _CAMERA = (255, 255, 255, 160)
 _FOUND = (60, 220, 90)
 _PLANNED = (30, 130, 255)
+
+
+class Moved(NamedTuple):
+    """Where a frame was at a mission time (s), after this many ticks."""
+
+    mission_s: float
+    tick: int
+    transform: Transform
 
 
 def log_frames(stream: rr.RecordingStream) -> None:
@@ -91,19 +99,21 @@ def _log_mesh(
     )
 
 
-def log_transforms(
-    stream: rr.RecordingStream, transforms: Transforms, times: Iterable[rr.TimeColumn]
-) -> None:
+def log_transforms(stream: rr.RecordingStream, moved: Sequence[Moved]) -> None:
     """Log where frames are in their parents, all in one call."""
-    moved = transforms.transforms
+    times = (
+        rr.TimeColumn("mission_time", duration=[m.mission_s for m in moved]),
+        rr.TimeColumn("tick", sequence=[m.tick for m in moved]),
+    )
+    transforms = [m.transform for m in moved]
     stream.send_columns(
         FRAMES,
         times,
         rr.Transform3D.columns(
-            translation=[t.pose.position for t in moved],
-            quaternion=[t.pose.orientation for t in moved],
-            parent_frame=[t.parent for t in moved],
-            child_frame=[t.child for t in moved],
+            translation=[t.pose.position for t in transforms],
+            quaternion=[t.pose.orientation for t in transforms],
+            parent_frame=[t.parent for t in transforms],
+            child_frame=[t.child for t in transforms],
         ),
     )
 

@@ -29,6 +29,9 @@ APPLICATION = "robot-executive"
 FLUSH_S = 5.0
 """How long a flush may take."""
 
+MOST_KEPT = 10
+"""Records of moved frames that are sent together; with 60 a second the live view stays smooth."""
+
 _LEVELS = {"debug": "DEBUG", "info": "INFO", "warning": "WARN", "error": "ERROR"}
 _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 
@@ -61,6 +64,8 @@ class RerunSink:
         self._stream.set_time(blueprint.MISSION_TIME, duration=0.0)
         self._stream.set_time("tick", sequence=0)
         rerun_scene.log_frames(self._stream)
+        self._moved: list[rerun_scene.Moved] = []
+        self._kept = 0
         self._tick = 0
         self._tree: TreeView | None = None
         self._call: LlmCall | None = None
@@ -68,6 +73,10 @@ class RerunSink:
     def write(self, stamp: Stamp, record: Record) -> None:
         """Log a record where the blueprint looks for it."""
         mission_s = round(stamp.mission_s, 3)
+        if isinstance(record, Transforms):
+            self._keep(mission_s, record)
+            return
+        self._send_moved()
         self._stream.set_time(blueprint.MISSION_TIME, duration=mission_s)
         self._stream.set_time("tick", sequence=self._tick)
         match record:
@@ -93,8 +102,6 @@ class RerunSink:
             case Scene(entities):
                 rerun_scene.log_scene(self._stream, entities)
                 self._stream.send_blueprint(blueprint.mission_blueprint(entities))
-            case Transforms():
-                self._write_transforms(mission_s, record)
             case Path():
                 rerun_scene.log_path(self._stream, record)
             case Finished(outcome):
@@ -102,6 +109,7 @@ class RerunSink:
 
     def flush(self) -> None:
         """Bring everything to the file and the viewer."""
+        self._send_moved()
         try:
             self._stream.flush(timeout_sec=FLUSH_S)
         except RuntimeError:
@@ -111,6 +119,7 @@ class RerunSink:
 
     def close(self) -> None:
         """Write the footer and close the file."""
+        self._send_moved()
         self._stream.disconnect()
 
     def _write_tick(self, tick: Tick) -> None:
@@ -134,13 +143,17 @@ class RerunSink:
         text = in_words(taken.event)
         self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
 
-    def _write_transforms(self, mission_s: float, record: Transforms) -> None:
-        count = len(record.transforms)
-        times = (
-            rr.TimeColumn(blueprint.MISSION_TIME, duration=[mission_s] * count),
-            rr.TimeColumn("tick", sequence=[self._tick] * count),
-        )
-        rerun_scene.log_transforms(self._stream, record, times)
+    def _keep(self, mission_s: float, record: Transforms) -> None:
+        """Keep what moved until there is more to send: a call of rerun takes a millisecond."""
+        self._moved += [rerun_scene.Moved(mission_s, self._tick, t) for t in record.transforms]
+        self._kept += 1
+        if self._kept >= MOST_KEPT:
+            self._send_moved()
+
+    def _send_moved(self) -> None:
+        if self._moved:
+            rerun_scene.log_transforms(self._stream, self._moved)
+        self._moved, self._kept = [], 0
 
 
 def _document(markdown_text: str) -> rr.TextDocument:
