@@ -10,6 +10,8 @@ from sim.solids import Floats, signed_distance
 
 _POINTS = 250
 _YAW_STARTS = 12
+_CENTERING = 0.1
+"""Where the points leave a thing free to slide, their middle is that of the thing."""
 _NOISE_M = 0.003
 """Points farther than this from the model count less and less (soft L1 loss)."""
 
@@ -29,9 +31,13 @@ def locate(model: ObjectModel, points: Floats) -> Pose:
 
 
 def _fit(model: ObjectModel, points: Floats, start: Floats, evaluations: int) -> OptimizeResult:
+    middle = (np.array(model.lower) + model.upper)[:2] / 2
+
     def distances(guess: Floats) -> Floats:
         turn = Rotation.from_euler("z", guess[3]).as_matrix()
-        return signed_distance(model.shapes, (points - guess[:3]) @ turn)
+        local = (points - guess[:3]) @ turn
+        off_middle = (local.min(axis=0) + local.max(axis=0))[:2] / 2 - middle
+        return np.append(signed_distance(model.shapes, local), _CENTERING * off_middle)
 
     return least_squares(
         distances,
