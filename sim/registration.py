@@ -25,12 +25,16 @@ def locate(model: ObjectModel, points: Floats) -> Pose:
     few = np.asarray(points[:: max(1, len(points) // _POINTS)], dtype=np.float64)
     middle = np.append((few.min(axis=0) + few.max(axis=0))[:2] / 2, few[:, 2].max() - model.size[2])
     starts = [np.append(middle, 2 * np.pi * i / _YAW_STARTS) for i in range(_YAW_STARTS)]
-    coarse = min((_fit(model, few[::3], start, 8) for start in starts), key=lambda fit: fit.cost)
-    x, y, z, yaw = (float(v) for v in _fit(model, few, coarse.x, 50).x)
+    coarse = min(
+        (_fit(model, few[::3], start, "linear", 10) for start in starts), key=lambda fit: fit.cost
+    )
+    x, y, z, yaw = (float(v) for v in _fit(model, few, coarse.x, "soft_l1", 50).x)
     return Pose((x, y, z), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
 
 
-def _fit(model: ObjectModel, points: Floats, start: Floats, evaluations: int) -> OptimizeResult:
+def _fit(
+    model: ObjectModel, points: Floats, start: Floats, loss: str, evaluations: int
+) -> OptimizeResult:
     middle = (np.array(model.lower) + model.upper)[:2] / 2
 
     def distances(guess: Floats) -> Floats:
@@ -42,7 +46,7 @@ def _fit(model: ObjectModel, points: Floats, start: Floats, evaluations: int) ->
     return least_squares(
         distances,
         start,
-        loss="soft_l1",
+        loss=loss,
         f_scale=_NOISE_M,
         max_nfev=evaluations,
         x_scale=(0.01, 0.01, 0.01, 0.2),
