@@ -19,6 +19,18 @@ def connect(gui: bool = False) -> BulletClient:
     return client
 
 
+def aim_window(client: BulletClient, corners: tuple[float, float, float, float]) -> None:
+    """Have PyBullet's own window look down on left, lower, right, upper of `map` (metres)."""
+    left, lower, right, upper = corners
+    client.configureDebugVisualizer(p.COV_ENABLE_GUI, 0)
+    client.resetDebugVisualizerCamera(
+        cameraDistance=max(right - left, upper - lower),
+        cameraYaw=0.0,
+        cameraPitch=-65.0,
+        cameraTargetPosition=((left + right) / 2, (lower + upper) / 2, 0.0),
+    )
+
+
 @contextmanager
 def _stdout_to_stderr() -> Iterator[None]:
     """PyBullet's C code prints its arguments: send the descriptor elsewhere meanwhile."""

@@ -74,6 +74,11 @@ class Home(BaseModel):
         kinds = {room.name: room.kind for room in self.rooms}
         return tuple(Place(f.name, f.kind, f.room, kinds[f.room]) for f in self.furniture)
 
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, lower, right and upper edge of all rooms, in `map` (metres)."""
+        left, lower, right, upper = zip(*(room.rectangle for room in self.rooms), strict=True)
+        return min(left), min(lower), max(right), max(upper)
+
     def walls(self) -> tuple[Wall, ...]:
         """The walls without the doors' gaps, in `map`."""
         return walls(self.rooms, self.doors, self.wall_thickness)

@@ -6,6 +6,7 @@ home. What comes of it is up to physics.
 
 from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -17,10 +18,10 @@ from sim.driving import drive
 from sim.grasps import TILTS, Grasp, HandPose, find_grasps
 from sim.hardware import FOLDED, Floats, Hardware
 from sim.home import Furniture, Home
-from sim.kinematics import Kinematics
 from sim.looking import look_at
 from sim.objects import ObjectModel
 from sim.placing import free_spots
+from sim.planning import PlanningWorld
 from sim.reaching import Reach, clear_path, plan_reach, plan_retreat, plan_stance, standing_poses
 from sim.registration import locate
 from sim.skill import CannotError, Skill, attempt, pause, wait_until
@@ -72,14 +73,14 @@ class Manipulator:
     def __init__(
         self,
         hardware: Hardware,
-        kinematics: Kinematics,
+        planning: PlanningWorld,
         home: Home,
         models: Mapping[str, ObjectModel],
         scan: Callable[[], Floats],
     ) -> None:
         """Use these parts; `scan` gives the points (n, 3) in `map` that the depth camera sees."""
         self._hardware = hardware
-        self._kinematics = kinematics
+        self._planning = planning
         self._home = home
         self._models = models
         self._scan = scan
@@ -101,10 +102,8 @@ class Manipulator:
         pose = locate(model, points)
         grasp, way, stance = self._choose_grasp(model, pose, points)
         yield from self._creep(stance)
-        failure = yield from attempt(self._grasp(model, grasp, way))
-        self._kinematics.forget_target()
-        if failure is None:
-            self._take(Held.taken(model, pose, grasp))
+        failure = yield from attempt(self._grasp(Held.taken(model, pose, grasp), grasp, way))
+        self._planning.forget_target()
         yield from self.stow()
         if failure:
             raise failure
@@ -126,8 +125,6 @@ class Manipulator:
         target, stance = yield from self._choose_spot(held, piece)
         yield from self._creep(stance)
         failure = yield from attempt(self._release(held.hand_for(target), held.gap))
-        if failure is None:
-            self._take(None)
         yield from self.stow()
         if failure:
             raise failure
@@ -140,16 +137,16 @@ class Manipulator:
         if np.abs(arm - FOLDED)[:7].max() < 0.05:
             return
         base = hardware.base_pose
-        rise = self._kinematics.line(
-            base, arm, self._kinematics.hand(base, arm).shifted(-RISE_M * _DOWN)
+        rise = self._planning.line(
+            base, arm, self._planning.hand(base, arm).shifted(-RISE_M * _DOWN)
         )
-        if rise and not self._kinematics.path_obstacle(base, rise[1:]):
+        if rise and not self._planning.path_obstacle(base, rise[1:]):
             yield from follow(hardware, rise[1:], SLOW)
-        yield from self._creep([plan_retreat(self._kinematics, base)])
+        yield from self._creep([plan_retreat(self._planning, base)])
         arm = hardware.arm_positions
         folded = FOLDED.copy()
         folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
-        path = clear_path(self._kinematics, hardware.base_pose, arm, folded)
+        path = clear_path(self._planning, hardware.base_pose, arm, folded)
         yield from follow(hardware, path or [folded])
 
     # --- steps of a pick ---
@@ -175,27 +172,26 @@ class Manipulator:
         stances = list(self._stances(piece, np.asarray(pose.position)))
         for tilt in TILTS:
             grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:_GRASPS_TRIED]
-            for stance in stances:
-                for grasp in grasps:
-                    for length in APPROACH_M:
-                        way = length * grasp.hand.approach
-                        if plan_reach(self._kinematics, stance[-1], FOLDED, grasp.hand, way):
-                            return grasp, way, stance
+            for stance, grasp, length in product(stances, grasps, APPROACH_M):
+                way = length * grasp.hand.approach
+                if plan_reach(self._planning, stance[-1], FOLDED, grasp.hand, way):
+                    return grasp, way, stance
         raise CannotError(f"I cannot reach the {model.name}")
 
-    def _grasp(self, model: ObjectModel, grasp: Grasp, way: Floats) -> Skill:
-        hardware, name = self._hardware, model.name
+    def _grasp(self, thing: Held, grasp: Grasp, way: Floats) -> Skill:
+        hardware, name = self._hardware, thing.model.name
         reach = self._reach(grasp.hand, way, f"I cannot reach the {name}")
         hardware.open_fingers(grasp.gap)
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
-        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg)
+        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * thing.model.mass_kg)
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
         if not self.holding:
             hardware.open_fingers(grasp.gap)
             yield from follow(hardware, reach.way_back, SLOW)
             raise CannotError(f"I could not get hold of the {name}")
+        self._take(thing)
 
     # --- steps of putting down ---
 
@@ -211,7 +207,7 @@ class Manipulator:
         for spot in spots[:_SPOTS_TRIED]:
             for stance in self._stances(piece, np.asarray(spot.position)):
                 hand = held.hand_for(spot)
-                if plan_reach(self._kinematics, stance[-1], carrying, hand, way):
+                if plan_reach(self._planning, stance[-1], carrying, hand, way):
                     return spot, stance
         clause = "I cannot reach a free spot on" if spots else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
@@ -222,6 +218,7 @@ class Manipulator:
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
         hardware.open_fingers(gap)
+        self._take(None)
         yield from wait_until(lambda: not self.holding, _CLOSING_S)
         yield from pause(_SETTLING_S)
         yield from follow(hardware, reach.way_back, SLOW)
@@ -232,14 +229,14 @@ class Manipulator:
         """Know, and plan with, what is in the hand."""
         self._held = held
         if held is None:
-            self._kinematics.carry((), None)
+            self._planning.carry((), None)
         else:
-            self._kinematics.carry(held.model.shapes, HandPose(held.position, held.rotation))
+            self._planning.carry(held.model.shapes, HandPose(held.position, held.rotation))
 
     def _reach(self, hand: HandPose, way: Floats, otherwise: str) -> Reach:
         """The motion to a hand pose from where the robot stands now."""
         hardware = self._hardware
-        reach = plan_reach(self._kinematics, hardware.base_pose, hardware.arm_positions, hand, way)
+        reach = plan_reach(self._planning, hardware.base_pose, hardware.arm_positions, hand, way)
         if reach is None:
             raise CannotError(otherwise)
         return reach
@@ -251,13 +248,13 @@ class Manipulator:
         for column in columns(piece, self._scan()):
             off = np.abs(target[:, :2] - (column.x, column.y)).max(axis=1)
             (near if (off < CELL_M).any() else others).append(column)
-        self._kinematics.assume_clutter(near, others)
+        self._planning.assume_clutter(near, others)
 
     def _stances(self, piece: Furniture, target: Floats) -> Iterator[list[Floats]]:
         """Ways of the base to where a point on the furniture may be reached from."""
         here = self._hardware.base_pose
         for base in standing_poses(piece, target):
-            way = plan_stance(self._kinematics, here, base)
+            way = plan_stance(self._planning, here, base)
             if way is not None:
                 yield way
 

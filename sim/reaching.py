@@ -9,7 +9,8 @@ from scipy.spatial.transform import Rotation
 from sim.grasps import HandPose
 from sim.hardware import Floats
 from sim.home import Furniture
-from sim.kinematics import COMFORT, Kinematics
+from sim.kinematics import COMFORT
+from sim.planning import PlanningWorld
 
 NEAREST_M = 0.40
 """From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
@@ -47,7 +48,7 @@ def standing_poses(piece: Furniture, target: Floats) -> Iterator[Floats]:
         yield np.append(spot, yaw + np.pi)
 
 
-def plan_stance(kinematics: Kinematics, here: Floats, base: Floats) -> list[Floats] | None:
+def plan_stance(world: PlanningWorld, here: Floats, base: Floats) -> list[Floats] | None:
     """Base poses to pass from here to a standing pose without touching anything, or None.
 
     Straight, or first ahead and then aside, or the other way round.
@@ -56,28 +57,28 @@ def plan_stance(kinematics: Kinematics, here: Floats, base: Floats) -> list[Floa
     advance = ((base - here) @ ahead) * ahead
     for between in ([], [here + advance], [base - advance]):
         way = [*between, base]
-        if kinematics.drive_obstacle([here, *way]) is None:
+        if world.drive_obstacle([here, *way]) is None:
             return way
     return None
 
 
-def plan_retreat(kinematics: Kinematics, here: Floats) -> Floats:
+def plan_retreat(world: PlanningWorld, here: Floats) -> Floats:
     """The pose farthest back, up to BACK_OFF_M, that the base can reach in a straight line."""
     ahead = np.array([np.cos(here[2]), np.sin(here[2]), 0.0])
     for part in (1.0, 0.75, 0.5, 0.25):
         back: Floats = here - part * BACK_OFF_M * ahead
-        if kinematics.drive_obstacle([here, back]) is None:
+        if world.drive_obstacle([here, back]) is None:
             return back
     return here
 
 
 def plan_reach(
-    kinematics: Kinematics, base: Floats, start: Floats, hand: HandPose, way: Floats
+    world: PlanningWorld, base: Floats, start: Floats, hand: HandPose, way: Floats
 ) -> Reach | None:
     """A collision-free motion to a hand pose, its last part straight along `way`.
 
     Args:
-        kinematics: the map.
+        world: the map.
         base: where the base stands (x, y, yaw).
         start: joints of `ARM` to start from.
         hand: where the hand shall be; the fingers may be swapped.
@@ -85,32 +86,30 @@ def plan_reach(
     """
     for target in (hand, HandPose(hand.position, hand.rotation * _HALF_TURN)):
         near = COMFORT.copy()
-        end = kinematics.solve(base, target, near)
-        if end is None or kinematics.obstacle(base, end, 0.0, reaching=True):
+        end = world.solve(base, target, near)
+        if end is None or world.obstacle(base, end, 0.0, reaching=True):
             continue
-        before = kinematics.solve(base, target.shifted(-way), end)
+        before = world.solve(base, target.shifted(-way), end)
         if before is None:
             continue
-        last = kinematics.line(base, before, target)
-        if last is None or any(
-            kinematics.obstacle(base, joints, 0.0, reaching=True) for joints in last
-        ):
+        last = world.line(base, before, target)
+        if last is None or any(world.obstacle(base, joints, 0.0, reaching=True) for joints in last):
             continue
-        path = clear_path(kinematics, base, start, before)
+        path = clear_path(world, base, start, before)
         if path is not None:
             return Reach(target, path, last[1:])
     return None
 
 
 def clear_path(
-    kinematics: Kinematics, base: Floats, start: Floats, end: Floats
+    world: PlanningWorld, base: Floats, start: Floats, end: Floats
 ) -> list[Floats] | None:
     """Joints to pass to get from start to end without touching anything, or None."""
-    highest = kinematics.highest_lift
+    highest = world.highest_lift
     tops = [max(start[0], end[0]), *(min(end[0] + over, highest) for over in OVER_M)]
     ways = [[np.append(top, start[1:]), np.append(top, end[1:])] for top in tops]
     for between in ([], ways[0][:1], *ways):
         path = [*between, end]
-        if not kinematics.path_obstacle(base, [start, *path]):
+        if not world.path_obstacle(base, [start, *path]):
             return path
     return None

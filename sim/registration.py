@@ -1,5 +1,7 @@
 """Finding where a known thing stands from the part of its surface that the camera saw."""
 
+from typing import Literal
+
 import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.spatial.transform import Rotation
@@ -33,7 +35,11 @@ def locate(model: ObjectModel, points: Floats) -> Pose:
 
 
 def _fit(
-    model: ObjectModel, points: Floats, start: Floats, loss: str, evaluations: int
+    model: ObjectModel,
+    points: Floats,
+    start: Floats,
+    loss: Literal["linear", "soft_l1"],
+    evaluations: int,
 ) -> OptimizeResult:
     middle = (np.array(model.lower) + model.upper)[:2] / 2
 

@@ -12,13 +12,13 @@ from executive.records import Picture, Scene, Transforms
 from executive.types import Pose
 from sim.bodies import build_home, frame_pose, home_entities, place_objects
 from sim.camera import SimulatedCamera, SimulatedDetector, render
-from sim.client import connect
+from sim.client import aim_window, connect
 from sim.hardware import Floats, Hardware
 from sim.home import Home
-from sim.kinematics import Kinematics
 from sim.manipulation import Manipulator
 from sim.model import describe_robot, robot_entities
 from sim.objects import ObjectModel
+from sim.planning import PlanningWorld
 from sim.robot import SimulatedRobot
 from sim.skill import CONTROL_S
 from sim.transforms import FrameTree
@@ -69,14 +69,16 @@ class PhysicsWorld:
             deterministicOverlappingPairs=1,
         )
         self._fixtures = build_home(self._client, home)
+        if gui:
+            aim_window(self._client, home.extent())
         self._things = place_objects(self._client, home, models)
         self._disturb(seed)
         self._let_sleep()
         self._hardware = Hardware(self._client, home.robot_start)
-        self._kinematics = Kinematics(home)
+        self._planning = PlanningWorld(home)
         self.camera = SimulatedCamera(self._client, self._camera_pose)
         self.detector = SimulatedDetector(self.camera, self._things)
-        manipulator = Manipulator(self._hardware, self._kinematics, home, models, self._scan)
+        manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan)
         self.robot = SimulatedRobot(self._hardware, manipulator, home, inbox, recorder)
         self._steps = 0
         self._owed = 0.0
@@ -104,7 +106,7 @@ class PhysicsWorld:
 
     def close(self) -> None:
         """Free the simulator."""
-        self._kinematics.close()
+        self._planning.close()
         self._client.disconnect()
 
     def describe(self) -> None:

@@ -11,9 +11,10 @@ from executive.perception import locate as locate_pixels
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
 from sim.grasps import WIDEST, find_grasps
 from sim.home import Home
-from sim.kinematics import COMFORT, Kinematics
+from sim.kinematics import COMFORT
 from sim.objects import load_objects
 from sim.placing import free_spots
+from sim.planning import PlanningWorld
 from sim.registration import locate
 from sim.solids import sample_surface, signed_distance
 from sim.world import PhysicsWorld
@@ -135,28 +136,28 @@ def test_a_spot_is_free_where_nothing_rises() -> None:
 
 
 @pytest.fixture(scope="module")
-def kinematics() -> Iterator[Kinematics]:
-    kinematics = Kinematics(four_rooms())
-    yield kinematics
-    kinematics.close()
+def planning() -> Iterator[PlanningWorld]:
+    planning = PlanningWorld(four_rooms())
+    yield planning
+    planning.close()
 
 
-def test_solved_joints_bring_the_hand_to_its_target(kinematics: Kinematics) -> None:
+def test_solved_joints_bring_the_hand_to_its_target(planning: PlanningWorld) -> None:
     base = np.array(four_rooms().robot_start)
-    target = kinematics.hand(base, COMFORT).shifted(np.array([0.05, -0.1, 0.1]))
-    found = kinematics.solve(base, target, COMFORT)
+    target = planning.hand(base, COMFORT).shifted(np.array([0.05, -0.1, 0.1]))
+    found = planning.solve(base, target, COMFORT)
     assert found is not None
-    assert np.linalg.norm(kinematics.hand(base, found).position - target.position) < 1e-3
+    assert np.linalg.norm(planning.hand(base, found).position - target.position) < 1e-3
 
 
-def test_what_is_out_of_reach_has_no_solution(kinematics: Kinematics) -> None:
+def test_what_is_out_of_reach_has_no_solution(planning: PlanningWorld) -> None:
     base = np.array(four_rooms().robot_start)
-    far = kinematics.hand(base, COMFORT).shifted(np.array([2.0, 0.0, 0.0]))
-    assert kinematics.solve(base, far, COMFORT) is None
+    far = planning.hand(base, COMFORT).shifted(np.array([2.0, 0.0, 0.0]))
+    assert planning.solve(base, far, COMFORT) is None
 
 
-def test_furniture_in_the_way_of_the_arm_is_named(kinematics: Kinematics) -> None:
+def test_furniture_in_the_way_of_the_arm_is_named(planning: PlanningWorld) -> None:
     x, y, yaw = four_rooms().stand("high_table")
     near = np.array([x + 0.25 * np.cos(yaw), y + 0.25 * np.sin(yaw), yaw])
-    assert kinematics.obstacle(near, COMFORT) == "high_table"
-    assert kinematics.base_obstacle(np.array([x, y, yaw])) is None
+    assert planning.obstacle(near, COMFORT) == "high_table"
+    assert planning.base_obstacle(np.array([x, y, yaw])) is None
