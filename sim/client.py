@@ -13,7 +13,7 @@ GRAVITY_M_S2 = 9.81
 
 def connect(gui: bool = False) -> BulletClient:
     """An empty world with gravity, computed in this process; `gui` opens PyBullet's own window."""
-    with _stdout_to_stderr():
+    with _without_stdout():
         client = BulletClient(p.GUI if gui else p.DIRECT)
     client.setGravity(0.0, 0.0, -GRAVITY_M_S2)
     return client
@@ -32,13 +32,14 @@ def aim_window(client: BulletClient, corners: tuple[float, float, float, float])
 
 
 @contextmanager
-def _stdout_to_stderr() -> Iterator[None]:
-    """PyBullet's C code prints its arguments: send the descriptor elsewhere meanwhile."""
+def _without_stdout() -> Iterator[None]:
+    """PyBullet's C code prints its arguments: send the descriptor nowhere meanwhile."""
     sys.stdout.flush()
-    kept = os.dup(1)
-    os.dup2(2, 1)
+    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
     try:
         yield
     finally:
         os.dup2(kept, 1)
         os.close(kept)
+        os.close(nowhere)
