@@ -176,7 +176,7 @@ class Session:
             "home.toml": self._home_file,
             **self.knowledge.files(),
         }
-        request = self.inbox.open()
+        request = self.inbox.open()  # numbers go on from mission to mission: a replay must know
         self.inbox.drop(request)
         metadata = {
             "requests_before": str(request),

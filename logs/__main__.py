@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from executive.errors import ExecutiveError, InputError
-from logs import comparison, pictures, report, viewer
+from logs import comparison, gantt, pictures, report, viewer
 from logs.reader import FILE_NAME, Run
 from logs.recovery import damaged_at, recover
 from logs.why import why, why_text
@@ -58,7 +58,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     add("why", _why, "the chain from words to deed: decisions, sources, alternatives", "run")
     add("ticks", _ticks, "each tick: its events, and the behaviours that it changed", "run")
-    add("timeline", _timeline, "which behaviours ran when (from, to: mission time, s)", "run")
+    when = add("timeline", _timeline, "which behaviours ran when (mission time, s)", "run")
+    when.add_argument("--svg", type=Path, metavar="FILE", help="draw it, too")
     add("llm", _llm, "calls of the language model and their verification", "run")
     add("dialog", _dialog, "what was said", "run")
     frames = add("frames", _frames, "write the camera's pictures", "run")
@@ -112,7 +113,17 @@ def _ticks(options: argparse.Namespace) -> Answer:
 
 def _timeline(options: argparse.Namespace) -> Answer:
     spans = report.timeline(Run(options.run))
+    if options.svg:
+        _write(options.svg, gantt.svg(spans))
     return Answer([asdict(span) for span in spans], report.timeline_text(spans))
+
+
+def _write(file: Path, text: str) -> None:
+    try:
+        file.write_text(text, encoding="utf-8")
+    except OSError as error:
+        right = "name a file in an existing folder"
+        raise InputError(str(file), f"cannot be written: {error.strerror}", right) from error
 
 
 def _llm(options: argparse.Namespace) -> Answer:

@@ -4,6 +4,7 @@ import json
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import cv2
 import pytest
@@ -135,6 +136,19 @@ def test_questions_are_answered_in_words_and_as_json(
     assert answer in capsys.readouterr().out
     assert main([question, str(run_dir), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)
+
+
+def test_the_timeline_is_drawn_with_a_bar_for_each_span(run_dir: Path, tmp_path: Path) -> None:
+    file = tmp_path / "when.svg"
+    assert main(["timeline", str(run_dir), "--svg", str(file)]) == 0
+    spans = report.timeline(Run(run_dir))
+    svg = "{http://www.w3.org/2000/svg}"
+    bars = [b for b in ElementTree.parse(file).iter(f"{svg}rect") if len(b)]
+    assert len(bars) == len(spans)
+    lengths = [float(bar.attrib["width"]) for bar in bars]
+    ask, drive, _ = lengths
+    assert drive == pytest.approx(2 * ask, rel=0.01)
+    assert main(["timeline", str(run_dir), "--svg", str(tmp_path / "nowhere" / "a.svg")]) == 2
 
 
 # --- side by side ---
