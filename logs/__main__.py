@@ -67,6 +67,11 @@ def _parser() -> argparse.ArgumentParser:
         "--out", type=Path, required=True, metavar="DIR or FILE.mp4", help="files, or a video"
     )
     frames.add_argument("--png", action="store_true", help="PNG files (default: JPEG, as recorded)")
+    tables = add("export", _export, "write Parquet tables: runs, ticks, behaviours, events, ...")
+    tables.add_argument(
+        "runs", nargs="+", type=Path, metavar="RUN", help="a run, or a folder of runs"
+    )
+    tables.add_argument("--parquet", type=Path, required=True, metavar="DIR", help="where to")
     add("compare", _compare, "where two missions part", "one", "other")
     again = add("replay", _replay, "feed recorded events to a fresh tree: are its ticks the same?")
     again.add_argument(
@@ -143,6 +148,13 @@ def _frames(options: argparse.Namespace) -> Answer:
         return Answer([str(out)], f"{count} pictures, {count / pictures.VIDEO_HZ:g} s, in {out}")
     files = pictures.write_files(frames, out, png=options.png)
     return Answer([str(file) for file in files], f"{len(files)} pictures in {out}")
+
+
+def _export(options: argparse.Namespace) -> Answer:
+    from logs.export import write_parquet
+
+    files = write_parquet((Run(run) for run in _runs_in(options.runs)), options.parquet)
+    return Answer([str(file) for file in files], "\n".join(str(file) for file in files))
 
 
 def _compare(options: argparse.Namespace) -> Answer:

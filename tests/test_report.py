@@ -7,6 +7,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import cv2
+import pyarrow.parquet as pq
 import pytest
 from mcap.reader import make_reader
 from sample_mission import STARTED, TREE, frame, mission, rank_call, tick
@@ -213,6 +214,23 @@ def test_a_recording_without_pictures_makes_no_video(
     run = record(tmp_path / "run", [(0.0, TREE)])
     assert main(["frames", str(run), "--out", str(tmp_path / "mission.mp4")]) == 2
     assert "holds no pictures" in capsys.readouterr().err
+
+
+# --- tables ---
+
+
+def test_runs_in_bulk_become_tables_that_join_by_run(tmp_path: Path) -> None:
+    record(tmp_path / "runs" / "a", mission())
+    record(tmp_path / "runs" / "b", [(0.0, TREE)])
+    assert main(["export", str(tmp_path / "runs"), "--parquet", str(tmp_path / "tables")]) == 0
+    tables = {file.stem: pq.read_table(file).to_pylist() for file in tmp_path.glob("tables/*")}
+    assert [(row["run"], row["status"]) for row in tables["runs"]] == [("a", "done"), ("b", None)]
+    assert {row["run"] for row in tables["behaviours"]} == {"a"}
+    assert len(tables["behaviours"]) == len(TREE.nodes) * len(tables["ticks"])
+    rank, chat = tables["llm_calls"]
+    assert json.loads(rank["scores"])["desk"] == 0.7
+    assert chat["verified"]["dropped"] == ["spice rack"]
+    assert [row["result"] for row in tables["events"]] == [None, "Succeeded"]
 
 
 # --- damage ---
