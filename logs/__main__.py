@@ -77,7 +77,8 @@ def _parser() -> argparse.ArgumentParser:
     again.add_argument(
         "runs", nargs="+", type=Path, metavar="RUN", help="a run's folder, or a folder of runs"
     )
-    add("view", _view, "show the mission in the rerun viewer", "run")
+    view = add("view", _view, "show the mission in the rerun viewer", "run")
+    view.add_argument("--web", action="store_true", help="in the browser, served to this machine")
     mend = add("recover", _recover, "write a broken mcap file whole again, as far as it reads")
     mend.add_argument("file", type=Path, metavar="FILE")
     return parser
@@ -187,7 +188,7 @@ def _view(options: argparse.Namespace) -> Answer:
     recording = options.run / "mission.rrd" if options.run.is_dir() else options.run
     if not recording.is_file():
         raise InputError(str(options.run), "holds no mission.rrd", "name a run's folder")
-    viewer.show(recording)
+    viewer.show(recording, web=options.web)
     return Answer(str(recording), f"shown: {recording}")
 
 

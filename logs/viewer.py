@@ -15,13 +15,18 @@ START_S = 20.0
 _NO_VIEWER = "the rerun viewer does not start; it needs a display"
 
 
-def show(recording: Path) -> None:
-    """Open a recording and wait until the viewer is closed.
+def show(recording: Path, *, web: bool = False) -> None:
+    """Open a recording and wait until the viewer is closed; in the browser until Ctrl-C.
 
     Raises:
         ExecutiveError: if it does not start, as without a display.
     """
-    if subprocess.run([*COMMAND, str(recording)], check=False).returncode:
+    options = ["--web-viewer"] if web else []
+    try:
+        ended = subprocess.run([*COMMAND, *options, str(recording)], check=False)
+    except KeyboardInterrupt:
+        return
+    if ended.returncode:
         raise ExecutiveError(_NO_VIEWER)
 
 

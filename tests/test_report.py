@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from xml.etree import ElementTree
@@ -13,7 +14,7 @@ from mcap.reader import make_reader
 from sample_mission import STARTED, TREE, frame, mission, rank_call, tick
 
 from executive.records import Picture, Record, Verified
-from logs import report
+from logs import report, viewer
 from logs.__main__ import main
 from logs.comparison import compare
 from logs.difference import parting
@@ -214,6 +215,22 @@ def test_a_recording_without_pictures_makes_no_video(
     run = record(tmp_path / "run", [(0.0, TREE)])
     assert main(["frames", str(run), "--out", str(tmp_path / "mission.mp4")]) == 2
     assert "holds no pictures" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("options", "flags"), [([], []), (["--web"], ["--web-viewer"])])
+def test_the_viewer_is_opened_natively_or_in_the_browser(
+    run_dir: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    options: list[str],
+    flags: list[str],
+) -> None:
+    (run_dir / "mission.rrd").touch()
+    seen = tmp_path / "arguments"
+    write = f"import sys; open({str(seen)!r}, 'w').write(chr(10).join(sys.argv[1:]))"
+    monkeypatch.setattr(viewer, "COMMAND", [sys.executable, "-c", write])
+    assert main(["view", str(run_dir), *options]) == 0
+    assert seen.read_text().splitlines() == [*flags, str(run_dir / "mission.rrd")]
 
 
 # --- tables ---
