@@ -140,20 +140,24 @@ def test_only_what_touches_both_fingers_is_held() -> None:
     client = connect()
     client.setGravity(0, 0, 0)
     hardware = Hardware(client, (0.0, 0.0, 0.0))
-    hand = hardware.link_pose("panda_grasptarget")
     hardware.open_fingers(0.06)
-    for _ in range(100):
-        client.stepSimulation()
+    step(client, 100)
+    hand = hardware.link_pose("panda_grasptarget")
+    aside = Rotation.from_quat(hand.orientation).apply((0.0, 0.0152, 0.0)) + hand.position
     cube = (Shape("box", (0.03, 0.03, 0.03), (1.0, 0.0, 0.0, 1.0)),)
-    body = create_body(client, cube, hand, mass=0.05)
-    client.stepSimulation()
+    body = create_body(client, cube, Pose(tuple(aside.tolist()), hand.orientation), mass=0.05)
+    step(client, 1)
+    assert client.getContactPoints(bodyA=hardware.body, bodyB=body)
     assert not hardware.touched()
     hardware.squeeze(10.0)
-    for _ in range(200):
-        client.stepSimulation()
+    step(client, 200)
     assert hardware.touched() == {body}
     hardware.open_fingers(0.06)
-    for _ in range(100):
-        client.stepSimulation()
+    step(client, 100)
     assert not hardware.touched()
     client.disconnect()
+
+
+def step(client: Any, steps: int) -> None:
+    for _ in range(steps):
+        client.stepSimulation()
