@@ -1,6 +1,6 @@
 """Moving the lift and the arm along a path of joint positions, smoothly and within their limits."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,23 +20,13 @@ _SETTLED = 0.004
 _SETTLING_S = 1.0
 
 
-def _never() -> bool:
-    return False
-
-
-def follow(
-    hardware: Hardware,
-    path: Sequence[Floats],
-    speed: float = SPEED,
-    until: Callable[[], bool] = _never,
-) -> Skill:
+def follow(hardware: Hardware, path: Sequence[Floats], speed: float = SPEED) -> Skill:
     """Move through joint positions (of `ARM`), starting from where the arm is.
 
     Args:
         hardware: the robot.
         path: the positions to pass; the last is where the arm comes to rest.
         speed: share of the joints' speed limits.
-        until: ends the motion early.
 
     Raises:
         CannotError: if a joint cannot follow.
@@ -47,7 +37,7 @@ def follow(
     stops = times[_corners(points)]
     reached, rate = 0.0, 0.0
     before = points[0]
-    while reached < times[-1] and not until():
+    while reached < times[-1]:
         next_stop = stops[np.searchsorted(stops, reached, side="right")]
         rate = min(1.0, rate + CONTROL_S / _RAMP_S, _slowing(next_stop - reached))
         reached = min(times[-1], reached + rate * CONTROL_S)

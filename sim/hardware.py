@@ -33,8 +33,6 @@ FINGER_FORCE = 40.0
 """The most that each finger presses (newtons); the real hand can do 70."""
 FINGER_TRAVEL = 0.04
 """How far each finger opens from the middle (metres)."""
-_ENOUGH = 1e4
-"""No limit of ours: the force that a position motor may use where the description says nothing."""
 
 
 class Hardware:
@@ -51,23 +49,25 @@ class Hardware:
         self.parents: dict[str, str] = {}
         self._force: dict[str, float] = {}
         self._speed: dict[str, float] = {}
-        for index in range(client.getNumJoints(self.body)):
-            info = client.getJointInfo(self.body, index)
-            name = info[1].decode()
-            self._joints[name] = index
-            link = info[12].decode()
-            self.links[link] = index
-            carriers = {number: carrier for carrier, number in self.links.items()}
-            self.parents[link] = carriers[info[16]]
-            self._force[name], self._speed[name] = info[10], info[11]
-        for inner in _DRIVE_LINKS:
-            del self.parents[inner]
-        self.parents["base_link"] = "map"
+        self._read_joints()
         self._arm, self._base, self._fingers, self._head = (
             [self._joints[name] for name in names] for names in (ARM, BASE, FINGERS, HEAD)
         )
         self._couple_fingers()
         self._reset(start)
+
+    def _read_joints(self) -> None:
+        """Index links and joints by name, with the joints' limits and what carries each link."""
+        carriers = {-1: "map"}
+        for index in range(self._client.getNumJoints(self.body)):
+            info = self._client.getJointInfo(self.body, index)
+            name, link = info[1].decode(), info[12].decode()
+            self._joints[name], self.links[link], carriers[index] = index, index, link
+            self._force[name], self._speed[name] = info[10], info[11]
+            self.parents[link] = carriers[info[16]]
+        for inner in _DRIVE_LINKS:
+            del self.parents[inner]
+        self.parents["base_link"] = "map"
 
     def _couple_fingers(self) -> None:
         """Make the fingers mirror each other, as the gear in the real hand does."""
@@ -111,19 +111,9 @@ class Hardware:
         return self._states(self._arm)[0]
 
     @property
-    def arm_speed(self) -> float:
-        """The fastest joint of `ARM` (m/s or rad/s)."""
-        return float(np.abs(self._states(self._arm)[1]).max())
-
-    @property
     def arm_speed_limits(self) -> Floats:
         """What the joints of `ARM` can do (m/s, rad/s)."""
         return np.array([self._speed[name] for name in ARM])
-
-    @property
-    def finger_gap(self) -> float:
-        """Distance between the finger pads (metres)."""
-        return float(self._states(self._fingers)[0].sum())
 
     @property
     def fingers_still(self) -> bool:
@@ -223,5 +213,5 @@ class Hardware:
         return np.array([s[0] for s in states]), np.array([s[1] for s in states])
 
     def _command(self, joints: list[int], names: tuple[str, ...], mode: int, **how: Any) -> None:
-        forces = [self._force[name] or _ENOUGH for name in names]
+        forces = [self._force[name] for name in names]
         self._client.setJointMotorControlArray(self.body, joints, mode, forces=forces, **how)
