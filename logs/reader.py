@@ -109,6 +109,15 @@ class Run:
         if events:
             yield Turn(time_s, tuple(events), None)
 
+    def thoughts(self) -> Iterator[At[Tick | LlmCall | Verified]]:
+        """Ticks, calls of the model and verifications, in the order in which they were."""
+        decoders: dict[str, Callable[[Any], Tick | LlmCall | Verified]] = {
+            "/bt/tick": messages.tick_from_message,
+            "/llm/call": messages.llm_call_from_message,
+            "/llm/verification": messages.verified_from_message,
+        }
+        return (at for _, at in self._read_all(decoders))
+
     def frames(self) -> Iterator[At[bytes]]:
         """Every camera picture, as JPEG."""
         return self._read("/camera/image/compressed", lambda message: bytes(message.data))

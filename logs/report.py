@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from textwrap import shorten
 from typing import Any
 
-from executive.records import NodeState, Tick
+from executive.records import LlmCall, NodeState, Tick, Verified
 from executive.types import Replied, Scored
 from logs.messages import in_words
 from logs.reader import At, Run
@@ -116,25 +116,27 @@ def _statuses(at: At[Tick]) -> dict[str, str]:
 def llm(run: Run) -> list[Row]:
     """Every call of the language model, with what the verification made of it."""
     rows: list[Row] = []
-    for at in run.llm_calls():
-        result = at.value.result
-        row: Row = {
-            "time_s": at.time_s,
-            "label": result.request.label,
-            **asdict(result.usage),
-            "messages": [asdict(message) for message in result.request.messages],
-        }
-        match result:
-            case Replied(text=text, finish_reason=reason):
-                row |= {"reply": text, "finish_reason": reason}
-            case Scored(request=request, scores=scores):
-                row["scores"] = dict(zip(request.places, scores, strict=True))
-        rows.append(row)
-    for verified in run.verifications():
-        made_of = [row for row in rows if row["time_s"] <= verified.time_s]
-        if made_of:
-            made_of[-1]["verified"] = asdict(verified.value)
+    for at in run.thoughts():
+        match at.value:
+            case LlmCall(result):
+                rows.append({"time_s": at.time_s, **_call(result)})
+            case Verified() if rows:
+                rows[-1]["verified"] = asdict(at.value)
     return rows
+
+
+def _call(result: Replied | Scored) -> Row:
+    row: Row = {
+        "label": result.request.label,
+        **asdict(result.usage),
+        "messages": [asdict(message) for message in result.request.messages],
+    }
+    match result:
+        case Replied(text=text, finish_reason=reason):
+            row |= {"reply": text, "finish_reason": reason}
+        case Scored(request=request, scores=scores):
+            row["scores"] = dict(zip(request.places, scores, strict=True))
+    return row
 
 
 def dialog(run: Run) -> list[Row]:

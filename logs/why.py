@@ -64,15 +64,15 @@ class _Chain:
         self._run = run
         self._family = _Family(run.tree())
         self._reasons: dict[str, str] = {}
-        self._thoughts = [
-            *((at.time_s, _outranked(at.value)) for at in run.llm_calls()),
-            *((at.time_s, _dropped(at.value)) for at in run.verifications()),
-        ]
-        self._since = -1.0
+        self._thoughts: list[LlmCall | Verified] = []
 
     def decisions(self) -> Iterator[Decision]:
         before: At[Tick] | None = None
-        for at in self._run.ticks():
+        for thought in self._run.thoughts():
+            if not isinstance(thought.value, Tick):
+                self._thoughts.append(thought.value)
+                continue
+            at = At(thought.time_s, thought.value)
             states = {node.path: node for node in at.value.nodes}
             if before is None and at.value.situation.get("command"):
                 yield self._understood(at, states)
@@ -107,18 +107,23 @@ class _Chain:
             return Decision(at.time_s, fallback.name, "nothing worked", "", "", tuple(alternatives))
         last = self._last(taken, lambda leaf: states[leaf.path].status == "SUCCESS") or taken
         source = _source(last)
-        if source == "llm":
-            alternatives += self._passed_over(at, last)
+        if source:
+            alternatives += dict.fromkeys(self._passed_over(at))
         answer = states[last.path].message or taken.name
         return Decision(at.time_s, fallback.name, answer, source, last.path, tuple(alternatives))
 
-    def _passed_over(self, at: At[Tick], by: NodeShape) -> Iterator[Alternative]:
+    def _passed_over(self, at: At[Tick]) -> Iterator[Alternative]:
         """What the model named or scored since the last such decision, and did not come through."""
-        taken = {c["place"] for c in at.value.situation.get("candidates") or ()}
-        for time_s, thoughts in self._thoughts:
-            if self._since < time_s <= at.time_s:
-                yield from (thought for thought in thoughts if thought.what not in taken)
-        self._since = at.time_s
+        situation = at.value.situation
+        taken = {c["place"] for c in situation.get("candidates") or ()}
+        for thought in self._thoughts:
+            if isinstance(thought, LlmCall):
+                yield from (a for a in _outranked(thought) if a.what not in taken)
+                continue
+            among = bool(situation.get("among"))
+            why_not = "none of its usual places" if among else "no such place here"
+            yield from (Alternative(name, why_not) for name in thought.dropped)
+        self._thoughts.clear()
 
     def _reason(self, child: NodeShape, states: dict[str, NodeState]) -> str:
         """Why a child failed: the message of the last leaf in it that failed, now or before."""
@@ -205,10 +210,6 @@ def _outranked(call: LlmCall) -> list[Alternative]:
     return [Alternative(place, f"scored {score:.2f}") for score, place in ranked]
 
 
-def _dropped(verified: Verified) -> list[Alternative]:
-    return [Alternative(name, "no such place here") for name in verified.dropped]
-
-
 def why_text(decisions: Iterable[Decision]) -> str:
     """A paragraph for each decision: what was settled, by whom, and what was not taken."""
     return "\n".join(_text(decision) for decision in decisions)
@@ -218,11 +219,9 @@ def _text(decision: Decision) -> str:
     says = f"  [{decision.source}]" if decision.source else ""
     lines = [f"{decision.time_s:9.3f}  {decision.question}: {decision.answer}{says}"]
     lines += [
-        f"{'':13}not {a.what}: {a.why_not}"
-        for a in decision.alternatives
-        if a.why_not != NOT_NEEDED
+        f"{'':13}- {a.what}: {a.why_not}" for a in decision.alternatives if a.why_not != NOT_NEEDED
     ]
     spare = [a.what for a in decision.alternatives if a.why_not == NOT_NEEDED]
     if spare:
-        lines.append(f"{'':13}not needed: {', '.join(spare)}")
+        lines.append(f"{'':13}- not needed: {', '.join(spare)}")
     return "\n".join(lines)

@@ -11,7 +11,7 @@ import cv2
 import pyarrow.parquet as pq
 import pytest
 from mcap.reader import make_reader
-from sample_mission import STARTED, TREE, frame, mission, rank_call, tick
+from sample_mission import STARTED, TREE, chat_call, frame, mission, rank_call, tick
 
 from executive.records import Picture, Record, Verified
 from logs import report, viewer
@@ -87,6 +87,14 @@ def test_what_the_model_named_in_vain_is_an_alternative(tmp_path: Path) -> None:
     assert decision.source == "llm"
     assert Alternative("desk", "scored 0.70") in decision.alternatives
     assert Alternative("spice rack", "no such place here") in decision.alternatives
+
+
+def test_what_was_dropped_belongs_to_the_call_before_it_even_at_one_moment(tmp_path: Path) -> None:
+    dropped = [Verified("general_pos", (), (), (name,)) for name in ("pantry", "cellar")]
+    records = [TREE, chat_call(), dropped[0], chat_call(), dropped[1]]
+    first, second = report.llm(Run(record(tmp_path, [(0.0, entry) for entry in records])))
+    assert first["verified"]["dropped"] == ("pantry",)
+    assert second["verified"]["dropped"] == ("cellar",)
 
 
 def test_the_chain_ends_with_the_outcome(run_dir: Path) -> None:
