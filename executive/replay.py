@@ -8,7 +8,7 @@ is a regression test:
 """
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -19,13 +19,14 @@ from typing import TypeVar
 from executive.command import EnglishInterpreter
 from executive.config import Settings
 from executive.errors import InputError
-from executive.events import DeadlinePassed, Ended, Inbox, StopRequested
+from executive.events import Inbox
 from executive.interfaces import Tree
 from executive.loop import Executive
+from executive.recorded import Absent, RecordedTime
 from executive.records import Record, Tick, TreeShape
 from executive.rules import rules
 from executive.situation import Situation
-from executive.types import ChatRequest, Goal, Place, Question, RankRequest
+from executive.types import Place
 from kb.advisor import PlaceAdvisor
 from kb.ontology import Ontology
 from logs.difference import (
@@ -36,7 +37,7 @@ from logs.difference import (
     outcome_aspects,
     tick_aspects,
 )
-from logs.reader import Run, Turn
+from logs.reader import Run
 from sim.home import Home, load_home
 from trees.mission import mission
 from trees.team import Team
@@ -100,72 +101,6 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     return Replay(run.name, judge.same, judge.time_s, perf_counter() - began, parting, tuple(notes))
 
 
-class RecordedTime:
-    """The Clock of a replay: each wait goes on to the next events of the recording."""
-
-    def __init__(self, turns: Iterable[Turn], inbox: Inbox, requests_before: int) -> None:
-        """Play these turns; their requests are numbered on from `requests_before`."""
-        self._turns = iter(turns)
-        self._inbox = inbox
-        self._requests_before = requests_before
-        self._now = 0.0
-        self._stopped = False
-        self.turn: Turn | None = None
-        """The turn of the recording that is played; None at its end."""
-        self.missed: Turn | None = None
-        """The first turn in which the tree was not ticked although it was when recorded."""
-        self._ticked = False
-
-    def now(self) -> float:
-        """The recorded mission time (s)."""
-        return self._now
-
-    def restart(self) -> None:
-        """Nothing to do: the recording has its own start."""
-
-    def wait(self, deadline: float | None) -> None:
-        """Post what was recorded next; at the end say stop, then let the deadline pass."""
-        if self._inbox.has_events:
-            return
-        turn = self.next_turn()
-        if turn is not None:
-            self._play(turn)
-        elif self._stopped and deadline is not None:
-            self._now = deadline
-        else:
-            self.stop("the end of the recording")
-
-    def next_turn(self) -> Turn | None:
-        """Go on to the next turn of the recording."""
-        if self.missed is None and self.turn and self.turn.tick and not self._ticked:
-            self.missed = self.turn
-        self.turn, self._ticked = next(self._turns, None), False
-        return self.turn
-
-    def tick(self) -> Tick | None:
-        """The tick that was recorded for the one that is made now."""
-        self._ticked = True
-        return self.turn.tick if self.turn else None
-
-    def stop(self, by: str) -> None:
-        """End the replay."""
-        self._stopped = True
-        self._inbox.post(StopRequested(by))
-
-    def _play(self, turn: Turn) -> None:
-        self._now = turn.time_s
-        for event in turn.events:
-            match event:
-                case Ended(request, result):
-                    self._inbox.end(request - self._requests_before, result)
-                case DeadlinePassed():
-                    pass  # the executive finds its inbox empty, as it did then
-                case StopRequested(by):
-                    self.stop(by)
-                case _:
-                    self._inbox.post(event)
-
-
 class Judge:
     """The Recorder of a replay: holds every tick against the recorded one."""
 
@@ -208,59 +143,6 @@ class Judge:
             return
         self.same += 1
         self.time_s = self._clock.now()
-
-
-class Absent:
-    """Stands in for robot, eyes, model and person: numbers requests, whose ends are recorded."""
-
-    name = "absent"
-    context_tokens = 4096
-    can_rank = True
-    holding = False
-
-    def __init__(self, inbox: Inbox) -> None:
-        """Open requests in this inbox."""
-        self._inbox = inbox
-        self.home: Home | None = None
-        """Whose furniture takes several views; None: one is enough."""
-
-    def start(self, goal: Goal) -> int:
-        """Pursue nothing."""
-        return self._inbox.open()
-
-    def see(self) -> int:
-        """Look at nothing."""
-        return self._inbox.open()
-
-    def chat(self, request: ChatRequest) -> int:
-        """Think nothing."""
-        return self._inbox.open()
-
-    def rank(self, request: RankRequest) -> int:
-        """Think nothing."""
-        return self._inbox.open()
-
-    def ask(self, question: Question) -> int:
-        """Ask nobody."""
-        return self._inbox.open()
-
-    def tell(self, text: str) -> None:
-        """Tell nobody."""
-
-    def cancel(self, request: int) -> None:
-        """Its end, had it come, was not recorded."""
-        self._inbox.drop(request)
-
-    def views(self, place: str) -> int:
-        """As many as the simulated robot has."""
-        return len(self.home.view_targets(place)) if self.home else 1
-
-    def count_tokens(self, text: str) -> int:
-        """None: prompts are not judged, and memory need not be short."""
-        return 0
-
-    def close(self) -> None:
-        """Nothing to free."""
 
 
 def _team(

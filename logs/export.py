@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 from executive.errors import InputError
 from executive.events import Ended
 from logs import report
-from logs.messages import gist
+from logs.event_messages import gist
 from logs.reader import Run
 
 Row = report.Row

@@ -35,6 +35,7 @@ from executive.records import (
 )
 from executive.types import Frame
 from logs import foxglove, messages
+from logs.event_messages import event_to_message
 from logs.recorder import Stamp
 from logs.schema import MESSAGES
 from logs.times import nanoseconds
@@ -125,7 +126,7 @@ class McapSink:
             case Utterance():
                 self._add_own("/dialog", messages.utterance_to_message(record), ns, stamp)
             case EventTaken(event):
-                message = messages.event_to_message(event, stamp.mission_s)
+                message = event_to_message(event, stamp.mission_s)
                 self._add_own("/event", message, ns, stamp)
             case Finished(outcome):
                 self._add_own("/outcome", messages.outcome_to_message(outcome), ns, stamp)

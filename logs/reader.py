@@ -16,6 +16,7 @@ from executive.events import Event
 from executive.records import LlmCall, Tick, TreeShape, Utterance, Verified
 from executive.types import Outcome
 from logs import messages
+from logs.event_messages import event_from_message
 from logs.recovery import BREAKS, SoundRecords, damaged_at, is_whole
 from logs.times import nanoseconds
 
@@ -90,7 +91,7 @@ class Run:
 
     def events(self) -> Iterator[At[Event]]:
         """Every event that the executive took; of what was seen, points without masks."""
-        return self._read("/event", messages.event_from_message)
+        return self._read("/event", event_from_message)
 
     def turns(self) -> Iterator[Turn]:
         """Events and ticks as they belong together."""
@@ -204,4 +205,4 @@ class _Exact(NamedTuple):
 
 
 def _exact_event(message: Any) -> _Exact:
-    return _Exact(message.mission_time_s, messages.event_from_message(message))
+    return _Exact(message.mission_time_s, event_from_message(message))

@@ -8,7 +8,7 @@ from typing import Any
 
 from executive.records import LlmCall, NodeState, Tick, Verified
 from executive.types import Replied, Scored
-from logs.messages import in_words
+from logs.event_messages import in_words
 from logs.reader import At, Run
 
 Row = dict[str, Any]

@@ -21,7 +21,7 @@ from executive.records import (
     Verified,
 )
 from logs import blueprint, markdown, rerun_scene, viewer
-from logs.messages import in_words
+from logs.event_messages import in_words
 from logs.recorder import Stamp
 from logs.rerun_tree import TreeView
 

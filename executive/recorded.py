@@ -1,0 +1,128 @@
+"""What stands in for time, robot, model and person when a recorded mission is run again."""
+
+from collections.abc import Iterable
+
+from executive.events import DeadlinePassed, Ended, Inbox, StopRequested
+from executive.records import Tick
+from executive.types import ChatRequest, Goal, Question, RankRequest
+from logs.reader import Turn
+from sim.home import Home
+
+
+class RecordedTime:
+    """The Clock of a replay: each wait goes on to the next events of the recording."""
+
+    def __init__(self, turns: Iterable[Turn], inbox: Inbox, requests_before: int) -> None:
+        """Play these turns; their requests are numbered on from `requests_before`."""
+        self._turns = iter(turns)
+        self._inbox = inbox
+        self._requests_before = requests_before
+        self._now = 0.0
+        self._stopped = False
+        self.turn: Turn | None = None
+        """The turn of the recording that is played; None at its end."""
+        self.missed: Turn | None = None
+        """The first turn in which the tree was not ticked although it was when recorded."""
+        self._ticked = False
+
+    def now(self) -> float:
+        """The recorded mission time (s)."""
+        return self._now
+
+    def restart(self) -> None:
+        """Nothing to do: the recording has its own start."""
+
+    def wait(self, deadline: float | None) -> None:
+        """Post what was recorded next; at the end say stop, then let the deadline pass."""
+        if self._inbox.has_events:
+            return
+        turn = self.next_turn()
+        if turn is not None:
+            self._play(turn)
+        elif self._stopped and deadline is not None:
+            self._now = deadline
+        else:
+            self.stop("the end of the recording")
+
+    def next_turn(self) -> Turn | None:
+        """Go on to the next turn of the recording."""
+        if self.missed is None and self.turn and self.turn.tick and not self._ticked:
+            self.missed = self.turn
+        self.turn, self._ticked = next(self._turns, None), False
+        return self.turn
+
+    def tick(self) -> Tick | None:
+        """The tick that was recorded for the one that is made now."""
+        self._ticked = True
+        return self.turn.tick if self.turn else None
+
+    def stop(self, by: str) -> None:
+        """End the replay."""
+        self._stopped = True
+        self._inbox.post(StopRequested(by))
+
+    def _play(self, turn: Turn) -> None:
+        self._now = turn.time_s
+        for event in turn.events:
+            match event:
+                case Ended(request, result):
+                    self._inbox.end(request - self._requests_before, result)
+                case DeadlinePassed():
+                    pass  # the executive finds its inbox empty, as it did then
+                case StopRequested(by):
+                    self.stop(by)
+                case _:
+                    self._inbox.post(event)
+
+
+class Absent:
+    """Stands in for robot, eyes, model and person: numbers requests, whose ends are recorded."""
+
+    name = "absent"
+    context_tokens = 4096
+    can_rank = True
+    holding = False
+
+    def __init__(self, inbox: Inbox) -> None:
+        """Open requests in this inbox."""
+        self._inbox = inbox
+        self.home: Home | None = None
+        """Whose furniture takes several views; None: one is enough."""
+
+    def start(self, goal: Goal) -> int:
+        """Pursue nothing."""
+        return self._inbox.open()
+
+    def see(self) -> int:
+        """Look at nothing."""
+        return self._inbox.open()
+
+    def chat(self, request: ChatRequest) -> int:
+        """Think nothing."""
+        return self._inbox.open()
+
+    def rank(self, request: RankRequest) -> int:
+        """Think nothing."""
+        return self._inbox.open()
+
+    def ask(self, question: Question) -> int:
+        """Ask nobody."""
+        return self._inbox.open()
+
+    def tell(self, text: str) -> None:
+        """Tell nobody."""
+
+    def cancel(self, request: int) -> None:
+        """Its end, had it come, was not recorded."""
+        self._inbox.drop(request)
+
+    def views(self, place: str) -> int:
+        """As many as the simulated robot has."""
+        return len(self.home.view_targets(place)) if self.home else 1
+
+    def count_tokens(self, text: str) -> int:
+        """None: prompts are not judged, and memory need not be short."""
+        return 0
+
+    def close(self) -> None:
+        """Nothing to free."""
