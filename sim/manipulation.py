@@ -38,6 +38,8 @@ _GRASPS_TRIED = 8
 _SPOTS_TRIED = 12
 _BEFORE_M = 0.6
 """Farther than this from where one stands to use a piece of furniture, nothing on it is tried."""
+_FOLDED_WITHIN = 0.05
+"""Farther than this from the folded pose (any joint but the last), the arm is out."""
 _CLOSING_S = 2.0
 _SETTLING_S = 0.3
 _DOWN = np.array([0.0, 0.0, -1.0])
@@ -91,6 +93,16 @@ class Manipulator:
         """Whether both fingers touch a thing, now."""
         return bool(self._hardware.touched())
 
+    @property
+    def handling(self) -> bool:
+        """Whether the arm is out or something is in the hand."""
+        return self._held is not None or not self._is_folded
+
+    @property
+    def _is_folded(self) -> bool:
+        off = np.abs(self._hardware.arm_positions - FOLDED)[:-1]
+        return bool(off.max() < _FOLDED_WITHIN)
+
     def pick(self, detection: Detection) -> Skill:
         """Grasp the detected thing, lift it, and fold the arm.
 
@@ -133,9 +145,9 @@ class Manipulator:
 
     def stow(self) -> Skill:
         """Bring the arm back over the base: rise, back off, fold."""
-        hardware, arm = self._hardware, self._hardware.arm_positions
-        if np.abs(arm - FOLDED)[:7].max() < 0.05:
+        if self._is_folded:
             return
+        hardware, arm = self._hardware, self._hardware.arm_positions
         base = hardware.base_pose
         rise = self._planning.line(
             base, arm, self._planning.hand(base, arm).shifted(-RISE_M * _DOWN)

@@ -67,6 +67,11 @@ class SimulatedRobot:
     # --- for the world ---
 
     @property
+    def handling(self) -> bool:
+        """Whether the arm is out or something is in the hand."""
+        return self._manipulator.handling
+
+    @property
     def base_pose(self) -> tuple[float, float, float]:
         """Where `base_link` is in `map`: x and y (metres), yaw (radians)."""
         x, y, yaw = (float(value) for value in self._hardware.base_pose)

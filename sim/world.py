@@ -23,14 +23,14 @@ from sim.robot import SimulatedRobot
 from sim.skill import CONTROL_S
 from sim.transforms import FrameTree
 
-STEP_S = 1 / 240
-"""Physics step: with longer ones, what the fingers hold creeps."""
-STEPS_PER_CONTROL = round(CONTROL_S / STEP_S)
-TRANSFORMS_EVERY = 24
-"""Steps between records of what moved: ten a second."""
+COARSE_STEPS, FINE_STEPS = 2, 4
+"""Physics steps per control period: driving with an empty hand, and handling things. With fewer of
+these, what the fingers hold creeps and falls."""
+TRANSFORMS_EVERY = 6
+"""Control periods between records of what moved: ten a second."""
 RESTING_M_S = 0.01
 """A thing slower than this is at rest."""
-SETTLING_STEPS = 240
+SETTLING_PERIODS = 60
 """The longest that the world goes on after the robot is done, for what it let go of."""
 _SHIFT_M, _TURN = 0.015, 0.2
 """How far the seed moves things from their spots (metres, radians)."""
@@ -64,10 +64,7 @@ class PhysicsWorld:
         self._models = models
         self._recorder = recorder
         self._client = connect(gui)
-        self._client.setPhysicsEngineParameter(
-            fixedTimeStep=STEP_S,
-            deterministicOverlappingPairs=1,
-        )
+        self._client.setPhysicsEngineParameter(deterministicOverlappingPairs=1)
         self._fixtures = build_home(self._client, home)
         if gui:
             aim_window(self._client, home.extent())
@@ -80,11 +77,12 @@ class PhysicsWorld:
         self.detector = SimulatedDetector(self.camera, self._things)
         manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan)
         self.robot = SimulatedRobot(self._hardware, manipulator, home, inbox, recorder)
+        self._periods = 0
         self._steps = 0
         self._owed = 0.0
         self._last_act = 0
         self._frames = FrameTree(self._client, self._hardware, self._things)
-        self._picture_every = round(1 / camera_hz / STEP_S) if camera_hz else 0
+        self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
 
     # --- SimulatedHome ---
 
@@ -93,15 +91,15 @@ class PhysicsWorld:
         """Whether the robot acts or something is still settling."""
         if self.robot.active:
             return True
-        return self._steps - self._last_act < SETTLING_STEPS and self._unsettled()
+        return self._periods - self._last_act < SETTLING_PERIODS and self._unsettled()
 
     def advance(self, at_most: float) -> float:
-        """Let at most one control period pass."""
+        """Let at most one control period pass; physics follows in whole periods."""
         passed = min(at_most, CONTROL_S)
         self._owed += passed
-        while self._owed > STEP_S - 1e-9:
-            self._owed -= STEP_S
-            self._step()
+        if self._owed > CONTROL_S - 1e-9:
+            self._owed -= CONTROL_S
+            self._pass_period()
         return passed
 
     def close(self) -> None:
@@ -135,17 +133,23 @@ class PhysicsWorld:
 
     # --- physics ---
 
-    def _step(self) -> None:
-        if self._steps % STEPS_PER_CONTROL == 0:
-            if self.robot.active:
-                self._last_act = self._steps
-            self.robot.control()
-        self._client.stepSimulation()
-        self._steps += 1
-        if self._steps % TRANSFORMS_EVERY == 0:
+    def _pass_period(self) -> None:
+        if self.robot.active:
+            self._last_act = self._periods
+        self.robot.control()
+        self._use_steps(FINE_STEPS if self.robot.handling else COARSE_STEPS)
+        for _ in range(self._steps):
+            self._client.stepSimulation()
+        self._periods += 1
+        if self._periods % TRANSFORMS_EVERY == 0:
             self._write_moved()
-        if self._picture_every and self._steps % self._picture_every == 0:
+        if self._picture_every and self._periods % self._picture_every == 0:
             self._recorder.record(Picture(self.camera.capture()))
+
+    def _use_steps(self, steps: int) -> None:
+        if steps != self._steps:
+            self._steps = steps
+            self._client.setPhysicsEngineParameter(fixedTimeStep=CONTROL_S / steps)
 
     def _write_moved(self) -> None:
         moved = self._frames.moved()
