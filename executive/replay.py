@@ -16,6 +16,8 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import TypeVar
 
+from pydantic import ValidationError
+
 from executive.command import EnglishInterpreter
 from executive.config import Settings
 from executive.errors import InputError
@@ -86,7 +88,7 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     run = Run(folder)
     inbox, situation = Inbox(), Situation()
     clock = RecordedTime(run.turns(), inbox, int(_kept(run, run.metadata, "requests_before")))
-    judge = Judge(clock)
+    judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox)
     team, notes = _team(run, situation, clock, judge, absent)
     executive = Executive(
@@ -96,7 +98,7 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     executive.run()
     parting = judge.parting or _late_parting(run, clock, situation)
     notes += judge.changes(run.tree())
-    if run.outcome() is None:
+    if judge.ends_early:
         notes.append("the recording ends early")
     return Replay(run.name, judge.same, judge.time_s, perf_counter() - began, parting, tuple(notes))
 
@@ -104,9 +106,10 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
 class Judge:
     """The Recorder of a replay: holds every tick against the recorded one."""
 
-    def __init__(self, clock: RecordedTime) -> None:
-        """Judge by the turn that the clock plays."""
+    def __init__(self, clock: RecordedTime, *, ends_early: bool) -> None:
+        """Judge by the turn that the clock plays; the last may be cut off if it `ends_early`."""
         self._clock = clock
+        self.ends_early = ends_early
         self._shape = TreeShape(())
         self.same = 0
         """Ticks as recorded, so far."""
@@ -125,6 +128,8 @@ class Judge:
 
     def changes(self, recorded: TreeShape) -> list[str]:
         """Behaviours that one tree has and the other has not, a note each."""
+        if not recorded.nodes:
+            return []  # the recording ends before the tree was
         then, now = ({node.path: None for node in s.nodes} for s in (recorded, self._shape))
         return [f"behaviour gone since: {path}" for path in then if path not in now] + [
             f"behaviour new since: {path}" for path in now if path not in then
@@ -132,6 +137,9 @@ class Judge:
 
     def _compare(self, tick: Tick) -> None:
         recorded = self._clock.tick()
+        if recorded is None and self.ends_early:
+            self._clock.stop("the end of the recording")
+            return
         aspects = (
             tuple(tick_aspects(recorded, tick, exact=True))
             if recorded
@@ -149,9 +157,7 @@ def _team(
     run: Run, situation: Situation, clock: RecordedTime, judge: Judge, absent: Absent
 ) -> tuple[Team, list[str]]:
     """The team of the recorded mission, and what of its knowledge has changed since."""
-    recorded = tomllib.loads(_kept(run, run.attachments, "config.toml").decode())
-    unset = {name: field.default for name, field in Settings.model_fields.items()}
-    settings = Settings(**{**unset, "place": {}, **recorded})
+    settings = _settings(run)
     home = _home(_kept(run, run.attachments, "home.toml"))
     knowledge = _ontology(home.places(), settings.defaults)
     if settings.world == "physics":
@@ -177,6 +183,18 @@ def _team(
         rules=rules(settings),
     )
     return team, changed
+
+
+def _settings(run: Run) -> Settings:
+    """As recorded; what is not recorded was not set, whatever the environment says now."""
+    recorded = tomllib.loads(_kept(run, run.attachments, "config.toml").decode())
+    fields = Settings.model_fields.items()
+    unset = {name: field.get_default(call_default_factory=True) for name, field in fields}
+    try:
+        return Settings(**{**unset, **recorded})
+    except ValidationError as error:
+        what = f"its config.toml has a setting that is not known any more: {error.errors()[0]}"
+        raise InputError(str(run.path), what) from error
 
 
 def _kept(run: Run, kept: Mapping[str, T], name: str) -> T:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from mcap.reader import make_reader
 from py_trees.common import Status as NodeStatus
 from sample_mission import STARTED, mission
 from test_outcomes import CASES, Case, favouring
@@ -157,14 +158,25 @@ def test_the_second_mission_of_a_session_replays(tmp_path: Path) -> None:
     assert replay(second).parting is None
 
 
-def test_a_killed_mission_replays_as_far_as_it_goes(tmp_path: Path) -> None:
+def test_a_mission_that_was_cut_anywhere_replays_as_far_as_it_goes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("logs.mcap_sink.CHUNK_BYTES", 1)
     run = recorded(tmp_path, "Find a power_drill", llm=False)
-    whole = replay(run)
-    file = run / "mission.mcap"
-    file.write_bytes(file.read_bytes()[: -file.stat().st_size // 3])
-    again = replay(run)
-    assert again.parting is None
-    assert again.ticks <= whole.ticks
+    file, ticks = run / "mission.mcap", replay(run).ticks
+    data = file.read_bytes()
+    with file.open("rb") as whole:
+        summary = make_reader(whole).get_summary()
+    assert summary is not None
+    counts = []
+    for chunk in summary.chunk_indexes[1:]:
+        file.write_bytes(data[: chunk.chunk_start_offset])
+        again = replay(run)
+        assert again.parting is None
+        assert again.notes == ("the recording ends early",)
+        counts.append(again.ticks)
+    assert counts == sorted(counts)
+    assert (counts[0], counts[-1]) == (0, ticks)
 
 
 # --- what has changed ---
@@ -214,6 +226,14 @@ def test_a_recording_without_its_home_is_refused(tmp_path: Path) -> None:
     sink.close()
     with pytest.raises(InputError, match="keeps no 'requests_before'"):
         replay(tmp_path)
+
+
+def test_a_configuration_that_this_version_does_not_know_is_refused(tmp_path: Path) -> None:
+    run = recorded(tmp_path, "Find a power_drill", llm=False)
+    file = run / "mission.mcap"
+    file.write_bytes(file.read_bytes().replace(b"camera_hz", b"camera_xx"))
+    with pytest.raises(InputError, match="config.toml"):
+        replay(run)
 
 
 def test_recordings_replay_from_the_command_line(
