@@ -47,7 +47,8 @@ def log_frames(stream: rr.RecordingStream) -> None:
     stream.log(PLAN, rr.CoordinateFrame("map"), static=True)
     stream.log(CAMERA, rr.CoordinateFrame(IMAGE_FRAME), static=True)
     stream.log(DETECTIONS, rr.CoordinateFrame(IMAGE_FRAME), static=True)
-    _log_camera(stream, Intrinsics(1, 1, 1.0, 1.0, 0.5, 0.5), Pose(), 1e-6)
+    _log_camera_pose(stream, Pose())
+    _log_pinhole(stream, Intrinsics(1, 1, 1.0, 1.0, 0.5, 0.5), 1e-6)
 
 
 def log_scene(stream: rr.RecordingStream, entities: Iterable[Entity]) -> None:
@@ -124,17 +125,15 @@ def log_path(stream: rr.RecordingStream, path: Path) -> None:
     stream.log(PLAN, rr.LineStrips3D(strips, colors=_PLANNED, radii=0.02))
 
 
-def log_picture(stream: rr.RecordingStream, frame: Frame) -> None:
-    """Log a picture with the camera that took it; what was seen in the last one is taken away."""
-    _log_camera(stream, frame.intrinsics, frame.pose, 0.6)
+def log_picture(stream: rr.RecordingStream, frame: Frame, before: Frame | None) -> None:
+    """Log a picture with the camera that took it; of the camera what differs from `before`."""
+    _log_camera_pose(stream, frame.pose)
+    if before is None or before.intrinsics != frame.intrinsics:
+        _log_pinhole(stream, frame.intrinsics, 0.6)
     stream.log(CAMERA, rr.EncodedImage(contents=jpeg(frame), media_type="image/jpeg"))
-    stream.log(DETECTIONS, rr.Clear(recursive=False))
 
 
-def _log_camera(
-    stream: rr.RecordingStream, intrinsics: Intrinsics, pose: Pose, reach_m: float
-) -> None:
-    i = intrinsics
+def _log_camera_pose(stream: rr.RecordingStream, pose: Pose) -> None:
     stream.log(
         CAMERA_POSE,
         rr.Transform3D(
@@ -144,6 +143,9 @@ def _log_camera(
             child_frame=PICTURE_FRAME,
         ),
     )
+
+
+def _log_pinhole(stream: rr.RecordingStream, i: Intrinsics, reach_m: float) -> None:
     stream.log(
         CAMERA,
         rr.Pinhole(
@@ -157,6 +159,11 @@ def _log_camera(
             line_width=reach_m / 100,
         ),
     )
+
+
+def clear_detections(stream: rr.RecordingStream) -> None:
+    """Take away what was seen in the last picture."""
+    stream.log(DETECTIONS, rr.Clear(recursive=False))
 
 
 def log_detections(stream: rr.RecordingStream, seen: Seen) -> None:

@@ -20,6 +20,7 @@ from executive.records import (
     Utterance,
     Verified,
 )
+from executive.types import Frame
 from logs import blueprint, markdown, rerun_scene, viewer
 from logs.event_messages import in_words
 from logs.recorder import Stamp
@@ -66,6 +67,8 @@ class RerunSink:
         rerun_scene.log_frames(self._stream)
         self._moved: list[rerun_scene.Moved] = []
         self._kept = 0
+        self._picture: Frame | None = None
+        self._detections_shown = False
         self._tick = 0
         self._tree: TreeView | None = None
         self._call: LlmCall | None = None
@@ -96,9 +99,10 @@ class RerunSink:
             case EventTaken():
                 self._write_event(record)
             case Picture(frame):
-                rerun_scene.log_picture(self._stream, frame)
+                self._write_picture(frame)
             case Seen():
                 rerun_scene.log_detections(self._stream, record)
+                self._detections_shown = True
             case Scene(entities):
                 rerun_scene.log_scene(self._stream, entities)
                 self._stream.send_blueprint(blueprint.mission_blueprint(entities))
@@ -128,6 +132,13 @@ class RerunSink:
         if self._tree is not None:
             self._tree.show(tick)
         self._stream.log(blueprint.BELIEF, _document(markdown.belief(tick.situation)))
+
+    def _write_picture(self, frame: Frame) -> None:
+        rerun_scene.log_picture(self._stream, frame, self._picture)
+        self._picture = frame
+        if self._detections_shown:
+            rerun_scene.clear_detections(self._stream)
+            self._detections_shown = False
 
     def _write_thought(self, thought: LlmCall | Verified) -> None:
         if isinstance(thought, LlmCall):

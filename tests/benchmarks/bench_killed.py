@@ -21,7 +21,7 @@ from executive.replay import replay
 from logs.reader import Run
 from logs.recovery import recover
 
-LONGEST_S = 9.0
+LONGEST_S = 5.0
 MISSION = r"""
 import io, os, sys, time
 from pathlib import Path
