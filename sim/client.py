@@ -32,8 +32,8 @@ def aim_window(client: BulletClient, corners: tuple[float, float, float, float])
 
 
 @contextmanager
-def _quiet() -> Iterator[None]:
-    """PyBullet's C code prints its arguments to standard output: nobody needs them."""
+def _without_stdout() -> Iterator[None]:
+    """PyBullet's C code prints its arguments: send the descriptor nowhere meanwhile."""
     sys.stdout.flush()
     kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
