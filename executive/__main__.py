@@ -21,7 +21,9 @@ EXIT = {
     Status.NOT_UNDERSTOOD: 2,
     Status.STOPPED: 130,
 }
-BAD_INPUT, STOPPED = 2, 130
+NOT_DONE, BAD_INPUT, STOPPED = 1, 2, 130
+
+log = logging.getLogger(__name__)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -46,6 +48,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     except KeyboardInterrupt:
         return STOPPED
+    except Exception as error:
+        log.debug("internal error", exc_info=error)
+        print(f"internal error: {type(error).__name__}: {error} (-vv says where)", file=sys.stderr)
+        return NOT_DONE
 
 
 def serve(
