@@ -90,6 +90,7 @@ def run_mission(
     during: Callable[[Goal, Inbox], None] = lambda goal, inbox: None,
     rules: dict[str, Any] | None = None,
     person: Callable[[Inbox], User] | None = None,
+    model: Callable[[Inbox], ScriptedModel] | None = None,
     first: Iterable[Event] = (),
     notebook: Notebook | None = None,
 ) -> Run:
@@ -119,7 +120,9 @@ def run_mission(
         user = Oracle(inbox, world.resting_place)
     else:
         user = Scripted(inbox, answers)
-    model = ScriptedModel(replies, inbox) if llm else None
+    thinker = None
+    if llm:
+        thinker = model(inbox) if model else ScriptedModel(replies, inbox)
     knowledge = ontology(defaults)
     team = Team(
         situation=situation,
@@ -130,8 +133,8 @@ def run_mission(
         robot=robot,
         eyes=Eyes(FakeCamera(world), FakeDetector(world), inbox, notebook),
         user=user,
-        model=model,
-        advisor=PlaceAdvisor(knowledge, model, remembers=remembers) if model else None,
+        model=thinker,
+        advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,
         rules=Rules(elicit=elicit, **(rules or {})),
     )
     executive = Executive(
@@ -146,7 +149,7 @@ def run_mission(
         inbox.post(event)
     executive.run()
     outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
-    return Run(outcome, world, user, model, notebook, goals, inbox, situation)
+    return Run(outcome, world, user, thinker, notebook, goals, inbox, situation)
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,7 @@
 """The executive ticks on events and deadlines only, stops at any moment, and repeats itself."""
 
 import threading
+import time
 from collections.abc import Callable
 
 import pytest
@@ -10,9 +11,24 @@ from executive.clock import SimulatedClock
 from executive.errors import ExecutiveError
 from executive.events import Inbox, StopRequested
 from executive.loop import Executive
-from executive.records import EventTaken, Note, TreeShape
+from executive.records import EventTaken, Note, Tick, TreeShape
 from executive.situation import Situation
-from executive.types import Answered, DriveTo, Goal, Halt, LookAt, Pick, PutDown, Question, Status
+from executive.types import (
+    Answered,
+    DriveTo,
+    Goal,
+    Halt,
+    LookAt,
+    Pick,
+    PutDown,
+    Question,
+    RankRequest,
+    Scored,
+    Source,
+    Status,
+    Usage,
+)
+from kb.scripted import Scripted as ScriptedModel
 from sim.fake import FakeRobot, FakeWorld
 from trees.nodes import Step
 from trees.tree import MissionTree
@@ -40,27 +56,70 @@ class SlowPerson:
     def tell(self, text: str) -> None: ...
 
 
-def test_while_a_person_thinks_there_is_no_tick() -> None:
+class SlowModel(ScriptedModel):
+    """Ranks in another thread, like a real model, when told to."""
+
+    inbox: Inbox
+    asked: threading.Event
+
+    def rank(self, request: RankRequest) -> int:
+        self.scored = Scored(request, tuple(range(len(request.options))), Usage())
+        self.request = self.inbox.open(real=True)
+        self.asked.set()
+        return self.request
+
+    def answer(self) -> None:
+        self.inbox.end(self.request, self.scored)
+
+
+def ticks_while(
+    asked: threading.Event, notebook: Notebook, answer: Callable[[], None]
+) -> list[int]:
+    """Count ticks twice, 0.15 s apart, after something was asked; then let it be answered."""
     counts: list[int] = []
-    notebook = Notebook()
+
+    def think() -> None:
+        assert asked.wait(5)
+        time.sleep(0.1)
+        counts.append(len(notebook.all(Tick)))
+        time.sleep(0.15)
+        counts.append(len(notebook.all(Tick)))
+        answer()
+
+    threading.Thread(target=think).start()
+    return counts
+
+
+def test_while_a_person_thinks_there_is_no_tick() -> None:
+    notebook, counts = Notebook(), []
 
     def person(inbox: Inbox) -> SlowPerson:
         person = SlowPerson(inbox)
-
-        def think() -> None:
-            assert person.asked.wait(5)
-            counts.append(len(notebook.records))
-            threading.Event().wait(0.15)
-            counts.append(len(notebook.records))
-            person.answer("high table")
-
-        threading.Thread(target=think).start()
+        counts.append(ticks_while(person.asked, notebook, lambda: person.answer("high table")))
         return person
 
     run = run_mission("Find a peach.", llm=False, person=person, notebook=notebook)
+    [[before, after]] = counts
+    assert before == after > 0
     assert run.outcome.status == Status.DONE
-    assert counts[1] - counts[0] <= 1, "at most the tick that was being written"
-    assert run.outcome.mission_time_s > 0.15, "mission time holds the thinking"
+    assert run.outcome.mission_time_s > 0.25, "mission time holds the thinking"
+    assert run.outcome.thinking_time_s == 0.0, "which was the person's, not the model's"
+
+
+def test_while_the_model_thinks_there_is_no_tick() -> None:
+    notebook, counts = Notebook(), []
+
+    def model(inbox: Inbox) -> SlowModel:
+        model = SlowModel([], inbox)
+        model.inbox, model.asked = inbox, threading.Event()
+        counts.append(ticks_while(model.asked, notebook, model.answer))
+        return model
+
+    run = run_mission("Find a peach.", model=model, notebook=notebook)
+    [[before, after]] = counts
+    assert before == after > 0
+    assert run.outcome.source == Source.LLM
+    assert run.outcome.thinking_time_s == pytest.approx(0.25, abs=0.1)
 
 
 def test_every_tick_has_a_cause() -> None:

@@ -14,7 +14,7 @@ from conftest import Notebook
 from executive.app import Session
 from executive.config import KnowledgeSystem, load_settings
 from executive.events import StopRequested
-from executive.records import Transforms
+from executive.records import Tick, Transforms
 from executive.types import Kind, Outcome, Status
 
 pytestmark = [pytest.mark.physics, pytest.mark.llm]
@@ -64,6 +64,20 @@ def the_thing_is_where_it_belongs(session: Session, outcome: Outcome) -> bool:
             return resting is None and session.robot.holding
         case _:
             return resting == "delivery" and not session.robot.holding
+
+
+def test_the_same_seed_gives_the_same_ticks_and_times(tmp_path: Path) -> None:
+    def one() -> list[object]:
+        settings = load_settings(knowledge="okb", user="oracle", runs=tmp_path, seed=5)
+        session, notebook = Session(settings, out=io.StringIO()), Notebook()
+        record = session.recorder.record
+        session.recorder.record = lambda r: (notebook.record(r), record(r))[1]  # type: ignore[method-assign]
+        outcome = session.run("Take a peach.")
+        session.close()
+        ticks = [(t.cause, t.tip, t.nodes, t.situation) for t in notebook.all(Tick)]
+        return [outcome.mission_time_s, outcome.visited, ticks]
+
+    assert one() == one()
 
 
 @pytest.mark.parametrize("knowledge", [KnowledgeSystem.OKB], ids=str)
