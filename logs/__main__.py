@@ -79,6 +79,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     view = add("view", _view, "show the mission in the rerun viewer", "run")
     view.add_argument("--web", action="store_true", help="in the browser, served to this machine")
+    view.add_argument("--png", type=Path, metavar="FILE", help="instead, a picture of the viewer")
+    view.add_argument("--at", type=float, default=0.0, metavar="S", help="at this mission time")
     mend = add("recover", _recover, "write a broken mcap file whole again, as far as it reads")
     mend.add_argument("file", type=Path, metavar="FILE")
     return parser
@@ -120,13 +122,13 @@ def _ticks(options: argparse.Namespace) -> Answer:
 def _timeline(options: argparse.Namespace) -> Answer:
     spans = report.timeline(Run(options.run))
     if options.svg:
-        _write(options.svg, gantt.svg(spans))
+        _write(options.svg, gantt.svg(spans).encode())
     return Answer([asdict(span) for span in spans], report.timeline_text(spans))
 
 
-def _write(file: Path, text: str) -> None:
+def _write(file: Path, data: bytes) -> None:
     try:
-        file.write_text(text, encoding="utf-8")
+        file.write_bytes(data)
     except OSError as error:
         right = "name a file in an existing folder"
         raise InputError(str(file), f"cannot be written: {error.strerror}", right) from error
@@ -188,6 +190,9 @@ def _view(options: argparse.Namespace) -> Answer:
     recording = options.run / "mission.rrd" if options.run.is_dir() else options.run
     if not recording.is_file():
         raise InputError(str(options.run), "holds no mission.rrd", "name a run's folder")
+    if options.png:
+        _write(options.png, viewer.picture(recording, options.at))
+        return Answer(str(options.png), str(options.png))
     viewer.show(recording, web=options.web)
     return Answer(str(recording), f"shown: {recording}")
 

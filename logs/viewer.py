@@ -1,5 +1,7 @@
 """The rerun viewer as a program of its own, reachable from this machine only."""
 
+import os
+import signal
 import socket
 import subprocess
 import sys
@@ -12,6 +14,9 @@ from executive.errors import ExecutiveError
 COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
 START_S = 20.0
 """How long a viewer may take to start."""
+SETTLE_S = 30.0
+"""How long its picture may take to come to rest."""
+MISSION_TIME = "mission_time"
 _NO_VIEWER = "the rerun viewer does not start; it needs a display"
 
 
@@ -37,8 +42,40 @@ class LiveViewer:
     address: str
     process: subprocess.Popen[bytes]
 
+    def close(self) -> None:
+        """End it, with the process that it runs in."""
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
 
-def start() -> LiveViewer:
+
+def picture(recording: Path, mission_s: float) -> bytes:
+    """The viewer at a mission time as a PNG file, once it does not change any more.
+
+    It needs no display, but a Vulkan driver (Debian's mesa-vulkan-drivers).
+
+    Raises:
+        ExecutiveError: if the viewer does not start, or its picture does not come to rest.
+    """
+    from rerun.experimental import ViewerClient
+
+    live = start("--headless")
+    try:
+        client = ViewerClient.connect(live.address)
+        client.open(str(recording.resolve()))
+        client.set_time(MISSION_TIME, duration=mission_s, play_state="paused")
+        latest = time.monotonic() + SETTLE_S
+        pictures: list[bytes] = [b"", client.take_screenshot()]
+        while client.get_state().loading or len(set(pictures[-3:])) > 1:
+            if time.monotonic() > latest:
+                raise ExecutiveError("the viewer's picture does not come to rest")
+            time.sleep(0.2)
+            pictures.append(client.take_screenshot())
+        return pictures[-1]
+    finally:
+        live.close()
+
+
+def start(*options: str) -> LiveViewer:
     """Start a viewer.
 
     Raises:
@@ -46,7 +83,7 @@ def start() -> LiveViewer:
     """
     port = _free_port()
     process = subprocess.Popen(
-        [*COMMAND, "--port", str(port), "--expect-data-soon"],
+        [*COMMAND, *options, "--port", str(port), "--expect-data-soon"],
         start_new_session=True,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,

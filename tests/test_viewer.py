@@ -4,7 +4,6 @@ With `SCREENSHOTS=DIR` in the environment the pictures are kept there, to be loo
 """
 
 import os
-import signal
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,6 +16,7 @@ from rerun.experimental import ViewerClient
 from sample_mission import mission
 
 from logs import viewer
+from logs.__main__ import main
 from logs.blueprint import MISSION_TIME
 from logs.recorder import Stamp
 from logs.rerun_sink import RerunSink
@@ -41,16 +41,13 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ViewerClient]:
     for mission_s, record in mission():
         sink.write(Stamp(mission_s, 0), record)
     sink.close()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(viewer, "COMMAND", [*viewer.COMMAND, "--headless"])
-        live = viewer.start()
+    live = viewer.start("--headless")
     client = ViewerClient.connect(live.address)
     try:
         client.open(str(path))
         yield client
     finally:
-        os.killpg(live.process.pid, signal.SIGKILL)
-        live.process.wait()
+        live.close()
 
 
 def screenshot(client: ViewerClient, mission_s: float) -> NDArray[np.uint8]:
@@ -96,6 +93,18 @@ def test_the_blueprint_in_the_file_lays_out_the_views(client: ViewerClient) -> N
 
 def test_the_picture_and_its_detection_are_on_screen(client: ViewerClient) -> None:
     assert green(screenshot(client, 6.2)) > green(screenshot(client, 5.0)) + 100
+
+
+def test_a_picture_of_the_viewer_is_taken_from_the_command_line(tmp_path: Path) -> None:
+    sink = RerunSink(tmp_path / "mission.rrd")
+    for mission_s, record in mission():
+        sink.write(Stamp(mission_s, 0), record)
+    sink.close()
+    file = tmp_path / "picture.png"
+    assert main(["view", str(tmp_path), "--at", "6.2", "--png", str(file)]) == 0
+    taken = cv2.imread(str(file))
+    assert taken is not None
+    assert green(taken.astype(np.uint8)) > 100
 
 
 def green(image: NDArray[np.uint8]) -> int:
