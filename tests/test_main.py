@@ -177,5 +177,5 @@ def test_a_signal_before_the_first_command_ends_the_session() -> None:
         assert "What can I do" in process.stderr.readline()
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=20)
+        process.wait(timeout=20)
     assert process.returncode == 130
