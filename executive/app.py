@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable
 from datetime import UTC, datetime
 from importlib.metadata import version
-from importlib.resources import files
 from pathlib import Path
 from typing import TextIO
 
@@ -43,7 +42,7 @@ from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
 from logs.rerun_sink import RerunSink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
-from sim.home import Home, load_home
+from sim.home import Home, home_text, load_home
 from sim.objects import load_objects
 from trees.mission import mission
 from trees.team import Team
@@ -79,7 +78,6 @@ class Session:
         self._view = view
         self.inbox = inbox or Inbox()
         self.home = load_home(settings.home).with_placement(settings.place)
-        self._home_file = home_file(settings.home)
         self.knowledge = Ontology(self.home.places(), defaults=settings.defaults)
         self.model = model or build_model(settings, self.inbox)
         self.recorder = FanOut(lambda: self.clock.now())
@@ -174,13 +172,11 @@ class Session:
         write(folder / "config.toml", config)
         attachments = {
             "config.toml": config.encode(),
-            "home.toml": self._home_file,
+            "home.toml": home_text(self.settings.home).encode(),
             **self.knowledge.files(),
         }
-        request = self.inbox.open()  # numbers go on from mission to mission: a replay must know
-        self.inbox.drop(request)
         metadata = {
-            "requests_before": str(request),
+            "requests_before": str(self.inbox.last),
             "seed": str(self.settings.seed),
             "model": self.model.name if self.model else "none",
             **{name: version(name) for name in PACKAGES},
@@ -191,13 +187,6 @@ class Session:
         )
         self.recorder.open(sinks, started)
         self.world.describe()
-
-
-def home_file(name_or_path: str) -> bytes:
-    """The home as its file has it, to be kept with the log."""
-    packaged = files("sim").joinpath("homes", f"{name_or_path}.toml")
-    is_path = name_or_path.endswith(".toml")
-    return Path(name_or_path).read_bytes() if is_path else packaged.read_bytes()
 
 
 def working(*makers: Callable[[], Sink]) -> list[Sink]:

@@ -76,6 +76,11 @@ class Inbox:
         self.post(Ended(request, result))
 
     @property
+    def last(self) -> int:
+        """Number of the last request that was opened (0: none yet)."""
+        return self._last
+
+    @property
     def awaits_real(self) -> bool:
         """Whether something that takes real time (a person, a model) is under way."""
         return any(self._open.values())

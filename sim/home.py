@@ -180,6 +180,15 @@ def load_home(name_or_path: str) -> Home:
     return home
 
 
+def home_text(name_or_path: str) -> str:
+    """The file of a home, as `load_home` reads it.
+
+    Raises:
+        InputError: if there is no such home.
+    """
+    return _read(name_or_path)[0]
+
+
 def packaged_homes() -> tuple[str, ...]:
     """Names of the homes that come with the project."""
     entries = files("sim").joinpath("homes").iterdir()
