@@ -64,6 +64,10 @@ class Candidate:
     source: Source
     probability: float | None = None
 
+    def __str__(self) -> str:
+        """The place, with its probability if there is one."""
+        return self.place if self.probability is None else f"{self.place} {self.probability:.2f}"
+
 
 @dataclass(frozen=True, slots=True)
 class Outcome:

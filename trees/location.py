@@ -154,7 +154,7 @@ class RankPlaces(ModelAction):
         if not self.situation.among:
             ranked = ranked[: self.team.rules.top]
         self.situation.candidates = ranked
-        return self.succeed(", ".join(f"{c.place} {c.probability:.2f}" for c in ranked))
+        return self.succeed(", ".join(map(str, ranked)))
 
 
 class Chat(ModelAction):

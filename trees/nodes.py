@@ -100,6 +100,7 @@ class Action(Step):
 
     def start_again(self) -> Status:
         """Start, once more."""
+        self.feedback_message = ""
         self._request = self.start()
         self.situation.deadlines[self.name] = self.team.clock.now() + self._patience_s
         return Status.RUNNING
