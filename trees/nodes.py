@@ -77,6 +77,7 @@ class Action(Step):
         super().__init__(name, team)
         self._patience_s = patience_s
         self._request: int | None = None
+        self._deadline = 0.0
 
     @abstractmethod
     def start(self) -> int:
@@ -102,29 +103,32 @@ class Action(Step):
         """Start, once more."""
         self.feedback_message = ""
         self._request = self.start()
-        self.situation.deadlines[self.name] = self.team.clock.now() + self._patience_s
+        self._deadline = self.team.clock.now() + self._patience_s
+        self.situation.deadlines[self.name] = self._deadline
         return Status.RUNNING
 
     def update(self) -> Status:
         """Look whether it ended."""
         assert self._request is not None
         result = self.situation.results.pop(self._request, None)
-        if result is None:
-            if self.team.clock.now() < self.situation.deadlines[self.name]:
-                return Status.RUNNING
-            self.cancel(self._request)
-            return self.out_of_time()
-        self._request, request = None, self._request
-        status = self.ended(result)
-        assert status != Status.RUNNING or self._request not in (None, request)
-        return status
+        if result is not None:
+            self._wait_no_more()
+            return self.ended(result)
+        if self.team.clock.now() < self._deadline:
+            return Status.RUNNING
+        self.cancel(self._request)
+        self._wait_no_more()
+        return self.out_of_time()
 
     def terminate(self, new_status: Status) -> None:
         """Cancel what is still under way."""
-        self.situation.deadlines.pop(self.name, None)
-        if new_status == Status.INVALID and self._request is not None:
+        if self._request is not None:
             self.cancel(self._request)
+            self._wait_no_more()
+
+    def _wait_no_more(self) -> None:
         self._request = None
+        del self.situation.deadlines[self.name]
 
     def failed(self, result: Result) -> Status:
         """Fail for the reason in a result that is no success."""
