@@ -115,15 +115,17 @@ class Session:
             recorder=self.recorder,
         )
         self.inbox.post(Started(words))
-        executive.run()
-        self.ticks = executive.ticks
-        outcome = situation.outcome(
-            mission_time_s=self.clock.now(),
-            wall_time_s=time.monotonic() - began,
-            run_dir=str(folder),
-        )
-        self.recorder.record(Finished(outcome))
-        self.recorder.close()
+        try:
+            executive.run()
+            self.ticks = executive.ticks
+            outcome = situation.outcome(
+                mission_time_s=self.clock.now(),
+                wall_time_s=time.monotonic() - began,
+                run_dir=str(folder),
+            )
+            self.recorder.record(Finished(outcome))
+        finally:
+            self.recorder.close()
         write(folder / "outcome.json", to_json(outcome) + "\n")
         return outcome
 
