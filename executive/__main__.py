@@ -139,6 +139,12 @@ def parser() -> argparse.ArgumentParser:
     )
     option("--world", choices=["physics", "fake"])
     option("--seed", type=int, metavar="N")
+    option("--memory", type=Path, metavar="FILE")
+    p.add_argument(
+        "--learn",
+        action=argparse.BooleanOptionalAction,
+        help="whether to remember what is seen and said (default: it does)",
+    )
     option("--runs", type=Path, metavar="DIR")
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     p.add_argument("--gui", action="store_true", help="show PyBullet's own window")

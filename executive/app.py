@@ -3,7 +3,9 @@
 Nothing else knows all the rooms of the house.
 """
 
+import json
 import logging
+import math
 import sys
 import time
 from collections.abc import Callable
@@ -33,9 +35,10 @@ from executive.records import Finished
 from executive.rules import rules
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
-from executive.types import Answered, Outcome
+from executive.types import Answered, Outcome, Vector3
 from executive.user import Console, Nobody, Oracle
 from kb.advisor import PlaceAdvisor
+from kb.facts import FactStore
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
 from kb.server import Server
@@ -81,6 +84,7 @@ class Session:
         self.home = load_home(settings.home).with_placement(settings.place)
         self._home_file = home_file(settings.home)
         self.knowledge = Ontology(self.home.places(), defaults=settings.defaults)
+        self.facts = FactStore(settings.memory, learns=settings.learn)
         self.model = model or build_model(settings, self.inbox)
         self.recorder = FanOut(lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
@@ -147,9 +151,10 @@ class Session:
                     return answer.text if isinstance(answer, Answered) else None
 
     def close(self) -> None:
-        """Free the model and the simulator."""
+        """Free the model, the simulator and the file of facts."""
         if self.model:
             self.model.close()
+        self.facts.close()
         self.world.close()
 
     def _team(self, situation: Situation) -> Team:
@@ -166,7 +171,13 @@ class Session:
             model=self.model,
             advisor=self.advisor,
             rules=rules(settings),
+            facts=self.facts,
+            place_at=self._place_at,
         )
+
+    def _place_at(self, point: Vector3) -> str | None:
+        """Where things are by the robot's map; in the instant world they have no true position."""
+        return None if self.settings.world == "fake" else furniture_at(self.home, point)
 
     def _open_logs(self, folder: Path, started: datetime) -> None:
         config = self.settings.to_toml()
@@ -175,6 +186,7 @@ class Session:
             "config.toml": config.encode(),
             "home.toml": self._home_file,
             **self.knowledge.files(),
+            "facts.json": json.dumps(self.facts.beliefs()).encode(),
         }
         request = self.inbox.open()
         self.inbox.drop(request)
@@ -197,6 +209,18 @@ def home_file(name_or_path: str) -> bytes:
     packaged = files("sim").joinpath("homes", f"{name_or_path}.toml")
     is_path = name_or_path.endswith(".toml")
     return Path(name_or_path).read_bytes() if is_path else packaged.read_bytes()
+
+
+def furniture_at(home: Home, point: Vector3) -> str | None:
+    """The furniture that has this point of `map` (metres) above its outline; None if none has."""
+    for piece in (*home.furniture, home.delivery):
+        x, y, yaw = piece.pose
+        east, north = point[0] - x, point[1] - y
+        ahead = math.cos(yaw) * east + math.sin(yaw) * north
+        left = math.cos(yaw) * north - math.sin(yaw) * east
+        if abs(ahead) <= piece.size[0] / 2 and abs(left) <= piece.size[1] / 2:
+            return piece.name
+    return None
 
 
 def working(*makers: Callable[[], Sink]) -> list[Sink]:

@@ -42,6 +42,10 @@ class Settings(BaseSettings):
     )
     world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
     seed: int = Field(0, ge=0, description="of the world, the model and the simulated person")
+    memory: Path | None = Field(
+        None, description="SQLite file of what was seen and said; without, this session only"
+    )
+    learn: bool = Field(True, description="whether to remember what is seen and said")
     runs: Path = Field(Path("runs"), description="where each run leaves its folder")
 
     temperature: float = Field(0.6, ge=0, description="of the language model (paper: 0.6)")

@@ -4,6 +4,7 @@ All slow work has one shape: a method that starts it returns a request number at
 comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
 """
 
+from collections.abc import Iterable
 from typing import Protocol
 
 from executive.records import NodeState, Record, TreeShape
@@ -150,6 +151,34 @@ class Knowledge(Protocol):
 
     def places_named(self, words: str) -> tuple[str, ...]:
         """Furniture that the words name, in their order; a room stands for its furniture."""
+        ...
+
+
+class Facts(Protocol):
+    """What was seen, said and done so far, in this mission and before it. Never raises."""
+
+    def saw(self, names: Iterable[str], place: str) -> None:
+        """These objects were seen there."""
+        ...
+
+    def missed(self, name: str, place: str) -> None:
+        """It was looked for there, and is not there."""
+        ...
+
+    def heard(self, name: str, places: Iterable[str]) -> None:
+        """The person said that it is at one of these places, the likeliest first."""
+        ...
+
+    def took(self, name: str, place: str) -> None:
+        """The robot has it, from there."""
+        ...
+
+    def put(self, name: str, place: str) -> None:
+        """The robot has put it down there."""
+        ...
+
+    def places_of(self, name: str) -> tuple[str, ...]:
+        """Where it was seen or said to be, freshest first, as far as no later look contradicts."""
         ...
 
 

@@ -53,6 +53,8 @@ class Situation:
     candidate: Candidate | None = None
     """Where the robot is going or looking now."""
     view: int = 0
+    views_without: int = 0
+    """Pictures of this place so far in which the thing was not."""
     visited: list[str] = field(default_factory=list)
     unreached: dict[str, str] = field(default_factory=dict)
     """Places that the robot could not get to, and why."""
@@ -96,6 +98,10 @@ class Situation:
     def next_deadline(self) -> float | None:
         """The earliest time (mission time, s) at which a tick is due without an event."""
         return min(self.deadlines.values(), default=None)
+
+    def not_visited(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
+        """The candidates less the places where the robot has looked already."""
+        return tuple(c for c in candidates if c.place not in self.visited)
 
     @property
     def search_so_far(self) -> str:

@@ -114,6 +114,10 @@ class Place:
 # --- what the robot can be asked to do ---
 
 
+DELIVERY = "delivery"
+"""The place by the person where brought things are put down; it is no furniture to search."""
+
+
 @dataclass(frozen=True, slots=True)
 class DriveTo:
     """Go and stand before a piece of furniture, `person` or `delivery`."""
@@ -123,7 +127,7 @@ class DriveTo:
 
 @dataclass(frozen=True, slots=True)
 class LookAt:
-    """Point the head at a place; `view` counts from 0 to `Robot.views(place) - 1`."""
+    """Point the head at a place or `delivery`; `view` counts from 0 to `Robot.views(place) - 1`."""
 
     place: str
     view: int = 0

@@ -171,6 +171,30 @@ def test_interactive_runs_one_command_a_line() -> None:
     assert outcomes[0]["run_dir"] != outcomes[1]["run_dir"]
 
 
+@pytest.mark.parametrize(
+    ("options", "sources"),
+    [
+        ([], ["user", "user"]),
+        (["--memory", "facts.sqlite"], ["user", "memory"]),
+        (["--memory", "facts.sqlite", "--no-learn"], ["user", "user"]),
+    ],
+)
+def test_facts_outlive_the_session_in_a_file_only(
+    options: list[str], sources: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = []
+    for _ in range(2):
+        assert main([*QUICK, *options, "Find a sugar_box"]) == 0
+        said.append(json.loads(capsys.readouterr().out)["source"])
+    assert said == sources
+
+
+def test_facts_outlive_the_mission(tmp_path: Path) -> None:
+    with start("--json") as process:
+        out, _ = process.communicate("Find an apple\nliving room\nFind an apple\n", timeout=20)
+    assert [json.loads(line)["source"] for line in out.splitlines()] == ["user", "memory"]
+
+
 def test_a_signal_before_the_first_command_ends_the_session() -> None:
     with start() as process:
         assert process.stderr

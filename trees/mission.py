@@ -1,8 +1,9 @@
 """The mission: from words to a deed, and to an honest word when it cannot be done.
 
 understand ─> which object ─> search ─────────────────────────> act ───────────> report
-words         ontology        ontology knows one place          find, take
-              else person     else LLM, verified                or bring
+words         ontology        memory: where it was seen         find, take
+              else person     else ontology: its one place      or bring
+                              else LLM, verified
                               else person; visit, look;
                               not seen: ask the person
 """

@@ -125,6 +125,8 @@ class AskWhere(Ask):
         """Any places that exist become the candidates."""
         places = self.team.knowledge.places_named(answer)
         if places:
+            assert self.situation.object
+            self.team.facts.heard(self.situation.object, places)
             self.situation.candidates = candidates_from(places, Source.USER)
         return bool(places)
 
