@@ -112,7 +112,7 @@ def parser() -> argparse.ArgumentParser:
 
     def option(name: str, help: str | None = None, **kwargs: Any) -> None:
         field = Settings.model_fields[name.removeprefix("--")]
-        default = f" (default: {field.default})" if field.default is not None else ""
+        default = "" if field.default in (None, ()) else f" (default: {field.default})"
         p.add_argument(name, help=f"{help or field.description}{default}", **kwargs)
 
     p.add_argument("words", nargs="?", help='a command such as "Bring a sugar_box"; none: ask')
@@ -130,6 +130,14 @@ def parser() -> argparse.ArgumentParser:
         help="ask for a list (paper) or score each known place "
         "(default: rank for the embedded model, else generate)",
     )
+    p.add_argument(
+        "--grammar",
+        action=argparse.BooleanOptionalAction,
+        help="hold the model's replies to their JSON schema (default: trust and verify)",
+    )
+    option("--prompts", type=Path, metavar="FILE")
+    option("--kb", action="append", type=Path, metavar="FILE")
+    option("--person", metavar="NAME")
     option("--user", choices=["console", "oracle", "none"])
     p.add_argument(
         "--place",

@@ -41,6 +41,7 @@ from kb.advisor import PlaceAdvisor
 from kb.facts import FactStore
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
+from kb.prompts import Prompts
 from kb.server import Server
 from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
@@ -83,7 +84,13 @@ class Session:
         self.inbox = inbox or Inbox()
         self.home = load_home(settings.home).with_placement(settings.place)
         self._home_file = home_file(settings.home)
-        self.knowledge = Ontology(self.home.places(), defaults=settings.defaults)
+        self.knowledge = Ontology(
+            self.home.places(),
+            defaults=settings.defaults,
+            files=settings.kb,
+            person=settings.person,
+        )
+        prompts = Prompts.load(settings.prompts)
         self.facts = FactStore(settings.memory, learns=settings.learn)
         self.model = model or build_model(settings, self.inbox)
         self.recorder = FanOut(lambda: self.clock.now())
@@ -96,7 +103,13 @@ class Session:
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
         self.advisor = (
-            PlaceAdvisor(self.knowledge, self.model, remembers=settings.remembers, top=settings.top)
+            PlaceAdvisor(
+                self.knowledge,
+                self.model,
+                remembers=settings.remembers,
+                top=settings.top,
+                prompts=prompts,
+            )
             if self.model
             else None
         )
@@ -273,6 +286,7 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
             top_p=settings.top_p,
             max_tokens=settings.max_tokens,
             seed=settings.seed,
+            grammar=settings.grammar,
         )
     return LlamaCpp(
         embedded_model() if settings.llm == "embedded" else Path(settings.llm),
@@ -282,6 +296,9 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         top_p=settings.top_p,
         max_tokens=settings.max_tokens,
         seed=settings.seed,
+        threads=settings.threads,
+        gpu_layers=settings.gpu_layers,
+        grammar=settings.grammar,
     )
 
 

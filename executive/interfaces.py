@@ -4,7 +4,7 @@ All slow work has one shape: a method that starts it returns a request number at
 comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from executive.records import NodeState, Record, TreeShape
@@ -143,6 +143,10 @@ class Knowledge(Protocol):
 
     def nearest_names(self, words: str) -> tuple[str, ...]:
         """Known names that look most like the words, best first (at most 3)."""
+        ...
+
+    def preferred(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Those of the objects that the person at home prefers; none if nobody knows who it is."""
         ...
 
     def usual_places(self, name: str) -> tuple[str, ...]:

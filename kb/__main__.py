@@ -25,6 +25,7 @@ def show(ontology: Ontology, words: str) -> int:
             ("also called", ontology.synonyms(name)),
             ("is a", ontology.classes_of(name)),
             ("usually at", ontology.default_locations(name)),
+            ("preferred by", ontology.preferred_by(name)),
         ):
             print(f"  {title:12} {', '.join(known) or '-'}")
     return 0
@@ -37,6 +38,20 @@ def check(ontology: Ontology) -> int:
         print(fault)
     print(f"{len(ontology.objects())} objects, {len(faults)} faults", file=sys.stderr)
     return 1 if faults else 0
+
+
+def query(ontology: Ontology, sparql: str, as_json: bool) -> int:
+    """Print the answer to a SELECT; 1 if it is empty."""
+    table = ontology.query(sparql)
+    if as_json:
+        print(json.dumps([dict(zip(table.columns, row, strict=True)) for row in table.rows]))
+    else:
+        lines = [table.columns, *(tuple(map(str, row)) for row in table.rows)]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        for line in lines:
+            padded = (cell.ljust(width) for cell, width in zip(line, widths, strict=True))
+            print("  ".join(padded).rstrip())
+    return 0 if table.rows else 1
 
 
 def facts(file: Path, as_json: bool) -> int:
@@ -80,9 +95,11 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         match given.command:
             case "show":
-                return show(Ontology(), " ".join(given.words))
+                return show(Ontology(files=given.kb), " ".join(given.words))
             case "check":
-                return check(Ontology(files=given.files))
+                return check(Ontology(files=[*given.kb, *given.files]))
+            case "query":
+                return query(Ontology(files=given.kb), given.sparql, given.json)
             case "facts":
                 return facts(given.memory, given.json)
             case _:
@@ -100,8 +117,15 @@ def parser() -> argparse.ArgumentParser:
     shown.add_argument("words", nargs="+", help="an object or a class: sugar box, fruit")
     checked = commands.add_parser("check", help="load the files and name their faults")
     checked.add_argument("files", nargs="*", type=Path, help="further OWL files (RDF/XML)")
+    asked = commands.add_parser("query", help="ask the ontology in SPARQL")
+    asked.add_argument("sparql", help='"SELECT ?x WHERE { ?x rdfs:subClassOf household:Fruit }"')
+    for command in (shown, checked, asked):
+        command.add_argument(
+            "--kb", action="append", default=[], type=Path, metavar="FILE", help="own OWL file"
+        )
     remembered = commands.add_parser("facts", help="what was seen, missed, said, taken and put")
-    remembered.add_argument("--json", action="store_true", help="print them as JSON")
+    for command in (asked, remembered):
+        command.add_argument("--json", action="store_true", help="print JSON")
     forgotten = commands.add_parser("forget", help="remove facts")
     forgotten.add_argument("words", nargs="*", metavar="OBJECT", help="about this; none: all")
     for command in (remembered, forgotten):

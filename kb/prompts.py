@@ -5,6 +5,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
@@ -71,22 +72,24 @@ class Prompts(_Part):
     ranking: Ranking
 
     @classmethod
-    def load(cls, path: Path = TEXTS) -> "Prompts":
-        """Read a TOML file like prompts.toml.
+    def load(cls, path: Path | None = None) -> "Prompts":
+        """Our texts; those that a TOML file like prompts.toml has are taken from there.
 
         Raises:
             InputError: names the text and what is wrong with it.
         """
+        texts = _read(TEXTS)
+        own = _read(path) if path else {}
+        ranking = own.get("ranking", {})
+        if isinstance(ranking, dict):
+            own = {**own, "ranking": {**texts["ranking"], **ranking}}
         try:
-            return cls.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
-        except OSError as error:
-            raise InputError(str(path), f"cannot be read: {error.strerror}") from None
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise InputError(str(path), f"is not TOML: {error}") from None
+            return cls.model_validate({**texts, **own})
         except ValidationError as error:
             fault = error.errors()[0]
             where = ".".join(map(str, fault["loc"]))
-            raise InputError(f"{path}: {where}", fault["msg"]) from None
+            known = f"known are {', '.join(texts)}" if fault["type"] == "extra_forbidden" else ""
+            raise InputError(f"{path}: {where}", fault["msg"], known) from None
 
     def inquiry(self, label: str, **values: str) -> str:
         """The text with this label; placeholders are given with underscores: `object_name`."""
@@ -104,6 +107,15 @@ class Prompts(_Part):
                 "format": json.dumps(Reply.model_json_schema()),
             },
         )
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(str(path), f"cannot be read: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(str(path), f"is not TOML: {error}") from None
 
 
 def _pattern(names: Iterable[str]) -> re.Pattern[str]:

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from test_ontology import ANNA, OWL
 
 from executive.__main__ import main
 
@@ -85,6 +86,10 @@ def test_a_mission_that_is_not_done_says_why(
         (["--llm", "none.gguf", "--knowledge", "okb+llm"], "none.gguf"),
         (["--llm", "http://127.0.0.1:1/v1", "--elicit", "rank"], "use --elicit generate"),
         (["--config", "none.toml"], "none.toml: cannot be read"),
+        (["--prompts", "none.toml"], "none.toml: cannot be read"),
+        (["--kb", "none.owl"], "none.owl: cannot be read"),
+        (["--person", "Anna"], "person Anna: the ontology knows nobody of this name"),
+        (["--memory", "."], "is no memory"),
         (["--runs", "/dev/null/runs"], "--runs"),
     ],
 )
@@ -169,6 +174,15 @@ def test_interactive_runs_one_command_a_line() -> None:
     assert [o["object"] for o in outcomes] == ["apple", "hammer"]
     assert [o["status"] for o in outcomes] == ["done", "done"]
     assert outcomes[0]["run_dir"] != outcomes[1]["run_dir"]
+
+
+def test_a_persons_own_file_settles_which_fruit(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "more.owl").write_text(OWL.format(ANNA))
+    assert main([*QUICK, "--kb", "more.owl", "--person", "Anna", "Find a fruit"]) == 0
+    outcome = json.loads(capsys.readouterr().out)
+    assert (outcome["object"], outcome["inquiries"]) == ("pear", 1)
 
 
 @pytest.mark.parametrize(

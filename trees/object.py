@@ -1,7 +1,7 @@
-"""Which thing is meant? The ontology says, else the person: the language model is never asked.
+"""Which thing is meant? The ontology says, or whose home it is, else the person is asked.
 
-Which fruit someone likes is a matter of that person, not of general knowledge (paper, section
-"Integrated use of ontological knowledge base and LLM").
+The language model never is: which fruit someone likes is a matter of that person, not of general
+knowledge (paper, section "Integrated use of ontological knowledge base and LLM").
 """
 
 from py_trees.behaviour import Behaviour
@@ -17,6 +17,7 @@ def resolve_object(team: Team) -> Behaviour:
     return fallback(
         "which object",
         OntologyKnowsObject("ontology knows it", team),
+        PersonPrefersOne("the person prefers one", team),
         AskWhichObject("ask which object", team),
     )
 
@@ -34,3 +35,15 @@ class OntologyKnowsObject(Step):
             return self.succeed(named[0])
         self.situation.options = named
         return self.fail(f"'{target}' names {len(named) or 'no'} known objects")
+
+
+class PersonPrefersOne(Step):
+    """Succeeds if the ontology knows that this person prefers one of the things that fit."""
+
+    def update(self) -> Status:
+        """Look for a favourite."""
+        favourites = self.team.knowledge.preferred(self.situation.options)
+        if len(favourites) != 1:
+            return self.fail(f"{len(favourites) or 'none'} of them is a favourite")
+        self.situation.object = favourites[0]
+        return self.succeed(favourites[0])
