@@ -15,6 +15,7 @@ from executive.types import (
     Detection,
     Frame,
     Goal,
+    Kind,
     Place,
     Question,
     RankRequest,
@@ -145,6 +146,14 @@ class Knowledge(Protocol):
         """Known names that look most like the words, best first (at most 3)."""
         ...
 
+    def near_name(self, words: str) -> str | None:
+        """The one known name that the words are most likely a slip of, if it is clear."""
+        ...
+
+    def names_in(self, words: str) -> tuple[str, ...]:
+        """The names of objects and classes that a text has in it, in their order."""
+        ...
+
     def preferred(self, names: Sequence[str]) -> tuple[str, ...]:
         """Those of the objects that the person at home prefers; none if nobody knows who it is."""
         ...
@@ -221,6 +230,22 @@ class Advisor(Protocol):
         """Hold names against the ontology (the existence check)."""
         ...
 
+    def command_ranking(self, words: str) -> RankRequest:
+        """Score what the words may ask the robot to do."""
+        ...
+
+    def command_ranked(self, scored: Scored) -> Kind:
+        """The likeliest of these kinds of command."""
+        ...
+
+    def command_inquiry(self, words: str) -> ChatRequest:
+        """`command`: what do the words ask for?"""
+        ...
+
+    def command_read(self, reply: str) -> tuple[Kind, str] | None:
+        """Kind and object of the reply, if it has the format and the object exists."""
+        ...
+
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
         """Score every allowed place instead of asking for a list."""
         ...
@@ -239,6 +264,10 @@ class Interpreter(Protocol):
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
+        ...
+
+    def agrees(self, answer: str) -> bool | None:
+        """Whether an answer says yes or no; None if it says neither."""
         ...
 
 

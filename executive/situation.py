@@ -45,6 +45,10 @@ class Situation:
     command: Command | None = None
     options: tuple[str, ...] = ()
     """Objects that the target may mean."""
+    several: bool = False
+    """Whether the target names several things at once."""
+    guess: str = ""
+    """A known name that the target may be a slip of, or that is all of it that is known."""
     object: str | None = None
     among: tuple[str, ...] = ()
     """The ontology's default locations for the object."""

@@ -288,13 +288,15 @@ class QuestionKind(StrEnum):
 
     WHICH_OBJECT = "which_object"
     WHERE_IS = "where_is"
+    CONFIRM = "confirm"
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
     """Something that only the person can say.
 
-    `about` is the object or class in question; `options` are the known answers, if they are few.
+    `about` is the object or class in question; `options` are the known answers, if they are few,
+    or the objects that it is about, if yes or no is the answer.
     """
 
     kind: QuestionKind

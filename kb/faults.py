@@ -77,5 +77,5 @@ def _misplaced(thing: Any, relation: Any, furniture: Any) -> Iterator[str]:
             right = "declare it as furniture, or name another"
             yield f"{thing.name} has a default location that no file declares: {right}"
         elif not isinstance(place, furniture):
-            right = "name a piece of furniture"
-            yield f"{thing.name} has a default location, {place.name}, that is no furniture: {right}"
+            fault = f"{thing.name} has a default location, {place.name}, that is no furniture"
+            yield f"{fault}: name a piece of furniture"

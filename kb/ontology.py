@@ -11,7 +11,7 @@ from rapidfuzz import fuzz, process
 from executive.errors import InputError
 from executive.types import Place
 from kb.faults import faults
-from kb.names import PlaceNames, index_by_words, spoken, unique, words_of
+from kb.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
 from kb.owl import downwards, label, leaves, load, upwards, values
 from kb.sparql import Table, select
 
@@ -29,6 +29,8 @@ PREFIXES = {
 MOST_NAMES = 3
 LEAST_SIMILARITY = 60.0
 """Of 100, as rapidfuzz counts; below it two names share little but a few letters."""
+SLIP_SIMILARITY, SLIP_MARGIN = 75.0, 10.0
+"""A slip of the finger is as similar as this, and more similar by this than to anything else."""
 
 
 class Ontology:
@@ -70,6 +72,16 @@ class Ontology:
         self._things = tuple(downwards(self._class("Object")))
         self._objects = leaves(self._class("Object"))
         self._objects_by_words = self._index()
+        self._names_by_words = index_by_words(
+            *(
+                [
+                    (words_of(name), label(thing))
+                    for thing in self._things
+                    for name in names_of(thing)
+                ]
+                for names_of in (lambda thing: (label(thing),), _names)
+            )
+        )
         self._person = self._person_named(person) if person else None
         self.place_names = PlaceNames(self._places, self._called())
         """What the furniture and the rooms of the home are called."""
@@ -89,15 +101,24 @@ class Ontology:
 
     def nearest_names(self, words: str) -> tuple[str, ...]:
         """Known names that look most like the words, best first (at most 3)."""
-        names = [(spoken(name), label(thing)) for thing in self._things for name in _names(thing)]
-        found = process.extract(
-            spoken(words),
-            [name for name, _ in names],
-            scorer=fuzz.token_sort_ratio,
-            score_cutoff=LEAST_SIMILARITY,
-            limit=None,
-        )
-        return unique(names[index][1] for _, _, index in found)[:MOST_NAMES]
+        return tuple(self._similar(words))[:MOST_NAMES]
+
+    def near_name(self, words: str) -> str | None:
+        """The one known name that the words are most likely a slip of, if it is clear."""
+        (best, similarity), (_, next_best) = (*self._similar(words).items(), *2 * [("", 0.0)])[:2]
+        clear = similarity >= SLIP_SIMILARITY and similarity - next_best >= SLIP_MARGIN
+        return best if clear else None
+
+    def names_in(self, words: str) -> tuple[str, ...]:
+        """The names of objects and classes that a text has in it, in their order."""
+        rest, found = list(words_of(words)), list[str]()
+        while rest:
+            for length in range(min(MOST_WORDS, len(rest)), 0, -1):
+                if names := self._names_by_words.get("".join(rest[:length])):
+                    found.append(names[0])
+                    break
+            del rest[:length]
+        return unique(found)
 
     def usual_places(self, name: str) -> tuple[str, ...]:
         """Default locations of the object or its nearest class; those in this home only."""
@@ -171,6 +192,21 @@ class Ontology:
         return select(self._world, sparql, PREFIXES)
 
     # --- inside ---
+
+    def _similar(self, words: str) -> dict[str, float]:
+        """Names that look like the words, most similar first, and how similar (of 100)."""
+        names = [(spoken(name), label(thing)) for thing in self._things for name in _names(thing)]
+        found = process.extract(
+            spoken(words),
+            [name for name, _ in names],
+            scorer=fuzz.token_sort_ratio,
+            score_cutoff=LEAST_SIMILARITY,
+            limit=None,
+        )
+        similar: dict[str, float] = {}
+        for _, similarity, index in found:
+            similar.setdefault(names[index][1], similarity)
+        return similar
 
     def _class(self, name: str) -> Any:
         return self._world[CLASSES + name]

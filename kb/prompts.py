@@ -17,13 +17,14 @@ from kb.verification import Reply
 TEXTS = Path(__file__).with_name("prompts.toml")
 
 PLACEHOLDERS: Mapping[str, Sequence[str]] = {
+    "inquiry_system": ("objects", "format"),
     "system": ("rooms", "furniture in rooms", "furniture", "format"),
     "general_pos": ("object name", "top"),
     "multiple_pos": ("object name", "position"),
     "furniture": ("object name", "room name", "furniture list"),
     "again": ("object name", "furniture list"),
     "summarize": ("object name", "situation"),
-    "question": ("thing",),
+    "question": ("thing", "words"),
 }
 """Label of each text -> what it may speak of."""
 
@@ -60,6 +61,34 @@ class Ranking(_Part):
         return _fill(self.question, {"thing": thing})
 
 
+class Understanding(_Part):
+    """The chats in which commands are read that the grammar of commands cannot read."""
+
+    system: str
+    question: str
+    neutral: str
+    examples: tuple[tuple[str, str], ...]
+    inquiry_system: str
+
+    def chat(self, words: str) -> tuple[Message, ...]:
+        """For ranking: the examples as turns, then the question about these words."""
+        turns = [Message("system", self.system)]
+        for example, said in self.examples:
+            turns += [Message("user", self._about(example)), Message("assistant", said)]
+        return (*turns, Message("user", self._about(words)))
+
+    def inquiry(
+        self, words: str, objects: Sequence[str], schema: dict[str, Any]
+    ) -> tuple[Message, ...]:
+        """For writing: what there is and the output format, then the question."""
+        values = {"objects": ", ".join(objects), "format": json.dumps(schema)}
+        system = Message("system", _fill(self.inquiry_system, values))
+        return system, Message("user", self._about(words))
+
+    def _about(self, words: str) -> str:
+        return _fill(self.question, {"words": words})
+
+
 class Prompts(_Part):
     """All texts, by the paper's labels."""
 
@@ -70,6 +99,7 @@ class Prompts(_Part):
     again: str
     summarize: str
     ranking: Ranking
+    understanding: Understanding
 
     @classmethod
     def load(cls, path: Path | None = None) -> "Prompts":
@@ -80,9 +110,9 @@ class Prompts(_Part):
         """
         texts = _read(TEXTS)
         own = _read(path) if path else {}
-        ranking = own.get("ranking", {})
-        if isinstance(ranking, dict):
-            own = {**own, "ranking": {**texts["ranking"], **ranking}}
+        for name, table in own.items():
+            if isinstance(table, dict) and isinstance(texts.get(name), dict):
+                own[name] = {**texts[name], **table}
         try:
             return cls.model_validate({**texts, **own})
         except ValidationError as error:

@@ -130,6 +130,30 @@ def test_nearest_names_of_gibberish_are_none():
 
 
 @pytest.mark.parametrize(
+    ("words", "name"),
+    [("appel", "apple"), ("suger_box", "sugar_box"), ("hamer", "hammer"), ("fruti", "fruit")]
+    + [("zebra", None), ("box", None), ("muf", None), ("", None)],
+)
+def test_a_slip_is_near_one_name_only(words, name):
+    assert KNOWN.near_name(words) == name
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        ("an apple and two mugs", ("apple", "mug")),
+        ("any fruit, and the box of sugar", ("fruit", "sugar_box")),
+        ("a red apple", ("apple",)),
+        ("apples, apples!", ("apple",)),
+        ("nothing at all", ()),
+        ("", ()),
+    ],
+)
+def test_names_are_found_in_a_text(words, names):
+    assert KNOWN.names_in(words) == names
+
+
+@pytest.mark.parametrize(
     ("words", "places"),
     [
         ("on the kitchen cabinet or the desk", ("cabinet_kitchen", "desk")),

@@ -1,7 +1,8 @@
 """Where the time of one mission goes: run by hand, `python tests/benchmarks/bench_mission.py`.
 
 Prints the wall time of the whole warm command (a fresh process), and, from a mission in this
-process, its parts: start-up, thinking, physics, rendering, logging on the ticking thread, and the rest.
+process, its parts: start-up, thinking, physics, rendering, logging on the ticking thread, and the
+rest.
 """
 
 import argparse
