@@ -1,5 +1,6 @@
 """What the knowledge base knows about things and places, and how people may name them."""
 
+import re
 import socket
 from pathlib import Path
 from xml.etree import ElementTree
@@ -383,6 +384,15 @@ def test_a_favourite_is_known_to_whoever_knows_the_person(tmp_path, capsys):
     assert Ontology(files=[file]).preferred(FRUITS) == ()
     main(["show", "--kb", str(file), "pear"])
     assert "preferred by Anna" in capsys.readouterr().out
+
+
+def test_the_file_that_the_docs_show_is_sound(tmp_path):
+    docs = Path(__file__).parents[1] / "docs" / "knowledge.md"
+    [shown] = re.findall(r"^<rdf:RDF.*?^</rdf:RDF>", docs.read_text(), re.DOTALL | re.MULTILINE)
+    (tmp_path / "anna.owl").write_text(shown)
+    known = Ontology(files=[tmp_path / "anna.owl"], person="Anna")
+    assert known.preferred(FRUITS) == ("pear",)
+    assert list(known.faults()) == []
 
 
 def test_an_unknown_person_is_refused_with_who_is_known(tmp_path):
