@@ -57,13 +57,17 @@ class Ontology:
             person: the name of who is at home, as the files have it.
 
         Raises:
-            InputError: if a file is no ontology or imports one that is not loaded, if a place is
-                of a class that the ontology does not have, or if it does not know the person.
+            InputError: if a file is no ontology, imports one that is not loaded or is called like
+                another, if a place is of a class that the ontology does not have, or if it does not
+                know the person.
         """
         self._world = owlready2.World()
-        self._paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
-        for path in self._paths:
+        self._files: dict[str, bytes] = {}
+        for path in (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files):
+            if path.name in self._files:
+                raise InputError(str(path), "another file has the same name", "rename one")
             load(self._world, path)
+            self._files[path.name] = path.read_bytes()
         self._places = tuple(places)
         self._home = self._world.get_ontology(INDIVIDUALS)
         with self._home:
@@ -176,8 +180,7 @@ class Ontology:
         """The loaded files by name, and what the home adds to them, to be kept with the log."""
         home = BytesIO()
         self._home.save(home, format="rdfxml")
-        loaded = {path.name: path.read_bytes() for path in self._paths}
-        return {**loaded, "home.owl": home.getvalue()}
+        return {**self._files, "home.owl": home.getvalue()}
 
     def faults(self) -> Iterator[str]:
         """What is wrong with the knowledge, a sentence each; nothing if it is sound."""

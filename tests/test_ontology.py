@@ -255,6 +255,20 @@ def test_a_missing_file_is_refused(tmp_path):
         Ontology(files=[tmp_path / "nowhere.owl"])
 
 
+def test_two_files_of_one_name_are_refused_because_one_would_be_lost_in_the_log(tmp_path):
+    one = owl_file(tmp_path, "")
+    (tmp_path / "other").mkdir()
+    with pytest.raises(InputError, match="more.owl: another file has the same name; rename one"):
+        Ontology(files=[one, owl_file(tmp_path / "other", "")])
+
+
+def test_a_file_is_kept_as_it_was_loaded(tmp_path):
+    path = owl_file(tmp_path, "")
+    known, loaded = Ontology(files=[path]), path.read_bytes()
+    path.unlink()
+    assert known.files()["more.owl"] == loaded
+
+
 def test_an_import_is_never_fetched_from_the_network(tmp_path, monkeypatch):
     monkeypatch.setattr(socket.socket, "connect", lambda *_: pytest.fail("went to the network"))
     importing = owl_file(
