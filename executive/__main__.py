@@ -118,7 +118,7 @@ def parser() -> argparse.ArgumentParser:
 
     def option(name: str, help: str | None = None, **kwargs: Any) -> None:
         field = Settings.model_fields[name.removeprefix("--")]
-        default = f" (default: {field.default})" if field.default is not None else ""
+        default = "" if field.default in (None, ()) else f" (default: {field.default})"
         p.add_argument(name, help=f"{help or field.description}{default}", **kwargs)
 
     p.add_argument("words", nargs="?", help='a command such as "Bring a sugar_box"; none: ask')
@@ -136,6 +136,14 @@ def parser() -> argparse.ArgumentParser:
         help="ask for a list (paper) or score each known place "
         "(default: rank for the embedded model, else generate)",
     )
+    p.add_argument(
+        "--grammar",
+        action=argparse.BooleanOptionalAction,
+        help="hold the model's replies to their JSON schema (default: trust and verify)",
+    )
+    option("--prompts", type=Path, metavar="FILE")
+    option("--kb", action="append", type=Path, metavar="FILE")
+    option("--person", metavar="NAME")
     option("--user", choices=["console", "oracle", "none"])
     p.add_argument(
         "--place",
@@ -145,6 +153,12 @@ def parser() -> argparse.ArgumentParser:
     )
     option("--world", choices=["physics", "fake"])
     option("--seed", type=int, metavar="N")
+    option("--memory", type=Path, metavar="FILE")
+    p.add_argument(
+        "--learn",
+        action=argparse.BooleanOptionalAction,
+        help="whether to remember what is seen and said (default: it does)",
+    )
     option("--runs", type=Path, metavar="DIR")
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     p.add_argument("--gui", action="store_true", help="show PyBullet's own window")

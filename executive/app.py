@@ -3,7 +3,9 @@
 Nothing else knows all the rooms of the house.
 """
 
+import json
 import logging
+import math
 import sys
 import time
 from collections.abc import Callable
@@ -32,11 +34,13 @@ from executive.records import Finished
 from executive.rules import rules
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
-from executive.types import Answered, Outcome
+from executive.types import Answered, Outcome, Vector3
 from executive.user import Console, Nobody, Oracle
 from kb.advisor import PlaceAdvisor
+from kb.facts import FactStore
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
+from kb.prompts import Prompts
 from kb.server import Server
 from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
@@ -78,7 +82,14 @@ class Session:
         self._view = view
         self.inbox = inbox or Inbox()
         self.home = load_home(settings.home).with_placement(settings.place)
-        self.knowledge = Ontology(self.home.places(), defaults=settings.defaults)
+        self.knowledge = Ontology(
+            self.home.places(),
+            defaults=settings.defaults,
+            files=settings.kb,
+            person=settings.person,
+        )
+        prompts = Prompts.load(settings.prompts)
+        self.facts = FactStore(settings.memory, learns=settings.learn)
         self.model = model or build_model(settings, self.inbox)
         self.recorder = FanOut(lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
@@ -90,7 +101,13 @@ class Session:
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
         self.advisor = (
-            PlaceAdvisor(self.knowledge, self.model, remembers=settings.remembers, top=settings.top)
+            PlaceAdvisor(
+                self.knowledge,
+                self.model,
+                remembers=settings.remembers,
+                top=settings.top,
+                prompts=prompts,
+            )
             if self.model
             else None
         )
@@ -148,9 +165,10 @@ class Session:
                     return answer.text if isinstance(answer, Answered) else None
 
     def close(self) -> None:
-        """Free the model and the simulator."""
+        """Free the model, the simulator and the file of facts."""
         if self.model:
             self.model.close()
+        self.facts.close()
         self.world.close()
 
     def _team(self, situation: Situation) -> Team:
@@ -167,7 +185,13 @@ class Session:
             model=self.model,
             advisor=self.advisor,
             rules=rules(settings),
+            facts=self.facts,
+            place_at=self._place_at,
         )
+
+    def _place_at(self, point: Vector3) -> str | None:
+        """Where things are by the robot's map; in the instant world they have no true position."""
+        return None if self.settings.world == "fake" else furniture_at(self.home, point)
 
     def _open_logs(self, folder: Path, started: datetime) -> None:
         config = self.settings.to_toml()
@@ -176,6 +200,7 @@ class Session:
             "config.toml": config.encode(),
             "home.toml": home_text(self.settings.home).encode(),
             **self.knowledge.files(),
+            "facts.json": json.dumps(self.facts.beliefs()).encode(),
         }
         metadata = {
             "requests_before": str(self.inbox.last),
@@ -189,6 +214,18 @@ class Session:
         )
         self.recorder.open(sinks, started)
         self.world.describe()
+
+
+def furniture_at(home: Home, point: Vector3) -> str | None:
+    """The furniture that has this point of `map` (metres) above its outline; None if none has."""
+    for piece in (*home.furniture, home.delivery):
+        x, y, yaw = piece.pose
+        east, north = point[0] - x, point[1] - y
+        ahead = math.cos(yaw) * east + math.sin(yaw) * north
+        left = math.cos(yaw) * north - math.sin(yaw) * east
+        if abs(ahead) <= piece.size[0] / 2 and abs(left) <= piece.size[1] / 2:
+            return piece.name
+    return None
 
 
 def working(*makers: Callable[[], Sink]) -> list[Sink]:
@@ -241,6 +278,7 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
             top_p=settings.top_p,
             max_tokens=settings.max_tokens,
             seed=settings.seed,
+            grammar=settings.grammar,
         )
     return LlamaCpp(
         embedded_model() if settings.llm == "embedded" else Path(settings.llm),
@@ -250,6 +288,9 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         top_p=settings.top_p,
         max_tokens=settings.max_tokens,
         seed=settings.seed,
+        threads=settings.threads,
+        gpu_layers=settings.gpu_layers,
+        grammar=settings.grammar,
     )
 
 

@@ -20,11 +20,26 @@ _VERBS: dict[str, Kind] = {
     "get": Kind.BRING,
     "give": Kind.BRING,
     "deliver": Kind.BRING,
+    "where's": Kind.FIND,
+    "have you seen": Kind.FIND,
+    "i'm looking for": Kind.FIND,
+    "i am looking for": Kind.FIND,
+    "i'd like": Kind.BRING,
+    "i'd like to have": Kind.BRING,
+    "i would like": Kind.BRING,
+    "i would like to have": Kind.BRING,
+    "i want": Kind.BRING,
+    "i need": Kind.BRING,
+    "can i have": Kind.BRING,
+    "could i have": Kind.BRING,
+    "may i have": Kind.BRING,
 }
+_LONGEST_FIRST = "|".join(sorted(_VERBS, key=len, reverse=True))
 _COMMAND = re.compile(
-    r"(?:please |robot |could you |can you |would you |will you |hey )*"
-    rf"(?P<verb>{'|'.join(_VERBS)}) "
-    r"(?:(?:me|us) )?(?:(?:a|an|the|my|some|any|one) )*"
+    r"(?:please |robot |could you |can you |would you |will you |hey |hello "
+    r"|(?:i'd like|i would like|i want|i need) you to )*"
+    rf"(?P<verb>{_LONGEST_FIRST}) "
+    r"(?:(?:me|us|please) )*(?:(?:a|an|the|my|some|any|one) )*"
     r"(?P<target>(?!(?:a|an|the|me|us|my|some|any|one)$).+?)"
     r"(?: (?:to|for) me| here| please| now)*"
 )
@@ -32,6 +47,12 @@ _DECLINES = re.compile(
     r"\b(?:don'?t|do not|dunno|no idea|not sure|nowhere|nothing|none|never ?mind|cannot|can'?t)\b"
     r"|^(?:no|nope|\?*)$"
 )
+
+
+_YES = re.compile(
+    r"(?:yes|yeah|yep|yup|y|sure|ok|okay|right|correct|exactly|of course|indeed|please do)\b.*"
+)
+_NO = re.compile(r"(?:no(?! idea)|not(?! sure)|nope|nah|n|wrong)\b.*")
 
 
 class EnglishInterpreter:
@@ -47,6 +68,13 @@ class EnglishInterpreter:
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
         return bool(_DECLINES.search(_plain(answer)))
+
+    def agrees(self, answer: str) -> bool | None:
+        """Whether an answer says yes or no; None if it says neither."""
+        plain = _plain(answer)
+        if _YES.fullmatch(plain):
+            return True
+        return False if _NO.fullmatch(plain) else None
 
 
 def _plain(words: str) -> str:

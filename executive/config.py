@@ -33,6 +33,10 @@ class Settings(BaseSettings):
     llm: str = Field(
         "embedded", description="embedded, FILE.gguf, http://host:port/v1 of a server, or none"
     )
+    grammar: bool = Field(False, description="hold the model's replies to their JSON schema")
+    prompts: Path | None = Field(None, description="TOML file of texts that replace ours")
+    kb: tuple[Path, ...] = Field((), description="a person's own OWL files, which add to ours")
+    person: str | None = Field(None, description="who is at home, as an OWL file names them")
     elicit: Literal["generate", "rank"] | None = Field(
         None, description="let the model write a list (paper) or score each known place"
     )
@@ -42,12 +46,22 @@ class Settings(BaseSettings):
     )
     world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
     seed: int = Field(0, ge=0, description="of the world, the model and the simulated person")
+    memory: Path | None = Field(
+        None, description="SQLite file of what was seen and said; without, this session only"
+    )
+    learn: bool = Field(True, description="whether to remember what is seen and said")
     runs: Path = Field(Path("runs"), description="where each run leaves its folder")
 
     temperature: float = Field(0.6, ge=0, description="of the language model (paper: 0.6)")
     top_p: float = Field(0.9, gt=0, le=1, description="of the language model (paper: 0.9)")
     context_tokens: int = Field(4096, ge=512, description="of the language model (paper: 4096)")
     max_tokens: int = Field(256, ge=1, description="longest reply of the language model")
+    threads: int | None = Field(
+        None, ge=1, description="of the language model (default: by the number of cores)"
+    )
+    gpu_layers: int = Field(
+        0, ge=-1, description="of the language model, if llama.cpp was built for a GPU; -1: all"
+    )
     top: int = Field(5, ge=1, description="places of a ranking that are worth a visit")
     answer_timeout_s: float = Field(120.0, gt=0, description="how long to wait for the person")
     llm_timeout_s: float = Field(60.0, gt=0, description="how long to wait for the model")

@@ -4,6 +4,7 @@ All slow work has one shape: a method that starts it returns a request number at
 comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
 """
 
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from executive.records import NodeState, Record, TreeShape
@@ -14,6 +15,7 @@ from executive.types import (
     Detection,
     Frame,
     Goal,
+    Kind,
     Place,
     Question,
     RankRequest,
@@ -144,12 +146,52 @@ class Knowledge(Protocol):
         """Known names that look most like the words, best first (at most 3)."""
         ...
 
+    def near_name(self, words: str) -> str | None:
+        """The one known name that the words are most likely a slip of, if it is clear."""
+        ...
+
+    def names_in(self, words: str) -> tuple[str, ...]:
+        """The names of objects and classes that a text has in it, in their order."""
+        ...
+
+    def preferred(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Those of the objects that the person at home prefers; none if nobody knows who it is."""
+        ...
+
     def usual_places(self, name: str) -> tuple[str, ...]:
         """Default locations of the object or its nearest class, as far as this home has them."""
         ...
 
     def places_named(self, words: str) -> tuple[str, ...]:
         """Furniture that the words name, in their order; a room stands for its furniture."""
+        ...
+
+
+class Facts(Protocol):
+    """What was seen, said and done so far, in this mission and before it. Never raises."""
+
+    def saw(self, names: Iterable[str], place: str) -> None:
+        """These objects were seen there."""
+        ...
+
+    def missed(self, name: str, place: str) -> None:
+        """It was looked for there, and is not there."""
+        ...
+
+    def heard(self, name: str, places: Iterable[str]) -> None:
+        """The person said that it is at one of these places, the likeliest first."""
+        ...
+
+    def took(self, name: str, place: str) -> None:
+        """The robot has it, from there."""
+        ...
+
+    def put(self, name: str, place: str) -> None:
+        """The robot has put it down there."""
+        ...
+
+    def places_of(self, name: str) -> tuple[str, ...]:
+        """Where it was seen or said to be, freshest first, as far as no later look contradicts."""
         ...
 
 
@@ -188,6 +230,22 @@ class Advisor(Protocol):
         """Hold names against the ontology (the existence check)."""
         ...
 
+    def command_ranking(self, words: str) -> RankRequest:
+        """Score what the words may ask the robot to do."""
+        ...
+
+    def command_ranked(self, scored: Scored) -> Kind:
+        """The likeliest of these kinds of command."""
+        ...
+
+    def command_inquiry(self, words: str) -> ChatRequest:
+        """`command`: what do the words ask for?"""
+        ...
+
+    def command_read(self, reply: str) -> tuple[Kind, str] | None:
+        """Kind and object of the reply, if it has the format and the object exists."""
+        ...
+
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
         """Score every allowed place instead of asking for a list."""
         ...
@@ -206,6 +264,10 @@ class Interpreter(Protocol):
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
+        ...
+
+    def agrees(self, answer: str) -> bool | None:
+        """Whether an answer says yes or no; None if it says neither."""
         ...
 
 

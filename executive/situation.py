@@ -45,6 +45,10 @@ class Situation:
     command: Command | None = None
     options: tuple[str, ...] = ()
     """Objects that the target may mean."""
+    several: bool = False
+    """Whether the target names several things at once."""
+    guess: str = ""
+    """A known name that the target may be a slip of, or that is all of it that is known."""
     object: str | None = None
     among: tuple[str, ...] = ()
     """The ontology's default locations for the object."""
@@ -53,6 +57,8 @@ class Situation:
     candidate: Candidate | None = None
     """Where the robot is going or looking now."""
     view: int = 0
+    views_without: int = 0
+    """Pictures of this place so far in which the thing was not."""
     visited: list[str] = field(default_factory=list)
     unreached: dict[str, str] = field(default_factory=dict)
     """Places that the robot could not get to, and why."""
@@ -96,6 +102,10 @@ class Situation:
     def next_deadline(self) -> float | None:
         """The earliest time (mission time, s) at which a tick is due without an event."""
         return min(self.deadlines.values(), default=None)
+
+    def not_visited(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
+        """The candidates less the places where the robot has looked already."""
+        return tuple(c for c in candidates if c.place not in self.visited)
 
     @property
     def search_so_far(self) -> str:

@@ -118,6 +118,10 @@ class Place:
 # --- what the robot can be asked to do ---
 
 
+DELIVERY = "delivery"
+"""The place by the person where brought things are put down; it is no furniture to search."""
+
+
 @dataclass(frozen=True, slots=True)
 class DriveTo:
     """Go and stand before a piece of furniture, `person` or `delivery`."""
@@ -127,7 +131,7 @@ class DriveTo:
 
 @dataclass(frozen=True, slots=True)
 class LookAt:
-    """Point the head at a place; `view` counts from 0 to `Robot.views(place) - 1`."""
+    """Point the head at a place or `delivery`; `view` counts from 0 to `Robot.views(place) - 1`."""
 
     place: str
     view: int = 0
@@ -288,13 +292,15 @@ class QuestionKind(StrEnum):
 
     WHICH_OBJECT = "which_object"
     WHERE_IS = "where_is"
+    CONFIRM = "confirm"
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
     """Something that only the person can say.
 
-    `about` is the object or class in question; `options` are the known answers, if they are few.
+    `about` is the object or class in question; `options` are the known answers, if they are few,
+    or the objects that it is about, if yes or no is the answer.
     """
 
     kind: QuestionKind

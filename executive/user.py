@@ -116,6 +116,7 @@ class Oracle(_Prompt):
     """The paper's simulated user, who always answers right.
 
     Of a class of things it means one that is in the home, chosen by the seed, and sticks to it.
+    What the robot makes of its words is right if such a thing is in the home.
     """
 
     def __init__(
@@ -133,10 +134,13 @@ class Oracle(_Prompt):
 
     def ask(self, question: Question) -> int:
         """Answer from the truth."""
-        if question.kind == QuestionKind.WHERE_IS:
-            answer = self._where(question.about)
-        else:
-            answer = self._choose(question)
+        match question.kind:
+            case QuestionKind.WHERE_IS:
+                answer = self._where(question.about)
+            case QuestionKind.CONFIRM:
+                answer = "yes" if any(map(self._where, question.options)) else "no"
+            case _:
+                answer = self._choose(question)
         return self._answer(question, Answered(answer or "I don't know"))
 
     def _choose(self, question: Question) -> str | None:

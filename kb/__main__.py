@@ -1,10 +1,14 @@
-"""`python -m kb`: look at the ontology, and look for faults in it."""
+"""`python -m kb`: look at what the robot knows, and look for faults in it."""
 
 import argparse
+import json
 import sys
+import time
+from dataclasses import asdict
 from pathlib import Path
 
-from executive.errors import ExecutiveError
+from executive.errors import ExecutiveError, InputError
+from kb.facts import FactStore
 from kb.ontology import Ontology
 
 
@@ -21,6 +25,7 @@ def show(ontology: Ontology, words: str) -> int:
             ("also called", ontology.synonyms(name)),
             ("is a", ontology.classes_of(name)),
             ("usually at", ontology.default_locations(name)),
+            ("preferred by", ontology.preferred_by(name)),
         ):
             print(f"  {title:12} {', '.join(known) or '-'}")
     return 0
@@ -35,22 +40,97 @@ def check(ontology: Ontology) -> int:
     return 1 if faults else 0
 
 
+def query(ontology: Ontology, sparql: str, as_json: bool) -> int:
+    """Print the answer to a SELECT; 1 if it is empty."""
+    table = ontology.query(sparql)
+    if as_json:
+        print(json.dumps([dict(zip(table.columns, row, strict=True)) for row in table.rows]))
+    else:
+        lines = [table.columns, *(tuple(map(str, row)) for row in table.rows)]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        for line in lines:
+            padded = (cell.ljust(width) for cell, width in zip(line, widths, strict=True))
+            print("  ".join(padded).rstrip())
+    return 0 if table.rows else 1
+
+
+def facts(file: Path, as_json: bool) -> int:
+    """Print every fact, oldest first."""
+    known = _memory(file).all()
+    if as_json:
+        print(json.dumps([asdict(fact) for fact in known]))
+        return 0
+    now = time.time()
+    for fact in known:
+        print(f"{fact.object:20} {fact.kind:6} {fact.place:20} {age(now - fact.time_s)} ago")
+    print(f"{len(known)} facts", file=sys.stderr)
+    return 0
+
+
+def forget(file: Path, words: str) -> int:
+    """Remove the facts about what the words name, or all."""
+    memory = _memory(file)
+    names = Ontology().objects_named(words) or (words,) if words else (None,)
+    print(f"{sum(memory.forget(name) for name in names)} facts forgotten", file=sys.stderr)
+    return 0
+
+
+def age(seconds: float) -> str:
+    """A duration in the largest unit that fits: "3 hours"."""
+    for unit, length in (("days", 86400), ("hours", 3600), ("minutes", 60)):
+        if seconds >= 2 * length:
+            return f"{seconds / length:.0f} {unit}"
+    return f"{max(0.0, seconds):.0f} seconds"
+
+
+def _memory(file: Path) -> FactStore:
+    if not file.exists():
+        raise InputError(str(file), "there is no such file", "name the one of --memory")
+    return FactStore(file)
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Run one command; 0: well, 1: nothing found, or faults found, 2: bad input."""
-    parser = argparse.ArgumentParser(prog="python -m kb", description=__doc__)
-    commands = parser.add_subparsers(dest="command", required=True)
+    given = parser().parse_args(arguments)
+    try:
+        match given.command:
+            case "show":
+                return show(Ontology(files=given.kb), " ".join(given.words))
+            case "check":
+                return check(Ontology(files=[*given.kb, *given.files]))
+            case "query":
+                return query(Ontology(files=given.kb), given.sparql, given.json)
+            case "facts":
+                return facts(given.memory, given.json)
+            case _:
+                return forget(given.memory, " ".join(given.words))
+    except ExecutiveError as error:
+        print(error, file=sys.stderr)
+        return 2
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = argparse.ArgumentParser(prog="python -m kb", description=__doc__)
+    commands = p.add_subparsers(dest="command", required=True, metavar="COMMAND")
     shown = commands.add_parser("show", help="what is known about a thing")
     shown.add_argument("words", nargs="+", help="an object or a class: sugar box, fruit")
     checked = commands.add_parser("check", help="load the files and name their faults")
     checked.add_argument("files", nargs="*", type=Path, help="further OWL files (RDF/XML)")
-    given = parser.parse_args(arguments)
-    try:
-        if given.command == "show":
-            return show(Ontology(), " ".join(given.words))
-        return check(Ontology(files=given.files))
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
+    asked = commands.add_parser("query", help="ask the ontology in SPARQL")
+    asked.add_argument("sparql", help='"SELECT ?x WHERE { ?x rdfs:subClassOf household:Fruit }"')
+    for command in (shown, checked, asked):
+        command.add_argument(
+            "--kb", action="append", default=[], type=Path, metavar="FILE", help="own OWL file"
+        )
+    remembered = commands.add_parser("facts", help="what was seen, missed, said, taken and put")
+    for command in (asked, remembered):
+        command.add_argument("--json", action="store_true", help="print JSON")
+    forgotten = commands.add_parser("forget", help="remove facts")
+    forgotten.add_argument("words", nargs="*", metavar="OBJECT", help="about this; none: all")
+    for command in (remembered, forgotten):
+        command.add_argument("--memory", required=True, type=Path, metavar="FILE")
+    return p
 
 
 if __name__ == "__main__":

@@ -7,8 +7,17 @@ is a subtree.
 from collections.abc import Sequence
 
 from executive.interfaces import LanguageModel
-from executive.types import Candidate, ChatRequest, Message, Place, RankRequest, Scored, Verdict
-from kb import ranking, verification
+from executive.types import (
+    Candidate,
+    ChatRequest,
+    Kind,
+    Message,
+    Place,
+    RankRequest,
+    Scored,
+    Verdict,
+)
+from kb import ranking, understanding, verification
 from kb.memory import Memory, history_budget
 from kb.names import spoken
 from kb.ontology import Ontology
@@ -97,6 +106,26 @@ class PlaceAdvisor:
     def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
         """Hold names against the ontology (the existence check)."""
         return verification.verify(names, self._ontology.place_names, among)
+
+    def command_ranking(self, words: str) -> RankRequest:
+        """Score what the words may ask the robot to do."""
+        return understanding.rank_request(words, self._prompts.understanding)
+
+    def command_ranked(self, scored: Scored) -> Kind:
+        """The likeliest of these kinds of command."""
+        return understanding.likeliest(scored)
+
+    def command_inquiry(self, words: str) -> ChatRequest:
+        """`command`: what do the words ask for?"""
+        objects = self._ontology.objects()
+        return understanding.chat_request(words, objects, self._prompts.understanding)
+
+    def command_read(self, reply: str) -> tuple[Kind, str] | None:
+        """Kind and object of the reply, if it has the format and the object exists."""
+        asked = understanding.read(reply)
+        if asked is None or len(self._ontology.objects_named(asked.object)) != 1:
+            return None
+        return asked.kind, self._ontology.objects_named(asked.object)[0]
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
         """Score every allowed place instead of asking for a list."""

@@ -10,17 +10,27 @@ from rapidfuzz import fuzz, process
 
 from executive.errors import InputError
 from executive.types import Place
-from kb.names import PlaceNames, index_by_words, spoken, unique, words_of
+from kb.faults import faults
+from kb.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
 from kb.owl import downwards, label, leaves, load, upwards, values
+from kb.sparql import Table, select
 
 HOUSEHOLD = Path(__file__).with_name("household.owl")
 DEFAULTS = Path(__file__).with_name("defaults.owl")
 CLASSES = "http://robot-executive.org/household.owl#"
 INDIVIDUALS = "http://robot-executive.org/home.owl#"
+PREFIXES = {
+    "household": CLASSES,
+    "home": INDIVIDUALS,
+    "skos": "http://www.w3.org/2004/02/skos/core#",
+}
+"""Names that a query may use without declaring them."""
 
 MOST_NAMES = 3
 LEAST_SIMILARITY = 60.0
 """Of 100, as rapidfuzz counts; below it two names share little but a few letters."""
+SLIP_SIMILARITY, SLIP_MARGIN = 75.0, 10.0
+"""A slip of the finger is as similar as this, and more similar by this than to anything else."""
 
 
 class Ontology:
@@ -31,18 +41,33 @@ class Ontology:
     """
 
     def __init__(
-        self, places: Sequence[Place] = (), *, defaults: bool = True, files: Sequence[Path] = ()
+        self,
+        places: Sequence[Place] = (),
+        *,
+        defaults: bool = True,
+        files: Sequence[Path] = (),
+        person: str | None = None,
     ) -> None:
         """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
 
+        Args:
+            places: the furniture of the home.
+            defaults: whether to load defaults.owl.
+            files: a person's own OWL files, which add to ours.
+            person: the name of who is at home, as the files have it.
+
         Raises:
-            InputError: if a file is no ontology or imports one that is not loaded, or if a place is
-                of a class that the ontology does not have.
+            InputError: if a file is no ontology, imports one that is not loaded or is called like
+                another, if a place is of a class that the ontology does not have, or if it does not
+                know the person.
         """
         self._world = owlready2.World()
-        self._paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
-        for path in self._paths:
+        self._files: dict[str, bytes] = {}
+        for path in (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files):
+            if path.name in self._files:
+                raise InputError(str(path), "another file has the same name", "rename one")
             load(self._world, path)
+            self._files[path.name] = path.read_bytes()
         self._places = tuple(places)
         self._home = self._world.get_ontology(INDIVIDUALS)
         with self._home:
@@ -51,6 +76,17 @@ class Ontology:
         self._things = tuple(downwards(self._class("Object")))
         self._objects = leaves(self._class("Object"))
         self._objects_by_words = self._index()
+        self._names_by_words = index_by_words(
+            *(
+                [
+                    (words_of(name), label(thing))
+                    for thing in self._things
+                    for name in names_of(thing)
+                ]
+                for names_of in (lambda thing: (label(thing),), _names)
+            )
+        )
+        self._person = self._person_named(person) if person else None
         self.place_names = PlaceNames(self._places, self._called())
         """What the furniture and the rooms of the home are called."""
 
@@ -69,15 +105,24 @@ class Ontology:
 
     def nearest_names(self, words: str) -> tuple[str, ...]:
         """Known names that look most like the words, best first (at most 3)."""
-        names = [(spoken(name), label(thing)) for thing in self._things for name in _names(thing)]
-        found = process.extract(
-            spoken(words),
-            [name for name, _ in names],
-            scorer=fuzz.token_sort_ratio,
-            score_cutoff=LEAST_SIMILARITY,
-            limit=None,
-        )
-        return unique(names[index][1] for _, _, index in found)[:MOST_NAMES]
+        return tuple(self._similar(words))[:MOST_NAMES]
+
+    def near_name(self, words: str) -> str | None:
+        """The one known name that the words are most likely a slip of, if it is clear."""
+        (best, similarity), (_, next_best) = (*self._similar(words).items(), *2 * [("", 0.0)])[:2]
+        clear = similarity >= SLIP_SIMILARITY and similarity - next_best >= SLIP_MARGIN
+        return best if clear else None
+
+    def names_in(self, words: str) -> tuple[str, ...]:
+        """The names of objects and classes that a text has in it, in their order."""
+        rest, found = list(words_of(words)), list[str]()
+        while rest:
+            for length in range(min(MOST_WORDS, len(rest)), 0, -1):
+                if names := self._names_by_words.get("".join(rest[:length])):
+                    found.append(names[0])
+                    break
+            del rest[:length]
+        return unique(found)
 
     def usual_places(self, name: str) -> tuple[str, ...]:
         """Default locations of the object or its nearest class; those in this home only."""
@@ -87,6 +132,14 @@ class Ontology:
     def places_named(self, words: str) -> tuple[str, ...]:
         """Furniture that the words name, in their order; a room stands for its furniture."""
         return self.place_names.find(words)
+
+    def preferred(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Those of the objects that the person at home prefers; none if nobody knows who it is."""
+        return tuple(
+            name
+            for name in names
+            if self._person and self._person in self._preferring(self._thing(name))
+        )
 
     # --- more about things ---
 
@@ -114,6 +167,10 @@ class Ontology:
                 return tuple(place.name for place in usual if place is not None)
         return ()
 
+    def preferred_by(self, name: str) -> tuple[str, ...]:
+        """The people who prefer an object or a class, of others like it."""
+        return tuple(label(person) for person in self._preferring(self._thing(name)))
+
     def preposition(self, place: Place) -> str:
         """How things are with this piece of furniture: "in" or "on"."""
         given = (p for kind in upwards(self._class(place.kind)) for p in kind.preposition)
@@ -123,28 +180,36 @@ class Ontology:
         """The loaded files by name, and what the home adds to them, to be kept with the log."""
         home = BytesIO()
         self._home.save(home, format="rdfxml")
-        loaded = {path.name: path.read_bytes() for path in self._paths}
-        return {**loaded, "home.owl": home.getvalue()}
+        return {**self._files, "home.owl": home.getvalue()}
 
     def faults(self) -> Iterator[str]:
         """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
-        for root in ("Object", "Furniture", "Room"):
-            owners: dict[tuple[str, ...], Any] = {}
-            for thing in downwards(self._class(root)):
-                for name in unique(_names(thing)):
-                    if (other := owners.setdefault(words_of(name), thing)) is not thing:
-                        yield f"{name!r} names both {other.name} and {thing.name}"
-        for piece in self._class("Furniture").instances():
-            if piece.isIn is None:
-                yield f"{piece.name} is in no room"
-        for thing in self._things:
-            for place in values(thing, self._class("hasDefaultLocation")):
-                if place is None:
-                    yield f"{thing.name} has a default location that no file declares"
-                elif not isinstance(place, self._class("Furniture")):
-                    yield f"{thing.name} has a default location, {place.name}, that is no furniture"
+        return faults(self._world, CLASSES)
+
+    def query(self, sparql: str) -> Table:
+        """Answer a SELECT in SPARQL.
+
+        Raises:
+            InputError: if it cannot be read.
+        """
+        return select(self._world, sparql, PREFIXES)
 
     # --- inside ---
+
+    def _similar(self, words: str) -> dict[str, float]:
+        """Names that look like the words, most similar first, and how similar (of 100)."""
+        names = [(spoken(name), label(thing)) for thing in self._things for name in _names(thing)]
+        found = process.extract(
+            spoken(words),
+            [name for name, _ in names],
+            scorer=fuzz.token_sort_ratio,
+            score_cutoff=LEAST_SIMILARITY,
+            limit=None,
+        )
+        similar: dict[str, float] = {}
+        for _, similarity, index in found:
+            similar.setdefault(names[index][1], similarity)
+        return similar
 
     def _class(self, name: str) -> Any:
         return self._world[CLASSES + name]
@@ -155,6 +220,17 @@ class Ontology:
                 return thing
         right = f"known are {', '.join(label(thing) for thing in self._things)}"
         raise InputError("ontology", f"there is no {name!r}", right)
+
+    def _preferring(self, thing: Any) -> list[Any]:
+        return [person for person in values(thing, self._class("preferredBy")) if person]
+
+    def _person_named(self, name: str) -> Any:
+        people = {words_of(label(person)): person for person in self._class("Person").instances()}
+        if words_of(name) in people:
+            return people[words_of(name)]
+        known = ", ".join(label(person) for person in people.values())
+        right = f"known are {known}" if known else "declare them in an OWL file and give it as --kb"
+        raise InputError(f"person {name}", "the ontology knows nobody of this name", right)
 
     def _add(self, place: Place) -> None:
         """Put a piece of furniture, and its room, in as individuals."""

@@ -5,6 +5,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
@@ -16,13 +17,14 @@ from kb.verification import Reply
 TEXTS = Path(__file__).with_name("prompts.toml")
 
 PLACEHOLDERS: Mapping[str, Sequence[str]] = {
+    "inquiry_system": ("objects", "format"),
     "system": ("rooms", "furniture in rooms", "furniture", "format"),
     "general_pos": ("object name", "top"),
     "multiple_pos": ("object name", "position"),
     "furniture": ("object name", "room name", "furniture list"),
     "again": ("object name", "furniture list"),
     "summarize": ("object name", "situation"),
-    "question": ("thing",),
+    "question": ("thing", "words"),
 }
 """Label of each text -> what it may speak of."""
 
@@ -59,6 +61,34 @@ class Ranking(_Part):
         return _fill(self.question, {"thing": thing})
 
 
+class Understanding(_Part):
+    """The chats in which commands are read that the grammar of commands cannot read."""
+
+    system: str
+    question: str
+    neutral: str
+    examples: tuple[tuple[str, str], ...]
+    inquiry_system: str
+
+    def chat(self, words: str) -> tuple[Message, ...]:
+        """For ranking: the examples as turns, then the question about these words."""
+        turns = [Message("system", self.system)]
+        for example, said in self.examples:
+            turns += [Message("user", self._about(example)), Message("assistant", said)]
+        return (*turns, Message("user", self._about(words)))
+
+    def inquiry(
+        self, words: str, objects: Sequence[str], schema: dict[str, Any]
+    ) -> tuple[Message, ...]:
+        """For writing: what there is and the output format, then the question."""
+        values = {"objects": ", ".join(objects), "format": json.dumps(schema)}
+        system = Message("system", _fill(self.inquiry_system, values))
+        return system, Message("user", self._about(words))
+
+    def _about(self, words: str) -> str:
+        return _fill(self.question, {"words": words})
+
+
 class Prompts(_Part):
     """All texts, by the paper's labels."""
 
@@ -69,24 +99,27 @@ class Prompts(_Part):
     again: str
     summarize: str
     ranking: Ranking
+    understanding: Understanding
 
     @classmethod
-    def load(cls, path: Path = TEXTS) -> "Prompts":
-        """Read a TOML file like prompts.toml.
+    def load(cls, path: Path | None = None) -> "Prompts":
+        """Our texts; those that a TOML file like prompts.toml has are taken from there.
 
         Raises:
             InputError: names the text and what is wrong with it.
         """
+        texts = _read(TEXTS)
+        own = _read(path) if path else {}
+        for name, table in own.items():
+            if isinstance(table, dict) and isinstance(texts.get(name), dict):
+                own[name] = {**texts[name], **table}
         try:
-            return cls.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
-        except OSError as error:
-            raise InputError(str(path), f"cannot be read: {error.strerror}") from None
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise InputError(str(path), f"is not TOML: {error}") from None
+            return cls.model_validate({**texts, **own})
         except ValidationError as error:
             fault = error.errors()[0]
             where = ".".join(map(str, fault["loc"]))
-            raise InputError(f"{path}: {where}", fault["msg"]) from None
+            known = f"known are {', '.join(texts)}" if fault["type"] == "extra_forbidden" else ""
+            raise InputError(f"{path}: {where}", fault["msg"], known) from None
 
     def inquiry(self, label: str, **values: str) -> str:
         """The text with this label; placeholders are given with underscores: `object_name`."""
@@ -104,6 +137,15 @@ class Prompts(_Part):
                 "format": json.dumps(Reply.model_json_schema()),
             },
         )
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(str(path), f"cannot be read: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(str(path), f"is not TOML: {error}") from None
 
 
 def _pattern(names: Iterable[str]) -> re.Pattern[str]:

@@ -16,6 +16,8 @@ from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, U
 BYTES_PER_TOKEN = 3
 """A careful estimate for English: such servers do not offer their tokenizer."""
 RETRY_AFTER_S = 0.2
+DISLIKES_BODY = (400, 422, 500)
+"""Statuses of a server that cannot read what it was sent."""
 MOST_OF_A_REFUSAL = 200
 """Characters of a server's message that are passed on."""
 
@@ -91,7 +93,8 @@ class Server:
             max_tokens: longest reply (tokens).
             seed: for servers that heed it.
             timeout_s: longest silence of the server (seconds).
-            grammar: ask the server to hold replies to the request's JSON schema.
+            grammar: ask the server to hold replies to the request's JSON schema; a server that
+                refuses is asked once more in llama_cpp.server's way.
         """
         self.name = model or url
         self._url = url.rstrip("/")
@@ -107,6 +110,8 @@ class Server:
         }
         self._timeout_s = timeout_s
         self._grammar = grammar
+        self._openai_schema = True
+        """How to write a schema: as OpenAI does, or as llama_cpp.server does."""
         self._tasks: dict[int, asyncio.Task[None]] = {}
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, name="language model server")
@@ -188,7 +193,8 @@ class Server:
                     if last_try:
                         return Failed(f"{self._url} cannot be reached: {error}")
                 except _Refused as error:
-                    return Failed(f"{self._url} refused the request: {error}")
+                    if last_try or not self._grammar:
+                        return Failed(f"{self._url} refused the request: {error}")
                 await asyncio.sleep(RETRY_AFTER_S)
         raise AssertionError("the last try returns")
 
@@ -199,6 +205,8 @@ class Server:
         body = self._body(request, self._model or await self._first_model(client))
         url = f"{self._url}/chat/completions"
         async with client.stream("POST", url, json=body) as response:
+            if response.status_code in DISLIKES_BODY:
+                self._openai_schema = not self._openai_schema
             if response.status_code >= 500:
                 raise _BrokenOff(f"HTTP {response.status_code}")
             if response.status_code != 200:
@@ -230,7 +238,11 @@ class Server:
         }
         if self._grammar and request.schema:
             held = {"name": request.label, "schema": request.schema}
-            body["response_format"] = {"type": "json_schema", "json_schema": held}
+            body["response_format"] = (
+                {"type": "json_schema", "json_schema": held}
+                if self._openai_schema
+                else {"type": "json_object", "schema": request.schema}
+            )
         return body
 
     def _replied(self, request: ChatRequest, got: _Reply, began: float) -> Replied:

@@ -40,7 +40,7 @@ def read(reply: str) -> tuple[str, ...] | None:
 
     Text and code fences around the object do no harm. Never raises.
     """
-    for value in _json_objects(reply):
+    for value in json_objects(reply):
         try:
             return tuple(name.strip() for name in Reply.model_validate(value).places)
         except ValidationError:
@@ -70,7 +70,8 @@ def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -
     return Verdict(unique(furniture), unique(rooms), unique(dropped))
 
 
-def _json_objects(text: str) -> Iterator[object]:
+def json_objects(text: str) -> Iterator[object]:
+    """What can be read as JSON from each opening brace on. Never raises."""
     decoder = json.JSONDecoder()
     start = text.find("{")
     while start >= 0:

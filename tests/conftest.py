@@ -11,7 +11,7 @@ import pytest
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
 from executive.events import Event, Inbox, Started
-from executive.interfaces import User
+from executive.interfaces import Facts, User
 from executive.loop import Executive
 from executive.perception import Eyes
 from executive.records import Record, Tick, Verified
@@ -24,7 +24,7 @@ from kb.scripted import Scripted as ScriptedModel
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.home import Home, load_home
 from trees.mission import mission
-from trees.team import Rules, Team
+from trees.team import NoFacts, Rules, Team
 from trees.tree import MissionTree
 
 hypothesis.settings.register_profile("machines are noisy", deadline=None)
@@ -93,6 +93,7 @@ def run_mission(
     model: Callable[[Inbox], ScriptedModel] | None = None,
     first: Iterable[Event] = (),
     notebook: Notebook | None = None,
+    facts: Facts | None = None,
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
@@ -136,6 +137,7 @@ def run_mission(
         model=thinker,
         advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,
         rules=Rules(elicit=elicit, **(rules or {})),
+        facts=facts or NoFacts(),
     )
     executive = Executive(
         MissionTree(mission(team)),

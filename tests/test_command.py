@@ -22,6 +22,13 @@ read = EnglishInterpreter()
         ("Please pick up some colored wood blocks, please", Kind.TAKE, "colored wood blocks"),
         ("  GET   ME an   ORANGE !! ", Kind.BRING, "orange"),
         ("Bring the hammer to me.", Kind.BRING, "hammer"),
+        ("I'd like an apple", Kind.BRING, "apple"),
+        ("I’d like you to find me the mug", Kind.FIND, "mug"),
+        ("I would like to have some sugar", Kind.BRING, "sugar"),
+        ("Can I have a banana, please?", Kind.BRING, "banana"),
+        ("I need the scissors.", Kind.BRING, "scissors"),
+        ("Where's my mug?", Kind.FIND, "mug"),
+        ("Have you seen the drill?", Kind.FIND, "drill"),
     ],
 )
 def test_reads_a_request(words: str, kind: Kind, target: str) -> None:
@@ -47,6 +54,18 @@ def test_never_raises_and_never_names_nothing(words: str) -> None:
 @pytest.mark.parametrize("answer", ["I don't know", "no idea!", "Don’t know.", "no", "never mind"])
 def test_hears_that_the_person_cannot_help(answer: str) -> None:
     assert read.declines(answer)
+
+
+@pytest.mark.parametrize(
+    ("answer", "agrees"),
+    [
+        *((yes, True) for yes in ("yes", "Yes, please!", "yeah", "Sure.", "okay")),
+        *((no, False) for no in ("no", "No!", "nope", "no, the mug", "not that")),
+        *((neither, None) for neither in ("no idea", "not sure", "the mug", "", "nobody")),
+    ],
+)
+def test_hears_yes_and_no(answer: str, agrees: bool | None) -> None:
+    assert read.agrees(answer) is agrees
 
 
 @pytest.mark.parametrize("answer", ["on the desk", "the notebook shelf", "bedroom", "kitchen"])

@@ -1,11 +1,14 @@
 """Settings come from a file, the environment and the command line, and faults are named."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from executive import app
 from executive.config import KnowledgeSystem, load_settings
 from executive.errors import InputError
+from executive.events import Inbox
 
 
 def file_with(tmp_path: Path, text: str) -> Path:
@@ -44,6 +47,19 @@ def test_a_fault_is_named_with_what_would_be_right(
 ) -> None:
     with pytest.raises(InputError, match=sentence):
         load_settings(file_with(tmp_path, text))
+
+
+@pytest.mark.parametrize("maker", ["LlamaCpp", "Server"])
+def test_the_settings_reach_the_model(maker: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    given: dict[str, Any] = {}
+    monkeypatch.setattr(app, maker, lambda *_, **settings: given.update(settings))
+    llm = {"LlamaCpp": "my.gguf", "Server": "http://127.0.0.1:1/v1"}[maker]
+    app.build_model(
+        load_settings(llm=llm, grammar=True, threads=3, gpu_layers=-1, temperature=0.5), Inbox()
+    )
+    assert (given["grammar"], given["temperature"]) == (True, 0.5)
+    if maker == "LlamaCpp":
+        assert (given["threads"], given["gpu_layers"]) == (3, -1)
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:

@@ -168,6 +168,24 @@ def test_a_server_is_asked_to_keep_to_the_schema_if_so_set():
     assert bodies[0]["response_format"]["json_schema"]["schema"] == SCHEMA
 
 
+@pytest.mark.parametrize("status", [400, 422, 500])
+def test_a_server_that_dislikes_the_schema_is_given_it_in_the_other_way(status):
+    behaviours = (refuses(status), says("{}"), says("{}"))
+    with asked(*behaviours, grammar=True, model="m") as (model, inbox, bodies):
+        assert end_of(inbox, model.chat(HELLO)).text == "{}"
+        end_of(inbox, model.chat(HELLO))
+    assert [body["response_format"]["type"] for body in bodies] == [
+        "json_schema",
+        *2 * ["json_object"],
+    ]
+    assert bodies[1]["response_format"]["schema"] == SCHEMA
+
+
+def test_a_server_that_refuses_both_ways_has_refused():
+    with asked(refuses(400), refuses(400), grammar=True, model="m") as (model, inbox, _):
+        assert "refused the request: HTTP 400" in end_of(inbox, model.chat(HELLO)).reason
+
+
 def test_a_server_that_fails_once_is_tried_again():
     with asked(refuses(503), says("desk")) as (model, inbox, bodies):
         assert end_of(inbox, model.chat(HELLO)).text == "desk"

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from test_ontology import ANNA, OWL
 
 from executive.__main__ import main
 
@@ -85,6 +86,10 @@ def test_a_mission_that_is_not_done_says_why(
         (["--llm", "none.gguf", "--knowledge", "okb+llm"], "none.gguf"),
         (["--llm", "http://127.0.0.1:1/v1", "--elicit", "rank"], "use --elicit generate"),
         (["--config", "none.toml"], "none.toml: cannot be read"),
+        (["--prompts", "none.toml"], "none.toml: cannot be read"),
+        (["--kb", "none.owl"], "none.owl: cannot be read"),
+        (["--person", "Anna"], "person Anna: the ontology knows nobody of this name"),
+        (["--memory", "."], "is no memory"),
         (["--runs", "/dev/null/runs"], "--runs"),
     ],
 )
@@ -169,6 +174,39 @@ def test_interactive_runs_one_command_a_line() -> None:
     assert [o["object"] for o in outcomes] == ["apple", "hammer"]
     assert [o["status"] for o in outcomes] == ["done", "done"]
     assert outcomes[0]["run_dir"] != outcomes[1]["run_dir"]
+
+
+def test_a_persons_own_file_settles_which_fruit(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "more.owl").write_text(OWL.format(ANNA))
+    assert main([*QUICK, "--kb", "more.owl", "--person", "Anna", "Find a fruit"]) == 0
+    outcome = json.loads(capsys.readouterr().out)
+    assert (outcome["object"], outcome["inquiries"]) == ("pear", 1)
+
+
+@pytest.mark.parametrize(
+    ("options", "sources"),
+    [
+        ([], ["user", "user"]),
+        (["--memory", "facts.sqlite"], ["user", "memory"]),
+        (["--memory", "facts.sqlite", "--no-learn"], ["user", "user"]),
+    ],
+)
+def test_facts_outlive_the_session_in_a_file_only(
+    options: list[str], sources: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = []
+    for _ in range(2):
+        assert main([*QUICK, *options, "Find a sugar_box"]) == 0
+        said.append(json.loads(capsys.readouterr().out)["source"])
+    assert said == sources
+
+
+def test_facts_outlive_the_mission(tmp_path: Path) -> None:
+    with start("--json") as process:
+        out, _ = process.communicate("Find an apple\nliving room\nFind an apple\n", timeout=20)
+    assert [json.loads(line)["source"] for line in out.splitlines()] == ["user", "memory"]
 
 
 def test_a_signal_before_the_first_command_ends_the_session() -> None:

@@ -1,5 +1,6 @@
 """What the knowledge base knows about things and places, and how people may name them."""
 
+import re
 import socket
 from pathlib import Path
 from xml.etree import ElementTree
@@ -130,6 +131,30 @@ def test_nearest_names_of_gibberish_are_none():
 
 
 @pytest.mark.parametrize(
+    ("words", "name"),
+    [("appel", "apple"), ("suger_box", "sugar_box"), ("hamer", "hammer"), ("fruti", "fruit")]
+    + [("zebra", None), ("box", None), ("pearh", None), ("", None)],
+)
+def test_a_slip_is_near_one_name_only(words, name):
+    assert KNOWN.near_name(words) == name
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        ("an apple and two mugs", ("apple", "mug")),
+        ("any fruit, and the box of sugar", ("fruit", "sugar_box")),
+        ("a red apple", ("apple",)),
+        ("apples, apples!", ("apple",)),
+        ("nothing at all", ()),
+        ("", ()),
+    ],
+)
+def test_names_are_found_in_a_text(words, names):
+    assert KNOWN.names_in(words) == names
+
+
+@pytest.mark.parametrize(
     ("words", "places"),
     [
         ("on the kitchen cabinet or the desk", ("cabinet_kitchen", "desk")),
@@ -230,6 +255,20 @@ def test_a_missing_file_is_refused(tmp_path):
         Ontology(files=[tmp_path / "nowhere.owl"])
 
 
+def test_two_files_of_one_name_are_refused_because_one_would_be_lost_in_the_log(tmp_path):
+    one = owl_file(tmp_path, "")
+    (tmp_path / "other").mkdir()
+    with pytest.raises(InputError, match="more.owl: another file has the same name; rename one"):
+        Ontology(files=[one, owl_file(tmp_path / "other", "")])
+
+
+def test_a_file_is_kept_as_it_was_loaded(tmp_path):
+    path = owl_file(tmp_path, "")
+    known, loaded = Ontology(files=[path]), path.read_bytes()
+    path.unlink()
+    assert known.files()["more.owl"] == loaded
+
+
 def test_an_import_is_never_fetched_from_the_network(tmp_path, monkeypatch):
     monkeypatch.setattr(socket.socket, "connect", lambda *_: pytest.fail("went to the network"))
     importing = owl_file(
@@ -284,11 +323,11 @@ def test_check_finds_no_fault_in_the_files_that_come_with_it(capsys):
             """<owl:Class rdf:about="#Cup"><rdfs:label>Mugs</rdfs:label>
             <rdfs:subClassOf rdf:resource="http://robot-executive.org/household.owl#Kitchenware"/>
             </owl:Class>""",
-            "'Mugs' names both Mug and Cup",
+            "'Mugs' names both Mug and Cup: rename one",
         ),
         (
             """<household:Desk rdf:about="#lost_desk"/>""",
-            "lost_desk is in no room",
+            "lost_desk is in no room: say with isIn where it stands",
         ),
         (
             """<owl:Class rdf:about="http://robot-executive.org/household.owl#Mug"><rdfs:subClassOf>
@@ -296,7 +335,7 @@ def test_check_finds_no_fault_in_the_files_that_come_with_it(capsys):
               rdf:resource="http://robot-executive.org/household.owl#hasDefaultLocation"/>
             <owl:hasValue rdf:resource="http://robot-executive.org/home.owl#kitchen"/>
             </owl:Restriction></rdfs:subClassOf></owl:Class>""",
-            "Mug has a default location, kitchen, that is no furniture",
+            "Mug has a default location, kitchen, that is no furniture: name a piece of furniture",
         ),
         (
             """<owl:Class rdf:about="http://robot-executive.org/household.owl#Mug"><rdfs:subClassOf>
@@ -304,7 +343,25 @@ def test_check_finds_no_fault_in_the_files_that_come_with_it(capsys):
               rdf:resource="http://robot-executive.org/household.owl#hasDefaultLocation"/>
             <owl:hasValue rdf:resource="http://robot-executive.org/home.owl#atlantis"/>
             </owl:Restriction></rdfs:subClassOf></owl:Class>""",
-            "Mug has a default location that no file declares",
+            "Mug has a default location that no file declares: "
+            "declare it as furniture, or name another",
+        ),
+        (
+            """<owl:Class rdf:about="http://robot-executive.org/household.owl#Mug"><rdfs:subClassOf>
+            <owl:Restriction><owl:onProperty
+              rdf:resource="http://robot-executive.org/household.owl#preferredBy"/>
+            <owl:hasValue rdf:resource="http://robot-executive.org/home.owl#nobody"/>
+            </owl:Restriction></rdfs:subClassOf></owl:Class>""",
+            "Mug is preferred by someone whom no file declares: declare the Person",
+        ),
+        (
+            """<owl:Class rdf:about="#Lonely"/>""",
+            "Lonely is in no class: put it below Object, Furniture, Room or Person",
+        ),
+        (
+            """<owl:Class rdf:about="http://robot-executive.org/household.owl#Fruit"><rdfs:subClassOf
+            rdf:resource="http://robot-executive.org/household.owl#Apple"/></owl:Class>""",
+            "Fruit below Apple below Fruit: no class is below itself, take out one subClassOf",
         ),
     ],
 )
@@ -325,6 +382,58 @@ def test_show_says_what_is_known_about_a_thing(capsys):
 def test_show_offers_the_nearest_name(capsys):
     assert main(["show", "appel"]) == 1
     assert "did you mean apple?" in capsys.readouterr().err
+
+
+ANNA = """<household:Person rdf:about="#anna"><rdfs:label>Anna</rdfs:label></household:Person>
+<owl:Class rdf:about="http://robot-executive.org/household.owl#Pear"><rdfs:subClassOf>
+<owl:Restriction>
+  <owl:onProperty rdf:resource="http://robot-executive.org/household.owl#preferredBy"/>
+  <owl:hasValue rdf:resource="#anna"/>
+</owl:Restriction></rdfs:subClassOf></owl:Class>"""
+
+
+def test_a_favourite_is_known_to_whoever_knows_the_person(tmp_path, capsys):
+    file = owl_file(tmp_path, ANNA)
+    assert Ontology(files=[file], person="anna").preferred(FRUITS) == ("pear",)
+    assert Ontology(files=[file]).preferred(FRUITS) == ()
+    main(["show", "--kb", str(file), "pear"])
+    assert "preferred by Anna" in capsys.readouterr().out
+
+
+def test_the_file_that_the_docs_show_is_sound(tmp_path):
+    docs = Path(__file__).parents[1] / "docs" / "knowledge.md"
+    [shown] = re.findall(r"^<rdf:RDF.*?^</rdf:RDF>", docs.read_text(), re.DOTALL | re.MULTILINE)
+    (tmp_path / "anna.owl").write_text(shown)
+    known = Ontology(files=[tmp_path / "anna.owl"], person="Anna")
+    assert known.preferred(FRUITS) == ("pear",)
+    assert list(known.faults()) == []
+
+
+def test_an_unknown_person_is_refused_with_who_is_known(tmp_path):
+    with pytest.raises(InputError, match="person Bob: .* known are Anna"):
+        Ontology(files=[owl_file(tmp_path, ANNA)], person="Bob")
+    with pytest.raises(InputError, match="person Bob: .* give it as --kb"):
+        Ontology(person="Bob")
+
+
+def test_a_query_is_answered_as_a_table_and_as_json(capsys):
+    assert main(["query", "SELECT ?room WHERE { home:desk household:isIn ?room }"]) == 0
+    assert capsys.readouterr().out == "room\nbedroom\n"
+    assert main(["query", "--json", "SELECT ?x WHERE { ?x rdfs:subClassOf household:Ball }"]) == 0
+    assert capsys.readouterr().out == '[{"x": "tennis_ball"}]\n'
+    assert main(["query", "SELECT ?x WHERE { ?x rdfs:subClassOf household:Apple }"]) == 1
+
+
+@pytest.mark.parametrize("sparql", ["", "what?", "ASK { ?x ?y ?z }", "SELECT ?x { ?x :y ?z }"])
+def test_a_query_that_cannot_be_read_is_bad_input(sparql, capsys):
+    assert main(["query", sparql]) == 2
+    assert "write for example: SELECT" in capsys.readouterr().err
+
+
+def test_a_query_changes_nothing(capsys):
+    insert = "INSERT { ?x skos:altLabel 'x' } WHERE { ?x rdfs:subClassOf household:Fruit }"
+    assert main(["query", insert]) == 2
+    assert "is no SELECT" in capsys.readouterr().err
 
 
 def test_a_bad_file_ends_the_command_with_one_sentence(tmp_path, capsys):

@@ -8,7 +8,7 @@ from conftest import four_rooms, run_mission
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from executive.types import DriveTo, Goal, LookAt, Pick, PutDown, Source, Status
+from executive.types import DriveTo, Goal, Kind, LookAt, Pick, PutDown, Source, Status
 
 ALL = tuple(place.name for place in four_rooms().places())
 
@@ -32,6 +32,7 @@ class Case:
     given: dict[str, Any] = field(default_factory=dict)
     status: Status = Status.DONE
     object: str | None = None
+    kind: Kind | None = None
     location: str | None = None
     source: Source | None = None
     visited: tuple[str, ...] | None = None
@@ -43,6 +44,7 @@ class Case:
 NO_DEFAULTS = {"defaults": False}
 OKB = {"llm": False}
 GENERATE = {"elicit": "generate"}
+FRUIT_DEFAULTS = ("dining_table", "counter_wagon", "high_table")
 SUGAR_DEFAULTS = ("cabinet_kitchen", "counter_wagon", "high_table")
 
 CASES = [
@@ -232,6 +234,89 @@ CASES = [
         inquiries=2,
     ),
     Case(
+        "a slip is asked about, and yes is understood",
+        "Take a hamer.",
+        OKB | {"answers": ["Yes, please."]},
+        object="hammer",
+        inquiries=1,
+    ),
+    Case(
+        "a slip was none, and the person says so and then what is meant",
+        "Take a hamer.",
+        OKB | {"answers": ["no", "the power drill"]},
+        object="power_drill",
+        inquiries=2,
+    ),
+    Case(
+        "what is meant is said with the no",
+        "Take a hamer.",
+        OKB | {"answers": ["No, the drill!"]},
+        object="power_drill",
+        inquiries=1,
+    ),
+    Case(
+        "no and the guess is a no",
+        "Take a hamer.",
+        OKB | {"answers": ["not the hammer", "power drill"]},
+        object="power_drill",
+        inquiries=2,
+    ),
+    Case(
+        "a slip of a class is a class",
+        "Find a fruti.",
+        {"answers": ["yes", "pear"], "replies": [favouring("high_table", among=FRUIT_DEFAULTS)]},
+        object="pear",
+        inquiries=2,
+        llm_calls=1,
+    ),
+    Case(
+        "words beside a known name are asked about",
+        "Take the red hammer.",
+        OKB | {"answers": ["yes"]},
+        object="hammer",
+        inquiries=1,
+    ),
+    Case(
+        "of several things one is done, and the person says which",
+        "Take a power drill and the hammer.",
+        OKB | {"answers": ["the hammer"]},
+        object="hammer",
+        inquiries=1,
+    ),
+    Case(
+        "a wish is a command",
+        "I'd like a hammer, please.",
+        OKB,
+        object="hammer",
+    ),
+    Case(
+        "what the grammar cannot read is ranked, and done if the person agrees",
+        "Hand over the hammer!",
+        {"answers": ["yes"], "replies": [(0.0, 0.5, 2.0)]},
+        object="hammer",
+        kind=Kind.BRING,
+        inquiries=1,
+        llm_calls=1,
+    ),
+    Case(
+        "what the grammar cannot read is written by the model, and done if the person agrees",
+        "My nails need driving in with a hammer.",
+        GENERATE | {"answers": ["yes"], "replies": ['{"kind": "take", "object": "hammer"}']},
+        object="hammer",
+        kind=Kind.TAKE,
+        inquiries=1,
+        llm_calls=1,
+    ),
+    Case(
+        "of several things in words that no grammar reads the person chooses one",
+        "Has anyone seen hammer and drill?",
+        {"answers": ["yes", "drill"], "replies": [(2.0, 0.5, 0.0)]},
+        object="power_drill",
+        kind=Kind.FIND,
+        inquiries=2,
+        llm_calls=1,
+    ),
+    Case(
         "a room as an answer means its furniture",
         "Find a peach.",
         OKB | {"answers": ["in the kitchen"]},
@@ -260,6 +345,50 @@ CASES = [
 FAILURES = [
     Case("empty words", "", status=Status.NOT_UNDERSTOOD, reason="I do not understand"),
     Case("senseless words", "Fnord!", status=Status.NOT_UNDERSTOOD, reason="for example"),
+    Case(
+        "the model's reading of the words is not what was meant",
+        "Hand over the hammer!",
+        {"answers": ["no"], "replies": [(0.0, 0.5, 2.0)]},
+        status=Status.NOT_UNDERSTOOD,
+        inquiries=1,
+        llm_calls=1,
+        reason="I do not understand 'Hand over the hammer!'",
+    ),
+    Case(
+        "nobody confirms the model's reading of the words",
+        "Hand over the hammer!",
+        {"answers": [None], "replies": [(0.0, 0.5, 2.0)]},
+        status=Status.NOT_UNDERSTOOD,
+        inquiries=1,
+        llm_calls=1,
+    ),
+    Case(
+        "there is no model to read what the grammar cannot",
+        "Hand over the hammer!",
+        OKB | {"answers": ["yes"]},
+        status=Status.NOT_UNDERSTOOD,
+    ),
+    Case(
+        "the model does not answer what the words mean",
+        "Hand over the hammer!",
+        {"answers": ["yes"], "replies": [None]},
+        status=Status.NOT_UNDERSTOOD,
+    ),
+    Case(
+        "the model reads into the words what does not exist",
+        "Hand over the hammer!",
+        GENERATE | {"answers": ["yes"], "replies": ['{"kind": "bring", "object": "crown"}']},
+        status=Status.NOT_UNDERSTOOD,
+        llm_calls=1,
+    ),
+    Case(
+        "a slip was none, and the person says no more",
+        "Take a hamer.",
+        OKB | {"answers": ["no", "I don't know"]},
+        status=Status.NOT_DONE,
+        inquiries=2,
+        reason="I know no 'hamer'",
+    ),
     Case(
         "an unknown thing, and the person does not know either",
         "Bring a suger_box.",
@@ -329,7 +458,7 @@ def check(case: Case) -> None:
         case.llm_calls,
     ), outcome.reason
     assert case.reason in outcome.reason
-    for name in ("object", "location", "source", "visited"):
+    for name in ("object", "kind", "location", "source", "visited"):
         expected = getattr(case, name)
         assert expected is None or getattr(outcome, name) == expected
     assert not run.inbox.awaits_anything

@@ -117,9 +117,26 @@ def test_an_unknown_placeholder_is_refused(tmp_path):
         Prompts.load(path)
 
 
-def test_a_missing_text_is_refused(tmp_path):
+def test_a_text_that_nobody_asks_for_is_refused(tmp_path):
     path = edited(tmp_path, "again =", "once_more =")
-    with pytest.raises(InputError, match=r"prompts.toml: again: Field required"):
+    with pytest.raises(InputError, match=r"toml: once_more: Extra.*; known are system, general"):
+        Prompts.load(path)
+
+
+def test_a_persons_file_replaces_only_the_texts_that_it_has(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text('again = "Once more: #object name?"\n[ranking]\nquestion = "Whither #thing?"')
+    ours, mine = Prompts.load(), Prompts.load(path)
+    assert mine.again == "Once more: #object name?"
+    assert mine.ranking.question == "Whither #thing?"
+    assert mine.model_copy(update={"again": ours.again, "ranking": ours.ranking}) == ours
+    assert mine.ranking.examples == ours.ranking.examples
+
+
+def test_a_table_of_texts_cannot_be_a_text(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text('ranking = "by eye"')
+    with pytest.raises(InputError, match=r"mine.toml: ranking: Input should be"):
         Prompts.load(path)
 
 

@@ -3,6 +3,8 @@
 import io
 from collections.abc import Callable
 
+import pytest
+
 from executive.events import Ended, Event, Inbox, StopRequested
 from executive.types import Answered, Failed, Question, QuestionKind
 from executive.user import Console, Nobody, Oracle
@@ -62,6 +64,13 @@ def test_the_oracle_tells_the_truth() -> None:
 def test_the_oracle_means_a_thing_that_is_there() -> None:
     places = {"mug": "desk", "pear": "sofa"}
     assert result(asked(lambda i: Oracle(i, places.get), WHICH)) == Answered("pear")
+
+
+@pytest.mark.parametrize(("options", "answer"), [(("apple", "pear"), "yes"), (("kiwi",), "no")])
+def test_the_oracle_agrees_to_what_is_there(options: tuple[str, ...], answer: str) -> None:
+    places = {"mug": "desk", "pear": "sofa"}
+    question = Question(QuestionKind.CONFIRM, "it", "Do you mean it?", options)
+    assert result(asked(lambda i: Oracle(i, places.get), question)) == Answered(answer)
 
 
 def test_the_oracle_does_not_invent() -> None:

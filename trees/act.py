@@ -2,7 +2,7 @@
 
 from py_trees.behaviour import Behaviour
 
-from executive.types import Kind
+from executive.types import DELIVERY, Kind
 from trees.nodes import Check, fallback, sequence
 from trees.person import Report
 from trees.robot import DriveBack, DriveToCandidate, LookAtCandidate, PickUp, PutDownAt, SeeTarget
@@ -37,8 +37,8 @@ def act(team: Team) -> Behaviour:
             "bring",
             asked_to(Kind.BRING),
             grasp(team),
-            DriveBack("carry", team, "delivery"),
-            PutDownAt("put down", team, "delivery"),
+            DriveBack("carry", team, DELIVERY),
+            PutDownAt("put down", team, DELIVERY),
             Report("report", team, "Here is the {object} from {place}."),
         ),
     )

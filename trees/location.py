@@ -1,4 +1,4 @@
-"""Where may it be? The ontology's one place, else the language model's verified list, else ask.
+"""Where may it be? Where it was, else the ontology's one place, else the language model, else ask.
 
 The flow of the paper's section "Integrated use of ontological knowledge base and LLM", with its
 consistency verification spelled out as behaviours, so that every step is seen in the log.
@@ -13,7 +13,7 @@ from py_trees.decorators import FailureIsSuccess
 from executive.interfaces import Advisor, LanguageModel
 from executive.records import Verified
 from executive.situation import Consultation, candidates_from
-from executive.types import ChatRequest, Replied, Result, Scored, Source
+from executive.types import DELIVERY, ChatRequest, Replied, Result, Scored, Source
 from trees.nodes import Action, Check, EachOf, Step, fallback, sequence
 from trees.person import AskWhere
 from trees.team import Team
@@ -82,13 +82,29 @@ def existence_check(team: Team) -> Behaviour:
     )
 
 
+class MemoryKnowsPlaces(Step):
+    """Succeeds if the thing was seen somewhere in this home, or was said to be there."""
+
+    def update(self) -> Status:
+        """Recall it."""
+        assert self.situation.object
+        here = {DELIVERY, *(place.name for place in self.team.knowledge.places())}
+        places = [p for p in self.team.facts.places_of(self.situation.object) if p in here]
+        if not places:
+            return self.fail(f"I have not seen the {self.situation.object}")
+        self.situation.candidates = candidates_from(places, Source.MEMORY)
+        return self.succeed(", ".join(places))
+
+
 class OntologyKnowsPlace(Step):
-    """Succeeds if the ontology has exactly one default location for the object."""
+    """Succeeds if the ontology has exactly one default location for the object, still unvisited."""
 
     def update(self) -> Status:
         """Look it up; several are kept to narrow down what the model may say."""
         assert self.situation.object
         usual = self.team.knowledge.usual_places(self.situation.object)
+        if len(usual) == 1 and usual[0] in self.situation.visited:
+            return self.fail(f"{usual[0]} is its place, but it is not there")
         if len(usual) == 1:
             self.situation.candidates = candidates_from(usual, Source.ONTOLOGY)
             return self.succeed(usual[0])
@@ -150,7 +166,9 @@ class RankPlaces(ModelAction):
         """Keep as many as are worth a visit; all of them if the ontology named them."""
         if not isinstance(result, Scored):
             return self.failed(result)
-        ranked = self.advisor.ranked(result)
+        ranked = self.situation.not_visited(self.advisor.ranked(result))
+        if not ranked:
+            return self.fail("the language model ranked only places that were looked at")
         if not self.situation.among:
             ranked = ranked[: self.team.rules.top]
         self.situation.candidates = ranked
@@ -258,10 +276,13 @@ class VerifyFurniture(VerifyNames):
 
 
 class AdoptFurniture(Step):
-    """What passed becomes the list of candidates."""
+    """What passed, and was not looked at yet, becomes the list of candidates."""
 
     def update(self) -> Status:
         """Keep the model's order."""
         furniture = self.situation.consultation.furniture
-        self.situation.candidates = candidates_from(furniture, Source.LLM)
-        return self.succeed(", ".join(furniture))
+        new = self.situation.not_visited(candidates_from(furniture, Source.LLM))
+        if not new:
+            return self.fail("the language model named only places that were looked at")
+        self.situation.candidates = new
+        return self.succeed(", ".join(candidate.place for candidate in new))

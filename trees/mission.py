@@ -1,8 +1,9 @@
 """The mission: from words to a deed, and to an honest word when it cannot be done.
 
 understand ─> which object ─> search ─────────────────────────> act ───────────> report
-words         ontology        ontology knows one place          find, take
-              else person     else LLM, verified                or bring
+grammar       ontology        memory: where it was seen         find, take
+else LLM,     else person     else ontology: its one place      or bring
+confirmed                     else LLM, verified
                               else person; visit, look;
                               not seen: ask the person
 """
@@ -11,7 +12,6 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.decorators import FailureIsSuccess
 
-from executive.records import Utterance
 from executive.types import Status as MissionStatus
 from trees.act import act
 from trees.nodes import Check, Step, fallback, sequence
@@ -20,6 +20,7 @@ from trees.person import Apologise
 from trees.robot import DriveBack
 from trees.search import search
 from trees.team import Team
+from trees.understand import understand
 
 
 def mission(team: Team) -> Behaviour:
@@ -28,7 +29,7 @@ def mission(team: Team) -> Behaviour:
         "mission",
         sequence(
             "serve",
-            Understand("understand", team),
+            understand(team),
             resolve_object(team),
             search(team),
             act(team),
@@ -48,23 +49,6 @@ def come_back(team: Team) -> Behaviour:
             DriveBack("drive", team, "person"),
         ),
     )
-
-
-class Understand(Step):
-    """Words -> command."""
-
-    def update(self) -> Status:
-        """Read the words; what cannot be read is the person's to say again."""
-        self.team.recorder.record(Utterance("person", self.situation.words))
-        command = self.team.interpreter.command(self.situation.words)
-        if command is None:
-            self.situation.status = MissionStatus.NOT_UNDERSTOOD
-            return self.fail(
-                f"I do not understand '{self.situation.words}'; "
-                "say for example: Find an apple. Take the mug. Bring a sugar_box."
-            )
-        self.situation.command = command
-        return self.succeed(f"{command.kind} {command.target}")
 
 
 class Conclude(Step):

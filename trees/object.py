@@ -1,14 +1,14 @@
-"""Which thing is meant? The ontology says, else the person: the language model is never asked.
+"""Which thing is meant? The ontology says, or whose home it is, else the person is asked.
 
-Which fruit someone likes is a matter of that person, not of general knowledge (paper, section
-"Integrated use of ontological knowledge base and LLM").
+The language model never is: which fruit someone likes is a matter of that person, not of general
+knowledge (paper, section "Integrated use of ontological knowledge base and LLM").
 """
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from trees.nodes import Step, fallback
-from trees.person import AskWhichObject
+from trees.nodes import Check, Step, fallback, sequence
+from trees.person import AskDoYouMean, AskWhichObject
 from trees.team import Team
 
 
@@ -16,8 +16,27 @@ def resolve_object(team: Team) -> Behaviour:
     """Words for a thing -> `situation.object`."""
     return fallback(
         "which object",
+        known_object(team),
+        sequence(
+            "a slip",
+            GuessName("is like a known name", team),
+            AskDoYouMean("ask do you mean", team),
+            known_object(team),
+        ),
+        sequence(
+            "ask",
+            Check("person may help", team, lambda: not team.situation.person_silent),
+            AskWhichObject("ask which object", team),
+        ),
+    )
+
+
+def known_object(team: Team) -> Behaviour:
+    """What can be told without a question."""
+    return fallback(
+        "known object",
         OntologyKnowsObject("ontology knows it", team),
-        AskWhichObject("ask which object", team),
+        PersonPrefersOne("the person prefers one", team),
     )
 
 
@@ -34,3 +53,41 @@ class OntologyKnowsObject(Step):
             return self.succeed(named[0])
         self.situation.options = named
         return self.fail(f"'{target}' names {len(named) or 'no'} known objects")
+
+
+class PersonPrefersOne(Step):
+    """Succeeds if the ontology knows that this person prefers one of the things that fit."""
+
+    def update(self) -> Status:
+        """Look for a favourite."""
+        favourites = self.team.knowledge.preferred(self.situation.options)
+        if len(favourites) != 1:
+            return self.fail(f"{len(favourites) or 'none'} of them is a favourite")
+        self.situation.object = favourites[0]
+        return self.succeed(favourites[0])
+
+
+class GuessName(Step):
+    """Succeeds if one known name is in the words, or is so near that they may be a slip of it.
+
+    If several are, the person has to choose: the robot does one thing at a time.
+    """
+
+    def update(self) -> Status:
+        """Look for known names."""
+        assert self.situation.command
+        target = self.situation.command.target
+        if self.situation.options:
+            return self.fail(f"'{target}' is known")
+        knowledge = self.team.knowledge
+        names = knowledge.names_in(target)
+        if len(names) > 1:
+            self.situation.several = True
+            self.situation.options = tuple(
+                dict.fromkeys(one for name in names for one in knowledge.objects_named(name))
+            )
+            return self.fail(f"'{target}' names several things")
+        self.situation.guess = names[0] if names else knowledge.near_name(target) or ""
+        if not self.situation.guess:
+            return self.fail(f"'{target}' is like no known name")
+        return self.succeed(self.situation.guess)

@@ -1,6 +1,7 @@
 """Leaves that talk with the person."""
 
 from abc import abstractmethod
+from dataclasses import replace
 
 from py_trees.common import Status
 
@@ -31,6 +32,10 @@ class Ask(Action):
     def unresolved(self) -> str:
         """What stays unknown without an answer, as a clause."""
 
+    def declines(self, answer: str) -> bool:
+        """Whether the answer is that there is none."""
+        return self.team.interpreter.declines(answer)
+
     def initialise(self) -> None:
         """Ask for the first time."""
         self._tries = 0
@@ -50,7 +55,7 @@ class Ask(Action):
             return self._no_help(result.reason)
         assert isinstance(result, Answered)
         self.team.recorder.record(Utterance("person", result.text))
-        if self.team.interpreter.declines(result.text):
+        if self.declines(result.text):
             return self._no_help("you could not tell me")
         if self.understood(result.text):
             return self.succeed(result.text)
@@ -71,6 +76,69 @@ class Ask(Action):
         return self.fail(f"{self.unresolved()}, and {why}")
 
 
+class AskYesNo(Ask):
+    """Asks whether something is so; fails if it is not."""
+
+    _agrees: bool | None = None
+
+    @abstractmethod
+    def agreed(self) -> None:
+        """Take it as so."""
+
+    def declines(self, answer: str) -> bool:
+        """A no is an answer."""
+        return self.team.interpreter.agrees(answer) is None and super().declines(answer)
+
+    def understood(self, answer: str) -> bool:
+        """Hear yes and no."""
+        self._agrees = self.team.interpreter.agrees(answer)
+        if self._agrees:
+            self.agreed()
+        return self._agrees is not None
+
+    def ended(self, result: Result) -> Status:
+        """Fail on a no, too."""
+        status = super().ended(result)
+        if status == Status.SUCCESS and not self._agrees:
+            return self.fail(f"{self.unresolved()}, and you said no")
+        return status
+
+
+class AskDoYouMean(AskYesNo):
+    """Asks whether a known name is meant: the robot never silently guesses."""
+
+    def question(self) -> Question:
+        """Offer the guess."""
+        assert self.situation.command
+        target, guess = self.situation.command.target, self.situation.guess
+        text = f"I know no '{target}'. Do you mean {guess}?"
+        objects = self.team.knowledge.objects_named(guess)
+        return Question(QuestionKind.CONFIRM, guess, text, objects)
+
+    def agreed(self) -> None:
+        """The guess is what was asked for."""
+        assert self.situation.command
+        command = replace(self.situation.command, target=self.situation.guess)
+        self.situation.command = command
+
+    def understood(self, answer: str) -> bool:
+        """Instead of yes or no, the person may say what they mean: "no, the mug"."""
+        names = self.team.knowledge.names_in(answer)
+        refused = self.team.interpreter.agrees(answer) is False
+        if len(names) != 1 or (refused and names[0] == self.situation.guess):
+            return super().understood(answer)
+        self.situation.guess = names[0]
+        self._agrees = True
+        self.agreed()
+        return True
+
+    def unresolved(self) -> str:
+        """Name the guess."""
+        assert self.situation.command
+        target, guess = self.situation.command.target, self.situation.guess
+        return f"I know no '{target}'; the nearest that I know is {guess}"
+
+
 class AskWhichObject(Ask):
     """Asks which thing is meant, where the words fit several or none."""
 
@@ -78,13 +146,20 @@ class AskWhichObject(Ask):
         """Offer the members of the class, or the nearest known names."""
         assert self.situation.command
         target = self.situation.command.target
-        if options := self.situation.options:
+        if (options := self.situation.options) and self.situation.several:
+            text = f"I can do one thing at a time. Which first: {_either(options)}?"
+        elif options:
             text = f"Which {target} do you mean: {_either(options)}?"
-        elif options := self.team.knowledge.nearest_names(target):
+        elif options := self._other_names(target):
             text = f"I know no '{target}'. Do you mean {_either(options)}, or something else?"
         else:
             text = f"I know no '{target}'. Which thing do you mean?"
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
+
+    def _other_names(self, target: str) -> tuple[str, ...]:
+        """The nearest known names, less the one that the person did not mean."""
+        names = self.team.knowledge.nearest_names(target)
+        return tuple(name for name in names if name != self.situation.guess)
 
     def understood(self, answer: str) -> bool:
         """One object is enough; several narrow the next question down."""
@@ -125,6 +200,8 @@ class AskWhere(Ask):
         """Any places that exist become the candidates."""
         places = self.team.knowledge.places_named(answer)
         if places:
+            assert self.situation.object
+            self.team.facts.heard(self.situation.object, places)
             self.situation.candidates = candidates_from(places, Source.USER)
         return bool(places)
 

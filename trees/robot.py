@@ -1,10 +1,12 @@
 """Leaves that move the robot and use its eyes."""
 
 from abc import abstractmethod
+from collections.abc import Iterable
 
 from py_trees.common import Status
 
 from executive.types import (
+    Detection,
     DriveTo,
     Failed,
     Goal,
@@ -94,6 +96,8 @@ class LookAtCandidate(RobotAction):
     def goal(self) -> Goal:
         """Look at the view at hand."""
         assert self.situation.candidate
+        if not self.situation.view:
+            self.situation.views_without = 0
         return LookAt(self.situation.candidate.place, self.situation.view)
 
 
@@ -104,6 +108,14 @@ class PickUp(RobotAction):
         """Pick what was detected."""
         assert self.situation.detection
         return Pick(self.situation.detection)
+
+    def ended(self, result: Result) -> Status:
+        """Remember that it is no longer there."""
+        if isinstance(result, Succeeded):
+            assert self.situation.detection
+            assert self.situation.found
+            self.team.facts.took(self.situation.detection.label, self.situation.found.place)
+        return super().ended(result)
 
 
 class PutDownAt(RobotAction):
@@ -118,6 +130,13 @@ class PutDownAt(RobotAction):
         """Put it there."""
         return PutDown(self._place)
 
+    def ended(self, result: Result) -> Status:
+        """Remember that it is here now."""
+        if isinstance(result, Succeeded):
+            assert self.situation.object
+            self.team.facts.put(self.situation.object, self._place)
+        return super().ended(result)
+
 
 class SeeTarget(Action):
     """Takes a picture and succeeds if the thing is in it."""
@@ -131,11 +150,13 @@ class SeeTarget(Action):
         return self.team.eyes.see()
 
     def ended(self, result: Result) -> Status:
-        """Keep the surest detection of the thing, and where it was."""
+        """Keep the surest detection of the thing, and where it was; remember all that was seen."""
         if not isinstance(result, Saw):
             return self.failed(result)
+        self._remember(result.detections)
         wanted = [d for d in result.detections if d.label == self.situation.object]
         if not wanted:
+            self.situation.views_without += 1
             self.feedback_message = f"no {self.situation.object} in view"
             return Status.FAILURE
         self.situation.detection = wanted[0]
@@ -145,6 +166,13 @@ class SeeTarget(Action):
     def cancel(self, request: int) -> None:
         """Look no more."""
         self.team.eyes.cancel(request)
+
+    def _remember(self, detections: Iterable[Detection]) -> None:
+        """A thing may be on furniture behind this place; with none below it, it counts as here."""
+        assert self.situation.candidate
+        for seen in detections:
+            below = self.team.place_at(seen.position) if seen.position else None
+            self.team.facts.saw((seen.label,), below or self.situation.candidate.place)
 
 
 def _in_words(goal: Goal) -> str:

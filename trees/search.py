@@ -1,10 +1,10 @@
-"""Go and look: candidates in order until the thing is seen, else ask the person and look there."""
+"""Go and look: where it was, where it may be, where the person says, until the thing is seen."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.types import Candidate
-from trees.location import resolve_location
+from trees.location import MemoryKnowsPlaces, resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Announce, AskWhere
 from trees.robot import LookAtCandidate, SeeTarget, Visit
@@ -15,6 +15,12 @@ def search(team: Team) -> Behaviour:
     """An object -> `situation.detection` and `situation.found`."""
     return fallback(
         "search",
+        sequence(
+            "look where it was",
+            MemoryKnowsPlaces("memory knows it", team),
+            Announce("announce", team),
+            visit_candidates(team),
+        ),
         sequence(
             "look where it may be",
             resolve_location(team),
@@ -47,7 +53,7 @@ def visit_candidates(team: Team) -> Behaviour:
 
 
 def look_over(team: Team) -> Behaviour:
-    """Look at every part of the place until the thing is seen."""
+    """Look at every part of the place until the thing is seen; remember if it is not there."""
 
     def views() -> range:
         candidate = team.situation.candidate
@@ -56,12 +62,29 @@ def look_over(team: Team) -> Behaviour:
     def choose(view: int) -> None:
         team.situation.view = view
 
-    return FirstOf(
+    return fallback(
         "look over",
-        views,
-        choose,
-        sequence("glance", LookAtCandidate("aim", team), SeeTarget("see", team)),
+        FirstOf(
+            "each view",
+            views,
+            choose,
+            sequence("glance", LookAtCandidate("aim", team), SeeTarget("see", team)),
+        ),
+        NotHere("not here", team),
     )
+
+
+class NotHere(Step):
+    """Remembers that the thing is not here, if every part of the place was seen; always fails."""
+
+    def update(self) -> Status:
+        """Only what was looked at can be known."""
+        assert self.situation.candidate
+        assert self.situation.object
+        name, place = self.situation.object, self.situation.candidate.place
+        if self.situation.views_without == self.team.robot.views(place):
+            self.team.facts.missed(name, place)
+        return self.fail(f"no {name} at {place}")
 
 
 class GiveUpSearch(Step):

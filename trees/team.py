@@ -1,11 +1,13 @@
 """Whom the behaviours work with, and by which rules."""
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from executive.interfaces import (
     Advisor,
     Clock,
     Eyes,
+    Facts,
     Interpreter,
     Knowledge,
     LanguageModel,
@@ -14,6 +16,7 @@ from executive.interfaces import (
     User,
 )
 from executive.situation import Situation
+from executive.types import Vector3
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,9 +40,35 @@ class Rules:
     questions: int = 3
 
 
+class NoFacts:
+    """Implements `Facts`: remembers nothing."""
+
+    def saw(self, names: Iterable[str], place: str) -> None:
+        """Forget it."""
+
+    def missed(self, name: str, place: str) -> None:
+        """Forget it."""
+
+    def heard(self, name: str, places: Iterable[str]) -> None:
+        """Forget it."""
+
+    def took(self, name: str, place: str) -> None:
+        """Forget it."""
+
+    def put(self, name: str, place: str) -> None:
+        """Forget it."""
+
+    def places_of(self, name: str) -> tuple[str, ...]:
+        """Nowhere."""
+        return ()
+
+
 @dataclass(frozen=True, slots=True)
 class Team:
-    """The collaborators of a mission; no `model` and `advisor` for the system without an LLM."""
+    """The collaborators of a mission; no `model` and `advisor` for the system without an LLM.
+
+    `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
+    """
 
     situation: Situation
     clock: Clock
@@ -52,3 +81,5 @@ class Team:
     model: LanguageModel | None = None
     advisor: Advisor | None = None
     rules: Rules = Rules()
+    facts: Facts = NoFacts()
+    place_at: Callable[[Vector3], str | None] = lambda point: None

@@ -1,0 +1,203 @@
+"""What was seen where and when, looked for in vain, said, taken and put down: facts with a time.
+
+Facts are only ever added: what is believed follows from the order in which they came.
+"""
+
+import logging
+import sqlite3
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from executive.errors import InputError
+
+log = logging.getLogger(__name__)
+
+APPLICATION_ID = 0x0FAC7500
+"""Marks an SQLite file as ours (https://sqlite.org/fileformat.html, "Application ID")."""
+BUSY_S = 1.0
+"""How long to wait for another process that is writing."""
+_SCHEMA = f"""
+BEGIN;
+CREATE TABLE fact (
+    number INTEGER PRIMARY KEY, time_s REAL NOT NULL, kind TEXT NOT NULL, object TEXT NOT NULL,
+    place TEXT NOT NULL);
+CREATE INDEX fact_object ON fact (object);
+PRAGMA application_id = {APPLICATION_ID};
+COMMIT;
+"""
+
+
+class FactKind(StrEnum):
+    """What happened to an object at a place."""
+
+    SEEN = "seen"
+    MISSED = "missed"
+    """Looked for, and not seen."""
+    SAID = "said"
+    """The person said that it is there."""
+    TAKEN = "taken"
+    """The robot picked it up there: it is nowhere now."""
+    PUT = "put"
+    """The robot put it down there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """One fact; `time_s` is UTC (seconds since 1970)."""
+
+    kind: FactKind
+    object: str
+    place: str
+    time_s: float
+
+
+class FactStore:
+    """Implements `Facts` with an SQLite file, each fact one committed transaction.
+
+    A process that is killed at any moment leaves every fact that it was told (write-ahead log).
+    A disk that is full costs the fact and a warning, not the mission.
+    """
+
+    def __init__(
+        self,
+        file: Path | None = None,
+        *,
+        learns: bool = True,
+        now: Callable[[], float] = time.time,
+    ) -> None:
+        """Open the file, or make it.
+
+        Args:
+            file: None: facts are kept until the process ends.
+            learns: whether facts are added; if not, the file is only read.
+            now: the time (UTC, s) that facts get.
+
+        Raises:
+            InputError: if the file cannot be opened or is something else.
+        """
+        self._learns = learns
+        self._now = now
+        self._database = _open(file)
+
+    # --- the Facts protocol ---
+
+    def saw(self, names: Iterable[str], place: str) -> None:
+        """These objects were seen there."""
+        for name in names:
+            self._add(FactKind.SEEN, name, place)
+
+    def missed(self, name: str, place: str) -> None:
+        """It was looked for there, and is not there."""
+        self._add(FactKind.MISSED, name, place)
+
+    def heard(self, name: str, places: Iterable[str]) -> None:
+        """The person said that it is at one of these places, the likeliest first."""
+        for place in reversed(tuple(places)):
+            self._add(FactKind.SAID, name, place)
+
+    def took(self, name: str, place: str) -> None:
+        """The robot has it, from there."""
+        self._add(FactKind.TAKEN, name, place)
+
+    def put(self, name: str, place: str) -> None:
+        """The robot has put it down there."""
+        self._add(FactKind.PUT, name, place)
+
+    def places_of(self, name: str) -> tuple[str, ...]:
+        """Where it was last seen or put; before that, where the person has since said that it is.
+
+        A look in vain contradicts what was known before it about that place. Once taken, it is
+        nowhere until seen again.
+        """
+        places: list[str] = []
+        missed: set[str] = set()
+        for fact in self._newest_first(name):
+            if fact.kind == FactKind.TAKEN:
+                break
+            if fact.kind == FactKind.MISSED:
+                missed.add(fact.place)
+            elif fact.place not in missed:
+                places.append(fact.place)
+                if fact.kind != FactKind.SAID:
+                    break
+        return tuple(dict.fromkeys(places))
+
+    # --- for whoever keeps and shows them ---
+
+    def beliefs(self) -> dict[str, tuple[str, ...]]:
+        """Each object that is believed to be anywhere, and where."""
+        names = [name for (name,) in self._database.execute("SELECT DISTINCT object FROM fact")]
+        return {name: places for name in names if (places := self.places_of(name))}
+
+    def all(self) -> tuple[Fact, ...]:
+        """Every fact, oldest first."""
+        rows = self._database.execute(
+            "SELECT kind, object, place, time_s FROM fact ORDER BY number"
+        )
+        return tuple(_fact(*row) for row in rows)
+
+    def load(self, facts: Iterable[Fact]) -> None:
+        """Add facts with the times that they have."""
+        rows = [(fact.time_s, fact.kind, fact.object, fact.place) for fact in facts]
+        with self._database:
+            self._database.executemany(
+                "INSERT INTO fact (time_s, kind, object, place) VALUES (?, ?, ?, ?)", rows
+            )
+
+    def forget(self, name: str | None = None) -> int:
+        """Remove the facts about one object, or all; return how many there were."""
+        condition, values = ("", ()) if name is None else (" WHERE object = ?", (name,))
+        with self._database:
+            return self._database.execute(f"DELETE FROM fact{condition}", values).rowcount
+
+    def close(self) -> None:
+        """Close the file."""
+        self._database.close()
+
+    def _newest_first(self, name: str) -> Iterator[Fact]:
+        rows = self._database.execute(
+            "SELECT kind, object, place, time_s FROM fact WHERE object = ? ORDER BY number DESC",
+            (name,),
+        )
+        return (_fact(*row) for row in rows)
+
+    def _add(self, kind: FactKind, name: str, place: str) -> None:
+        if not self._learns:
+            return
+        try:
+            self.load((Fact(kind, name, place, self._now()),))
+        except sqlite3.Error as error:
+            log.warning("a fact could not be kept (%s %s %s): %s", name, kind, place, error)
+
+
+def _fact(kind: str, name: str, place: str, time_s: float) -> Fact:
+    return Fact(FactKind(kind), name, place, time_s)
+
+
+def _open(file: Path | None) -> sqlite3.Connection:
+    where = str(file or ":memory:")
+    with ExitStack() as on_error:
+        try:
+            database = sqlite3.connect(where, timeout=BUSY_S)
+            on_error.callback(database.close)
+            _prepare(database)
+        except sqlite3.Error as error:
+            right = "name a file that --memory made, or one that does not exist yet"
+            raise InputError(where, f"is no memory: {error}", right) from None
+        on_error.pop_all()
+    return database
+
+
+def _prepare(database: sqlite3.Connection) -> None:
+    """Make the table in an empty file; let no other file pass."""
+    [[mark]] = database.execute("PRAGMA application_id")
+    [[tables]] = database.execute("SELECT count(*) FROM sqlite_schema")
+    if not mark and not tables:
+        database.execute("PRAGMA journal_mode = WAL")
+        database.executescript(_SCHEMA)
+    elif mark != APPLICATION_ID:
+        raise sqlite3.DatabaseError("it is a database of something else")

@@ -1,0 +1,68 @@
+"""Having the language model read what the grammar of commands cannot.
+
+It may only choose: one of the kinds of command, and of the objects that exist. What comes of it is
+put to the person before anything is done.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from executive.types import ChatRequest, Kind, RankRequest, Scored
+from kb.prompts import Understanding
+from kb.verification import json_objects
+
+
+class Asked(BaseModel):
+    """The output format: what to do, and with what."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    kind: Kind
+    object: str
+
+
+def schema(objects: Sequence[str]) -> dict[str, Any]:
+    """JSON schema of a reply that can name only these objects."""
+    return {
+        "type": "object",
+        "properties": {
+            "kind": {"type": "string", "enum": [str(kind) for kind in Kind]},
+            "object": {"type": "string", "enum": list(objects)},
+        },
+        "required": ["kind", "object"],
+    }
+
+
+def read(reply: str) -> Asked | None:
+    """What the reply says, or None if nothing in it has the output format. Never raises."""
+    for value in json_objects(reply):
+        try:
+            return Asked.model_validate(value)
+        except ValidationError:
+            continue
+    return None
+
+
+def rank_request(words: str, texts: Understanding) -> RankRequest:
+    """Ask how likely each kind of command is."""
+    return RankRequest(
+        label="command",
+        messages=texts.chat(words),
+        neutral=texts.chat(texts.neutral),
+        options=tuple(f"{kind} it" for kind in Kind),
+        places=tuple(Kind),
+    )
+
+
+def chat_request(words: str, objects: Sequence[str], texts: Understanding) -> ChatRequest:
+    """Ask what to do with what, as JSON."""
+    held = schema(objects)
+    return ChatRequest("command", texts.inquiry(words, objects, held), held)
+
+
+def likeliest(scored: Scored) -> Kind:
+    """The kind with the highest score; the first of equals."""
+    best = max(range(len(scored.scores)), key=scored.scores.__getitem__)
+    return Kind(scored.request.places[best])

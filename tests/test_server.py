@@ -1,0 +1,159 @@
+"""A real server process, llama_cpp.server, with the embedded model behind it."""
+
+import io
+import os
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from executive.app import Session
+from executive.config import load_settings
+from executive.events import Ended, Inbox
+from executive.types import ChatRequest, Failed, Message, Replied, Result, Status
+from kb.advisor import PlaceAdvisor
+from kb.llama import embedded_model
+from kb.ontology import Ontology
+from kb.server import Server
+from sim.home import load_home
+
+pytestmark = pytest.mark.llm
+
+ALIAS = "smollm2"
+STARTING_S = 60.0
+
+
+@pytest.fixture(scope="module")
+def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    address = f"http://127.0.0.1:{port}/v1"
+    process = start(port, tmp_path_factory.mktemp("server") / "log")
+    try:
+        wait_for(address, process)
+        yield address
+    finally:
+        process.terminate()
+        process.wait(20)
+
+
+def start(port: int, log: Path) -> subprocess.Popen[bytes]:
+    options = {"model": embedded_model(), "model_alias": ALIAS, "host": "127.0.0.1", "port": port}
+    arguments = [text for key, value in options.items() for text in (f"--{key}", str(value))]
+    with log.open("wb") as out:
+        return subprocess.Popen(
+            [sys.executable, "-m", "llama_cpp.server", *arguments, "--n_ctx", "4096"],
+            stdout=out,
+            stderr=out,
+            env={**os.environ, "OMP_WAIT_POLICY": "passive"},
+        )
+
+
+def wait_for(address: str, process: subprocess.Popen[bytes]) -> None:
+    deadline = time.monotonic() + STARTING_S
+    while time.monotonic() < deadline:
+        assert process.poll() is None, "the server ended: is the test extra installed?"
+        try:
+            urllib.request.urlopen(f"{address}/models", timeout=1).close()
+            return
+        except OSError:
+            time.sleep(0.1)
+    raise AssertionError("the server did not start")
+
+
+def advisor(model: Server) -> PlaceAdvisor:
+    return PlaceAdvisor(Ontology(load_home("four_rooms").places()), model, remembers=True)
+
+
+def answer(model: Server, inbox: Inbox, *among: str) -> Result:
+    request = model.chat(advisor(model).inquiry("mug", among))
+    assert inbox.wait(120)
+    [event] = inbox.take_all()
+    assert isinstance(event, Ended)
+    assert event.request == request
+    return event.result
+
+
+def test_a_real_server_replies_and_says_who_it_is(url: str) -> None:
+    inbox = Inbox()
+    model = Server(url, inbox, max_tokens=24)
+    result = answer(model, inbox)
+    model.close()
+    assert isinstance(result, Replied)
+    assert result.text
+    assert result.usage.model == ALIAS
+    assert 0 < result.usage.output_tokens <= 24
+    assert 0 < result.usage.first_token_s < result.usage.total_s
+
+
+def test_a_real_server_is_held_to_the_schema(url: str) -> None:
+    inbox = Inbox()
+    model = Server(url, inbox, max_tokens=100, grammar=True)
+    result = answer(model, inbox, "desk", "sofa")
+    adviser = advisor(model)
+    model.close()
+    assert isinstance(result, Replied)
+    names = adviser.read(result.text)
+    assert names
+    assert set(names) <= {"desk", "sofa"}
+
+
+def test_a_real_server_that_is_hung_up_on_answers_the_next(url: str) -> None:
+    inbox = Inbox()
+    model = Server(url, inbox, max_tokens=8)
+    model.cancel(model.chat(advisor(model).inquiry("apple", ())))
+    result = answer(model, inbox)
+    model.close()
+    assert isinstance(result, Replied)
+
+
+def test_a_prompt_that_is_too_long_for_a_real_server_fails_in_words(url: str) -> None:
+    inbox = Inbox()
+    model = Server(url, inbox)
+    model.chat(ChatRequest("long", (Message("user", "word " * 6000),)))
+    assert inbox.wait(120)
+    [event] = inbox.take_all()
+    model.close()
+    assert isinstance(event, Ended)
+    assert isinstance(event.result, Failed)
+    assert url in event.result.reason
+
+
+def test_a_mission_is_done_with_a_real_server(url: str, tmp_path: Path) -> None:
+    settings = load_settings(
+        llm=url, grammar=True, defaults=False, world="fake", user="oracle", runs=tmp_path
+    )
+    session = Session(settings, out=io.StringIO())
+    outcome = session.run("Find an apple.")
+    session.close()
+    assert outcome.status == Status.DONE
+    assert outcome.llm_calls >= 1
+
+
+def test_a_real_server_that_dies_in_the_middle_of_its_reply_fails_in_words(
+    tmp_path: Path,
+) -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    address, process = f"http://127.0.0.1:{port}/v1", start(port, tmp_path / "log")
+    inbox = Inbox()
+    try:
+        wait_for(address, process)
+        model = Server(address, inbox, max_tokens=2000, temperature=0)
+        model.chat(ChatRequest("count", (Message("user", "Count to 500, as 1, 2, 3, ..."),)))
+        assert not inbox.wait(1.0), "the reply was too short for this test"
+    finally:
+        process.kill()
+        process.wait(20)
+    assert inbox.wait(60)
+    [event] = inbox.take_all()
+    model.close()
+    assert isinstance(event, Ended)
+    assert event.result == Failed(f"{address} broke off in the middle of its reply")

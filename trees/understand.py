@@ -1,0 +1,124 @@
+"""What is asked for? The grammar of commands says, else the language model and the person do."""
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.records import Utterance
+from executive.types import Command, Question, QuestionKind, Replied, Result, Scored
+from executive.types import Status as MissionStatus
+from trees.location import ModelAction
+from trees.nodes import Step, fallback, sequence
+from trees.person import AskYesNo
+from trees.team import Team
+
+
+def understand(team: Team) -> Behaviour:
+    """Words -> `situation.command`."""
+    readers: list[Behaviour] = [ReadCommand("grammar reads it", team)]
+    if team.model is not None:
+        readers.append(let_the_model_read(team))
+    return fallback("understand", *readers, NotUnderstood("not understood", team))
+
+
+def let_the_model_read(team: Team) -> Behaviour:
+    """The model chooses what may be meant, among what exists; the person has the last word."""
+    read: type[ModelAction] = RankKinds if team.rules.elicit == "rank" else WriteCommand
+    return sequence(
+        "llm reads it",
+        HasKnownName("speaks of a known thing", team),
+        read("choose", team),
+        ConfirmCommand("ask do you mean", team),
+    )
+
+
+class ReadCommand(Step):
+    """Words -> command, by the grammar of commands."""
+
+    def update(self) -> Status:
+        """Read the words."""
+        self.team.recorder.record(Utterance("person", self.situation.words))
+        command = self.team.interpreter.command(self.situation.words)
+        if command is None:
+            return self.fail("this is no command that the grammar knows")
+        self.situation.command = command
+        return self.succeed(f"{command.kind} {command.target}")
+
+
+class HasKnownName(Step):
+    """Succeeds if a known thing is named, so that there is something to do it with."""
+
+    def update(self) -> Status:
+        """Look for the names; a model that writes may still choose another."""
+        names = self.team.knowledge.names_in(self.situation.words)
+        if not names:
+            return self.fail("no known thing is named")
+        self.situation.guess = " and ".join(names)
+        return self.succeed(self.situation.guess)
+
+
+class RankKinds(ModelAction):
+    """Has the kinds of command scored; what to do it with is what the words name."""
+
+    def start(self) -> int:
+        """Ask for the scores."""
+        return self.model.rank(self.advisor.command_ranking(self.situation.words))
+
+    def ended(self, result: Result) -> Status:
+        """Keep the likeliest."""
+        if not isinstance(result, Scored):
+            return self.failed(result)
+        kind, words = self.advisor.command_ranked(result), self.situation.words
+        self.situation.command = Command(kind, self.situation.guess, words)
+        return self.succeed(f"{kind} {self.situation.guess}")
+
+
+class WriteCommand(ModelAction):
+    """Has the model write kind and object, of which only what exists is taken."""
+
+    def start(self) -> int:
+        """Ask."""
+        return self.model.chat(self.advisor.command_inquiry(self.situation.words))
+
+    def ended(self, result: Result) -> Status:
+        """Read and verify the reply."""
+        if not isinstance(result, Replied):
+            return self.failed(result)
+        read = self.advisor.command_read(result.text)
+        if read is None:
+            return self.fail("the language model named no command with a known thing")
+        kind, name = read
+        self.situation.command = Command(kind, name, self.situation.words)
+        return self.succeed(f"{kind} {name}")
+
+
+class ConfirmCommand(AskYesNo):
+    """Asks whether this is what was asked for: a model's reading is never simply done."""
+
+    def question(self) -> Question:
+        """Say what would be done."""
+        assert self.situation.command
+        kind, target = self.situation.command.kind, self.situation.command.target
+        knowledge = self.team.knowledge
+        objects = [o for name in knowledge.names_in(target) for o in knowledge.objects_named(name)]
+        text = f"Do you mean: {kind} {target}?"
+        return Question(QuestionKind.CONFIRM, target, text, tuple(objects))
+
+    def agreed(self) -> None:
+        """The command stands."""
+
+    def unresolved(self) -> str:
+        """It is not known what was asked for."""
+        return f"I am not sure what '{self.situation.words}' asks for"
+
+
+class NotUnderstood(Step):
+    """What nobody can read is the person's to say again; always fails."""
+
+    def update(self) -> Status:
+        """Say what can be said."""
+        self.situation.command = None
+        self.situation.status = MissionStatus.NOT_UNDERSTOOD
+        return self.fail(
+            f"I do not understand '{self.situation.words}'; "
+            "say for example: Find an apple. Take the mug. Bring a sugar_box."
+        )
