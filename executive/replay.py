@@ -7,6 +7,7 @@ is a regression test:
     assert replay(Path("runs/20260101T120000Z-find-an-apple")).parting is None
 """
 
+import json
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -30,6 +31,7 @@ from executive.rules import rules
 from executive.situation import Situation
 from executive.types import Place
 from kb.advisor import PlaceAdvisor
+from kb.facts import FactStore
 from kb.ontology import Ontology
 from logs.difference import (
     ENDED,
@@ -159,7 +161,8 @@ def _team(
     """The team of the recorded mission, and what of its knowledge has changed since."""
     settings = _settings(run)
     home = _home(_kept(run, run.attachments, "home.toml"))
-    knowledge = _ontology(home.places(), settings.defaults)
+    own = tuple((f.name, _kept(run, run.attachments, f.name)) for f in settings.kb)
+    knowledge = _ontology(home.places(), settings.defaults, own, settings.person)
     if settings.world == "physics":
         absent.home = home
     thinks = _kept(run, run.metadata, "model") != "none"
@@ -181,6 +184,7 @@ def _team(
         model=absent if thinks else None,
         advisor=advisor,
         rules=rules(settings),
+        facts=FactStore.believing(json.loads(_kept(run, run.attachments, "facts.json"))),
     )
     return team, changed
 
@@ -212,8 +216,17 @@ def _home(text: bytes) -> Home:
 
 
 @cache
-def _ontology(places: tuple[Place, ...], defaults: bool) -> Ontology:
-    return Ontology(places, defaults=defaults)
+def _ontology(
+    places: tuple[Place, ...],
+    defaults: bool,
+    own: tuple[tuple[str, bytes], ...],
+    person: str | None,
+) -> Ontology:
+    with TemporaryDirectory() as folder:
+        files = [Path(folder) / name for name, _ in own]
+        for file, (_, data) in zip(files, own, strict=True):
+            file.write_bytes(data)
+        return Ontology(places, defaults=defaults, files=files, person=person)
 
 
 def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Parting | None:

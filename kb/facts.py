@@ -6,11 +6,12 @@ Facts are only ever added: what is believed follows from the order in which they
 import logging
 import sqlite3
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
+from typing import Self
 
 from executive.errors import InputError
 
@@ -82,6 +83,14 @@ class FactStore:
         self._learns = learns
         self._now = now
         self._database = _open(file)
+
+    @classmethod
+    def believing(cls, beliefs: Mapping[str, Sequence[str]]) -> Self:
+        """A store that lasts as long as the process and believes what another one did."""
+        store = cls()
+        for name, places in beliefs.items():
+            store.heard(name, places)
+        return store
 
     # --- the Facts protocol ---
 
