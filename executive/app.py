@@ -156,9 +156,10 @@ class Session:
         request = self.user.listen()
         while True:
             self.clock.wait(None)
-            for event in self.inbox.take_all():
-                if isinstance(event, StopRequested):
-                    raise KeyboardInterrupt
+            events = self.inbox.take_all()
+            if any(isinstance(event, StopRequested) for event in events):
+                raise KeyboardInterrupt
+            for event in events:
                 if isinstance(event, Ended) and event.request == request:
                     answer = event.result
                     return answer.text if isinstance(answer, Answered) else None
