@@ -4,6 +4,7 @@ import argparse
 import json
 import sys
 import time
+from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 
@@ -56,7 +57,8 @@ def query(ontology: Ontology, sparql: str, as_json: bool) -> int:
 
 def facts(file: Path, as_json: bool) -> int:
     """Print every fact, oldest first."""
-    known = _memory(file).all()
+    with closing(_memory(file)) as memory:
+        known = memory.all()
     if as_json:
         print(json.dumps([asdict(fact) for fact in known]))
         return 0
@@ -69,9 +71,9 @@ def facts(file: Path, as_json: bool) -> int:
 
 def forget(file: Path, words: str) -> int:
     """Remove the facts about what the words name, or all."""
-    memory = _memory(file)
     names = Ontology().objects_named(words) or (words,) if words else (None,)
-    print(f"{sum(memory.forget(name) for name in names)} facts forgotten", file=sys.stderr)
+    with closing(_memory(file)) as memory:
+        print(f"{sum(memory.forget(name) for name in names)} facts forgotten", file=sys.stderr)
     return 0
 
 

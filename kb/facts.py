@@ -122,18 +122,11 @@ class FactStore:
         A look in vain contradicts what was known before it about that place. Once taken, it is
         nowhere until seen again.
         """
-        places: list[str] = []
-        missed: set[str] = set()
-        for fact in self._newest_first(name):
-            if fact.kind == FactKind.TAKEN:
-                break
-            if fact.kind == FactKind.MISSED:
-                missed.add(fact.place)
-            elif fact.place not in missed:
-                places.append(fact.place)
-                if fact.kind != FactKind.SAID:
-                    break
-        return tuple(dict.fromkeys(places))
+        try:
+            return self._believed(name)
+        except sqlite3.Error as error:
+            log.warning("facts about the %s could not be read: %s", name, error)
+            return ()
 
     # --- for whoever keeps and shows them ---
 
@@ -166,6 +159,20 @@ class FactStore:
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+
+    def _believed(self, name: str) -> tuple[str, ...]:
+        places: list[str] = []
+        missed: set[str] = set()
+        for fact in self._newest_first(name):
+            if fact.kind == FactKind.TAKEN:
+                break
+            if fact.kind == FactKind.MISSED:
+                missed.add(fact.place)
+            elif fact.place not in missed:
+                places.append(fact.place)
+                if fact.kind != FactKind.SAID:
+                    break
+        return tuple(dict.fromkeys(places))
 
     def _newest_first(self, name: str) -> Iterator[Fact]:
         rows = self._database.execute(

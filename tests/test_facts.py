@@ -78,6 +78,15 @@ def test_a_full_disk_costs_the_fact_only(
     assert "a fact could not be kept (mug seen sofa)" in caplog.text
 
 
+def test_a_memory_that_cannot_be_read_is_no_memory(
+    facts: FactStore, caplog: pytest.LogCaptureFixture
+) -> None:
+    facts.saw(["mug"], "desk")
+    facts.close()
+    assert facts.places_of("mug") == ()
+    assert "facts about the mug could not be read" in caplog.text
+
+
 @pytest.mark.parametrize("kind", ["text", "other database", "folder"])
 def test_a_file_of_something_else_is_refused_and_left_alone(tmp_path: Path, kind: str) -> None:
     file = tmp_path / "file"
