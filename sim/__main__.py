@@ -1,6 +1,7 @@
-"""`python -m sim view [HOME]`: a picture of a home, seen from above."""
+"""Homes on the command line: `view` draws one, `check` names its faults, `generate` makes one."""
 
 import argparse
+import json
 import struct
 import sys
 import zlib
@@ -14,6 +15,7 @@ from executive.errors import ExecutiveError
 from executive.types import Intrinsics, Pose
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
+from sim.checking import check_home
 from sim.client import connect
 from sim.home import Home, load_home
 from sim.objects import load_objects
@@ -27,22 +29,40 @@ MARGIN = 1.08
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command; returns its exit status (0 done, 2 bad input)."""
+    """Run the command; returns its exit status (0 done, 1 the home has faults, 2 bad input)."""
     parser = argparse.ArgumentParser(prog="python -m sim", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
     view = commands.add_parser("view", help="draw a home from above into a PNG file")
     view.add_argument("home", nargs="?", default="four_rooms", help="name or FILE.toml")
     view.add_argument("--out", type=Path, help="the picture; default HOME.png")
+    view.set_defaults(run=_view)
+    check = commands.add_parser("check", help="name all that is wrong with a home")
+    check.add_argument("home", help="name or FILE.toml")
+    check.add_argument("--json", action="store_true", help="print a JSON array of sentences")
+    check.set_defaults(run=_check)
     options = parser.parse_args(arguments)
     try:
-        home = load_home(options.home)
+        return int(options.run(options))
     except ExecutiveError as error:
         print(error, file=sys.stderr)
         return 2
+
+
+def _view(options: argparse.Namespace) -> int:
+    home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
     out.write_bytes(png(draw(home)))
     print(out)
     return 0
+
+
+def _check(options: argparse.Namespace) -> int:
+    faults = [str(fault) for fault in check_home(options.home)]
+    if options.json:
+        print(json.dumps(faults, indent=2, ensure_ascii=False))
+    else:
+        print("\n".join(faults or [f"{options.home}: no faults"]))
+    return 1 if faults else 0
 
 
 def draw(home: Home) -> NDArray[np.uint8]:

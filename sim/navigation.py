@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from sim.home import Home
 
@@ -132,6 +132,19 @@ def plan(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
     if grid.is_free(grid.cell(start)):
         return _way(grid, start, goal)
     return start, *_way(grid, _nearest_free(grid, start), goal)
+
+
+def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
+    """(columns, rows) the cells that the robot can get to from where it starts.
+
+    Raises:
+        Unreachable: if it cannot move at all.
+    """
+    if not grid.is_free(grid.cell(start)):
+        start = _nearest_free(grid, start)
+    _, numbers = connected_components(grid.graph, directed=False)
+    parts = np.reshape(numbers, grid.free.shape)
+    return np.asarray(parts == parts[grid.cell(start)])
 
 
 def _way(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:

@@ -1,0 +1,124 @@
+"""`python -m sim`: what it says about a home that someone wrote."""
+
+import json
+from pathlib import Path
+
+import pytest
+from test_home import FLAT
+
+from sim.__main__ import main
+from sim.checking import check_home
+
+
+@pytest.fixture
+def faults(tmp_path: Path):
+    def faults(*changes: tuple[str, str]) -> str:
+        text = FLAT
+        for right, wrong in changes:
+            assert right in text
+            text = text.replace(right, wrong, 1)
+        file = tmp_path / "flat.toml"
+        file.write_text(text)
+        return "\n".join(str(fault) for fault in check_home(str(file)))
+
+    return faults
+
+
+def test_the_packaged_home_and_a_minimal_one_have_no_faults(faults):
+    assert check_home("four_rooms") == ()
+    assert faults() == ""
+
+
+def test_all_faults_of_a_files_form_are_named_at_once(faults):
+    found = faults(('"Desk"', "3"), ("width = 1", "width = -1"), ("[1, 1, 0]", "[nan, 1, 0]"))
+    assert len(found.splitlines()) == 3
+    assert "furniture.desk.kind is 3" in found
+    assert "doors.0.width is -1" in found
+    assert "robot_start.0 is nan" in found
+
+
+def test_all_faults_of_a_plan_are_named_at_once(faults):
+    found = faults(
+        ("[0.5, 3, 0]", "[2.5, 4, 0]"),
+        ('room = "den"', 'room = "loo"'),
+        ("[4, 1, 90]", "[6, 1, 90]"),
+        ("mug =", "muk ="),
+    )
+    assert "furniture desk: no room 'loo'; rooms: den" in found
+    assert "desk and rack overlap" in found
+    assert "furniture delivery: it sticks out of room den" in found
+    assert "there is no object 'muk'" in found
+
+
+def test_every_thing_without_a_spot_is_named(faults):
+    crowd = "\n".join(f'{name} = "delivery"' for name in ("hammer", "mug", "banana", "apple"))
+    found = faults(('mug = "desk"', crowd))
+    assert found.count("no spot is left for it on delivery") >= 2
+
+
+CLOSET = """rooms = [
+  { name = "den", kind = "LivingRoom", rectangle = [0, 0, 5, 5] },
+  { name = "closet", kind = "StorageRoom", rectangle = [5, 0, 9, 5] },
+]
+doors = [{ position = [5, 2.5], width = 0.7 }]
+
+[[furniture]]
+name = "box_shelf"
+kind = "Shelf"
+room = "closet"
+pose = [8.5, 2.5, 180]
+size = [0.4, 1, 1]
+"""
+ROOMS = FLAT[FLAT.index("rooms =") : FLAT.index("\n[[furniture]]")]
+
+
+def test_a_door_too_narrow_and_what_is_behind_it_are_named(faults):
+    narrow, behind = faults((ROOMS, CLOSET)).splitlines()
+    assert "the door at (5.0, 2.5) is too narrow for the robot; make its width 0.81 m" in narrow
+    assert "furniture box_shelf: it cannot be reached from robot_start; make a way to" in behind
+
+
+def test_the_width_that_is_asked_for_is_enough(faults):
+    assert faults((ROOMS, CLOSET.replace("width = 0.7", "width = 0.81"))) == ""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "sentence"),
+    [
+        ("[3, 4, -90]", "[3, 4.5, 90]", "furniture desk: there is no room for the robot to stand"),
+        ("[4, 1, 90]", "[4, 0.4, -90]", "delivery: there is no room for the robot to stand"),
+        ("[2, 2, 180]", "[0.6, 1.5, 180]", "person: there is no room for the robot to stand"),
+        ("[2, 2, 180]", "[7, 2, 180]", "person: they are outside of all rooms"),
+        ("[1, 1, 0]", "[3, 4, 0]", r"robot_start: the robot does not fit at (3.0, 4.0)"),
+    ],
+)
+def test_what_the_robot_cannot_use_is_named(faults, right: str, wrong: str, sentence: str):
+    assert sentence in faults((right, wrong))
+
+
+def test_a_thing_at_the_back_of_a_deep_table_is_out_of_reach(faults):
+    deep, back = ("[0.6, 1.2, 0.7]", "[1.6, 1.2, 0.7]"), 'mug = { furniture = "desk", at = '
+    assert faults(deep, ('mug = "desk"', back + "[0.5, 0.3] }")) == ""
+    found = faults(deep, ('mug = "desk"', back + "[-0.6, 0.3] }"))
+    assert "mug: it is out of the arm's reach on desk; put it nearer to the front" in found
+
+
+def test_the_exit_status_says_fine_faulty_or_unreadable(tmp_path: Path, capsys):
+    file = tmp_path / "flat.toml"
+    file.write_text(FLAT)
+    assert main(["check", str(file)]) == 0
+    file.write_text(FLAT.replace('"desk"', '"person"', 1))
+    assert main(["check", str(file)]) == 1
+    assert "furniture 'person' is there twice" in capsys.readouterr().out
+    file.write_text("robot_start = [")
+    assert main(["check", str(file)]) == 2
+    assert "not TOML" in capsys.readouterr().err
+    assert main(["check", "villa"]) == 2
+
+
+def test_json_lists_the_sentences(tmp_path: Path, capsys):
+    file = tmp_path / "flat.toml"
+    file.write_text(FLAT.replace('"desk"', '"person"', 1).replace('"rack"', '"person"'))
+    assert main(["check", str(file), "--json"]) == 1
+    sentences = json.loads(capsys.readouterr().out)
+    assert f"{file}: furniture 'person' is there twice; give each its own name" in sentences
