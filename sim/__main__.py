@@ -17,6 +17,7 @@ from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
 from sim.checking import check_home
 from sim.client import connect
+from sim.generation import generate_home
 from sim.home import Home, load_home
 from sim.objects import load_objects
 
@@ -40,6 +41,12 @@ def main(arguments: list[str] | None = None) -> int:
     check.add_argument("home", help="name or FILE.toml")
     check.add_argument("--json", action="store_true", help="print a JSON array of sentences")
     check.set_defaults(run=_check)
+    generate = commands.add_parser("generate", help="make a home file of any size")
+    generate.add_argument("--rooms", type=int, default=12)
+    generate.add_argument("--furniture", type=int, default=60)
+    generate.add_argument("--seed", type=int, default=0)
+    generate.add_argument("--out", type=Path, help="FILE.toml; default: print it")
+    generate.set_defaults(run=_generate)
     options = parser.parse_args(arguments)
     try:
         return int(options.run(options))
@@ -63,6 +70,16 @@ def _check(options: argparse.Namespace) -> int:
     else:
         print("\n".join(faults or [f"{options.home}: no faults"]))
     return 1 if faults else 0
+
+
+def _generate(options: argparse.Namespace) -> int:
+    text = generate_home(options.rooms, options.furniture, options.seed)
+    if options.out is None:
+        print(text, end="")
+    else:
+        options.out.write_text(text, encoding="utf-8")
+        print(options.out)
+    return 0
 
 
 def draw(home: Home) -> NDArray[np.uint8]:

@@ -31,10 +31,10 @@ def check_home(name_or_path: str) -> tuple[InputError, ...]:
     if home is None or faults:
         return faults
     where = name_or_path if name_or_path.endswith(".toml") else f"{name_or_path}.toml"
-    return tuple(InputError(where, *fault) for fault in (*_way_faults(home), *_reach_faults(home)))
+    return tuple(InputError(where, *fault) for fault in (*way_faults(home), *_reach_faults(home)))
 
 
-def _way_faults(home: Home) -> Iterator[Fault]:
+def way_faults(home: Home) -> Iterator[Fault]:
     """Where the robot does not fit or cannot get to."""
     grid = OccupancyGrid.from_home(home)
     needed = FOOTPRINT_M + grid.resolution
