@@ -22,8 +22,8 @@ from sim.home import Home, load_home
 from sim.objects import load_objects
 
 WIDTH, HEIGHT = 1280, 1080
-DISTANCE_M = 40.0
-"""From the home to the eye: so far that lines are nearly parallel."""
+DISTANCE = 4.35
+"""From the home to the eye, in lengths of the home: so far that lines are nearly parallel."""
 STEEPNESS = np.radians(62.0)
 MARGIN = 1.08
 """How much more than the home the picture shows."""
@@ -86,16 +86,18 @@ def draw(home: Home) -> NDArray[np.uint8]:
     """The home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
     edges = np.array([room.rectangle for room in home.rooms])
     lower, upper = edges[:, :2].min(axis=0), edges[:, 2:].max(axis=0)
-    focal = DISTANCE_M * WIDTH / (float(upper[0] - lower[0]) * MARGIN)
+    across, along = (upper - lower) * MARGIN
+    distance = DISTANCE * float(max(upper - lower))
+    focal = distance * float(min(WIDTH / across, HEIGHT / (along * np.sin(STEEPNESS))))
     intrinsics = Intrinsics(WIDTH, HEIGHT, focal, focal, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
     turn = Rotation.from_euler("x", -np.pi / 2 - STEEPNESS)
     middle = np.array([*(lower + upper) / 2, 0.0])
-    eye = middle - DISTANCE_M * turn.as_matrix()[:, 2]
+    eye = middle - distance * turn.as_matrix()[:, 2]
     pose = Pose(tuple(eye.tolist()), tuple(turn.as_quat().tolist()))
     client = connect()
     build_home(client, home.model_copy(update={"wall_height": VIEWED_WALL_HEIGHT_M}))
     place_objects(client, home, load_objects())
-    color = render(client, pose, intrinsics, far=2 * DISTANCE_M).color
+    color = render(client, pose, intrinsics, far=2 * distance).color
     client.disconnect()
     return color
 

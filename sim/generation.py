@@ -3,9 +3,10 @@
 The same numbers and seed give the same home. What is drawn is what a home file holds.
 """
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from itertools import count, cycle, islice
+from itertools import cycle, islice
 from math import ceil, sqrt
 from random import Random
 from typing import Any
@@ -14,7 +15,7 @@ import tomli_w
 
 from executive.errors import InputError
 from sim.checking import way_faults
-from sim.home import DELIVERY, STAND_OFF_M, Home
+from sim.home import DELIVERY, STAND_OFF_M, Home, home_faults
 from sim.navigation import FOOTPRINT_M
 from sim.objects import load_objects
 from sim.spots import NoRoomError, Spot, arrange
@@ -69,7 +70,7 @@ ROOMS_OF_OBJECTS = (
 )
 """In which kinds of rooms things are, as long as there are such rooms with a free spot."""
 TURNED = {"hammer", "spatula"}
-"""What is too long to lie across the front."""
+"""What is too long to lie across the front; they come last, as TOML has tables after values."""
 
 DOOR_M = 1.1
 SMALLEST_ROOM_M = 4.4
@@ -79,7 +80,7 @@ _WALL_M = 0.06
 _BESIDE_M = 0.05
 _STAND_M = STAND_OFF_M + FOOTPRINT_M + 0.1
 """How far the floor before a piece is kept free."""
-_TRIES = 80
+_TRIES = 300
 
 Rectangle = tuple[float, float, float, float]
 Table = dict[str, Any]
@@ -105,12 +106,17 @@ def generate_home(rooms: int, furniture: int, seed: int) -> str:
         raise InputError("--furniture", f"cannot make {furniture} pieces", right)
     rng = Random(seed)
     side = SMALLEST_ROOM_M + 0.4 * max(0, ceil(furniture / rooms) - 4)
-    for attempt in count():
-        home = _draw(rng, rooms, furniture, side + 0.3 * attempt)
-        if home and not any(way_faults(Home.model_validate({"name": "home", **home}))):
-            break
+    tables = None
+    while tables is None or not _is_sound(tables):
+        tables = _draw(rng, rooms, furniture, side)
+        side += 0.05
     command = f"python -m sim generate --rooms {rooms} --furniture {furniture} --seed {seed}"
-    return f"# Made by {command}\n\n{tomli_w.dumps(home)}"
+    return f"# Made by {command}\n\n{_with_short_arrays(tomli_w.dumps(tables))}"
+
+
+def _is_sound(tables: Table) -> bool:
+    home = Home.model_validate({"name": "home", **tables})
+    return not (any(home_faults(home)) or any(way_faults(home)))
 
 
 def _draw(rng: Random, rooms: int, furniture: int, side: float) -> Table | None:
@@ -257,7 +263,7 @@ def _objects(rng: Random, home: Home) -> Table | None:
     kinds = {room.name: room.kind for room in home.rooms}
     wanted = {name: rooms for names, rooms in ROOMS_OF_OBJECTS for name in names}
     spots: dict[str, Spot] = {}
-    for name in models:
+    for name in sorted(models, key=TURNED.__contains__):
         pieces = rng.sample(home.furniture, len(home.furniture))
         pieces.sort(key=lambda p: (p.kind in ("Bed", "Sofa"), kinds[p.room] not in wanted[name]))
         for piece in pieces:
@@ -275,6 +281,11 @@ def _objects(rng: Random, home: Home) -> Table | None:
         name: {"furniture": spot.furniture, "yaw": 90} if name in TURNED else spot.furniture
         for name, spot in spots.items()
     }
+
+
+def _with_short_arrays(text: str) -> str:
+    """The same TOML with each array of numbers on one line."""
+    return re.sub(r"\[\n([^\[\]]*),\n\]", lambda found: f"[{' '.join(found[1].split())}]", text)
 
 
 def _positions(doors: list[Table]) -> list[tuple[float, float]]:

@@ -195,7 +195,7 @@ def inspect_home(name_or_path: str) -> tuple[Home | None, tuple[InputError, ...]
         home = Home.model_validate(data)
     except ValidationError as error:
         return None, tuple(_input_error(where, data, fault) for fault in error.errors())
-    return home, tuple(InputError(where, *fault) for fault in _faults(home))
+    return home, tuple(InputError(where, *fault) for fault in home_faults(home))
 
 
 def home_text(name_or_path: str) -> str:
@@ -252,7 +252,7 @@ def _key(data: Any, path: tuple[str | int, ...]) -> str:
     return ".".join(words)
 
 
-def _faults(home: Home) -> Iterator[Fault]:
+def home_faults(home: Home) -> Iterator[Fault]:
     """All that is wrong; what follows only from an earlier fault is left out."""
     unbuildable = [*_room_faults(home), *_furniture_faults(home)]
     yield from unbuildable

@@ -1,13 +1,22 @@
 """`python -m sim`: what it says about a home that someone wrote."""
 
 import json
+import tomllib
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from test_home import FLAT
 
+from executive.__main__ import main as executive
+from executive.types import Place
+from kb.ontology import Ontology
 from sim.__main__ import main
-from sim.checking import check_home
+from sim.checking import check_home, way_faults
+from sim.generation import FURNITURE_OF_ROOM, generate_home
+from sim.home import Home, home_faults, load_home
+from sim.objects import load_objects
 
 
 @pytest.fixture
@@ -24,8 +33,12 @@ def faults(tmp_path: Path):
     return faults
 
 
-def test_the_packaged_home_and_a_minimal_one_have_no_faults(faults):
+@pytest.mark.physics
+def test_the_packaged_home_has_no_faults():
     assert check_home("four_rooms") == ()
+
+
+def test_a_minimal_home_has_no_faults(faults):
     assert faults() == ""
 
 
@@ -122,3 +135,59 @@ def test_json_lists_the_sentences(tmp_path: Path, capsys):
     assert main(["check", str(file), "--json"]) == 1
     sentences = json.loads(capsys.readouterr().out)
     assert f"{file}: furniture 'person' is there twice; give each its own name" in sentences
+
+
+SIZES = [(1, 8, 1), (3, 12, 2), (4, 40, 1), (30, 150, 1)]
+
+
+@pytest.mark.parametrize(("rooms", "furniture", "seed"), SIZES)
+def test_a_generated_home_has_what_was_asked_for_and_no_faults(
+    tmp_path: Path, rooms: int, furniture: int, seed: int
+):
+    file = tmp_path / "home.toml"
+    file.write_text(generate_home(rooms, furniture, seed))
+    home = load_home(str(file))
+    assert (len(home.rooms), len(home.furniture)) == (rooms, furniture)
+    assert home.placement.keys() == load_objects().keys()
+    assert not any(way_faults(home))
+
+
+@given(seed=st.integers(0, 2**32))
+@settings(max_examples=8)
+def test_every_seed_gives_a_sound_home(seed: int):
+    home = Home.model_validate({"name": "home", **tomllib.loads(generate_home(5, 20, seed))})
+    assert not any(home_faults(home))
+    assert not any(way_faults(home))
+
+
+@pytest.mark.physics
+def test_the_arm_reaches_everything_in_a_generated_home(tmp_path: Path):
+    file = tmp_path / "home.toml"
+    assert main(["generate", "--rooms=6", "--furniture=24", "--seed=5", f"--out={file}"]) == 0
+    assert check_home(str(file)) == ()
+
+
+def test_the_same_seed_gives_the_same_home_and_another_one_another():
+    assert generate_home(4, 12, 7) == generate_home(4, 12, 7)
+    assert generate_home(4, 12, 7).splitlines()[1:] != generate_home(4, 12, 8).splitlines()[1:]
+
+
+def test_the_ontology_knows_every_kind_of_room_and_furniture_that_is_generated():
+    pieces = [(kind, room) for room, kinds in FURNITURE_OF_ROOM.items() for kind in kinds]
+    places = [Place(f"{kind}_{room}", kind, room.lower(), room) for kind, room in pieces]
+    assert len(Ontology(places).places()) == len(pieces)
+
+
+def test_the_whole_system_runs_in_a_generated_home(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr("executive.__main__.stop_on_signals", lambda inbox: None)
+    file = tmp_path / "home.toml"
+    file.write_text(generate_home(12, 60, 3))
+    options = ["--world=fake", "--user=oracle", "--llm=none"]
+    here = [f"--home={file}", f"--runs={tmp_path}", "Find an apple"]
+    assert executive([*options, *here]) == 0
+
+
+@pytest.mark.parametrize(("rooms", "furniture"), [(0, 10), (1000, 2000), (2, 3), (20, 10)])
+def test_a_home_that_cannot_be_is_refused_with_what_can(rooms: int, furniture: int, capsys):
+    assert main(["generate", f"--rooms={rooms}", f"--furniture={furniture}"]) == 2
+    assert "; give " in capsys.readouterr().err
