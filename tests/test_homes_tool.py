@@ -14,6 +14,7 @@ from executive.types import Place
 from kb.ontology import Ontology
 from sim.__main__ import main
 from sim.checking import check_home, way_faults
+from sim.furniture import FORM_OF_KIND
 from sim.generation import FURNITURE_OF_ROOM, generate_home
 from sim.home import Home, home_faults, load_home
 from sim.objects import load_objects
@@ -191,3 +192,17 @@ def test_the_whole_system_runs_in_a_generated_home(tmp_path: Path, monkeypatch):
 def test_a_home_that_cannot_be_is_refused_with_what_can(rooms: int, furniture: int, capsys):
     assert main(["generate", f"--rooms={rooms}", f"--furniture={furniture}"]) == 2
     assert "; give " in capsys.readouterr().err
+
+
+def test_the_home_in_the_documentation_has_no_faults(tmp_path: Path):
+    page = Path(__file__).parents[1].joinpath("docs", "own-home.md").read_text()
+    example = page.split("```toml\n")[1].split("```")[0]
+    file = tmp_path / "studio.toml"
+    file.write_text(example)
+    assert check_home(str(file)) == ()
+    assert load_home(str(file)).placement == {"mug": "desk", "sugar_box": "pantry_rack"}
+
+
+def test_the_documentation_names_every_kind_that_can_be_built_as_it_is():
+    page = Path(__file__).parents[1].joinpath("docs", "own-home.md").read_text()
+    assert all(f"`{kind}`" in page for kind in FORM_OF_KIND)
