@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from executive.errors import ExecutiveError
+from executive.errors import ExecutiveError, InputError
 from executive.types import Intrinsics, Pose
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
@@ -58,8 +58,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _view(options: argparse.Namespace) -> int:
     home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
-    out.write_bytes(png(draw(home)))
-    print(out)
+    _write(out, png(draw(home)))
     return 0
 
 
@@ -77,9 +76,17 @@ def _generate(options: argparse.Namespace) -> int:
     if options.out is None:
         print(text, end="")
     else:
-        options.out.write_text(text, encoding="utf-8")
-        print(options.out)
+        _write(options.out, text.encode())
     return 0
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        right = "give a file in a folder that exists"
+        raise InputError(f"--out {path}", f"cannot write: {error.strerror}", right) from None
+    print(path)
 
 
 def draw(home: Home) -> NDArray[np.uint8]:

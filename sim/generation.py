@@ -20,7 +20,7 @@ from sim.navigation import FOOTPRINT_M
 from sim.objects import load_objects
 from sim.spots import NoRoomError, Spot, arrange
 
-MOST_ROOMS, LEAST_FURNITURE, MOST_FURNITURE = 60, 8, 600
+MOST_ROOMS, LEAST_FURNITURE, MOST_IN_A_ROOM = 60, 8, 40
 
 SIZES: dict[str, tuple[tuple[float, float, float], list[float]]] = {
     "Table": ((0.60, 1.20, 0.74), []),
@@ -98,18 +98,18 @@ def generate_home(rooms: int, furniture: int, seed: int) -> str:
     Raises:
         InputError: if there cannot be such a home.
     """
-    least = max(LEAST_FURNITURE, rooms)
+    least, most = max(LEAST_FURNITURE, rooms), MOST_IN_A_ROOM * rooms
     if not 1 <= rooms <= MOST_ROOMS:
         raise InputError("--rooms", f"cannot make {rooms} rooms", f"give 1 to {MOST_ROOMS}")
-    if not least <= furniture <= MOST_FURNITURE:
-        right = f"give {least} to {MOST_FURNITURE} for {rooms} rooms"
+    if not least <= furniture <= most:
+        right = f"give {least} to {most} for {rooms} rooms"
         raise InputError("--furniture", f"cannot make {furniture} pieces", right)
     rng = Random(seed)
     side = SMALLEST_ROOM_M + 0.4 * max(0, ceil(furniture / rooms) - 4)
     tables = None
     while tables is None or not _is_sound(tables):
         tables = _draw(rng, rooms, furniture, side)
-        side += 0.05
+        side *= 1.02
     command = f"python -m sim generate --rooms {rooms} --furniture {furniture} --seed {seed}"
     return f"# Made by {command}\n\n{_with_short_arrays(tomli_w.dumps(tables))}"
 

@@ -188,10 +188,15 @@ def test_the_whole_system_runs_in_a_generated_home(tmp_path: Path, monkeypatch):
     assert executive([*options, *here]) == 0
 
 
-@pytest.mark.parametrize(("rooms", "furniture"), [(0, 10), (1000, 2000), (2, 3), (20, 10)])
+@pytest.mark.parametrize(("rooms", "furniture"), [(0, 10), (1000, 2000), (2, 3), (20, 10), (1, 41)])
 def test_a_home_that_cannot_be_is_refused_with_what_can(rooms: int, furniture: int, capsys):
     assert main(["generate", f"--rooms={rooms}", f"--furniture={furniture}"]) == 2
     assert "; give " in capsys.readouterr().err
+
+
+def test_a_file_that_cannot_be_written_is_named(tmp_path: Path, capsys):
+    assert main(["generate", f"--out={tmp_path}/no/home.toml"]) == 2
+    assert "no/home.toml: cannot write: No such file or directory" in capsys.readouterr().err
 
 
 def test_the_home_in_the_documentation_has_no_faults(tmp_path: Path):
