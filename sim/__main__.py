@@ -1,6 +1,7 @@
-"""`python -m sim view [HOME]`: a picture of a home, seen from above."""
+"""Homes on the command line: `view` draws one, `check` names its faults, `generate` makes one."""
 
 import argparse
+import json
 import struct
 import sys
 import zlib
@@ -10,55 +11,100 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from executive.errors import ExecutiveError
+from executive.errors import ExecutiveError, InputError
 from executive.types import Intrinsics, Pose
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
+from sim.checking import check_home
 from sim.client import connect
+from sim.generation import generate_home
 from sim.home import Home, load_home
 from sim.objects import load_objects
 
 WIDTH, HEIGHT = 1280, 1080
-DISTANCE_M = 40.0
-"""From the home to the eye: so far that lines are nearly parallel."""
+DISTANCE = 4.35
+"""From the home to the eye, in lengths of the home: so far that lines are nearly parallel."""
 STEEPNESS = np.radians(62.0)
 MARGIN = 1.08
 """How much more than the home the picture shows."""
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command; returns its exit status (0 done, 2 bad input)."""
+    """Run the command; returns its exit status (0 done, 1 the home has faults, 2 bad input)."""
     parser = argparse.ArgumentParser(prog="python -m sim", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
     view = commands.add_parser("view", help="draw a home from above into a PNG file")
     view.add_argument("home", nargs="?", default="four_rooms", help="name or FILE.toml")
     view.add_argument("--out", type=Path, help="the picture; default HOME.png")
+    view.set_defaults(run=_view)
+    check = commands.add_parser("check", help="name all that is wrong with a home")
+    check.add_argument("home", help="name or FILE.toml")
+    check.add_argument("--json", action="store_true", help="print a JSON array of sentences")
+    check.set_defaults(run=_check)
+    generate = commands.add_parser("generate", help="make a home file of any size")
+    generate.add_argument("--rooms", type=int, default=12)
+    generate.add_argument("--furniture", type=int, default=60)
+    generate.add_argument("--seed", type=int, default=0)
+    generate.add_argument("--out", type=Path, help="FILE.toml; default: print it")
+    generate.set_defaults(run=_generate)
     options = parser.parse_args(arguments)
     try:
-        home = load_home(options.home)
+        return int(options.run(options))
     except ExecutiveError as error:
         print(error, file=sys.stderr)
         return 2
+
+
+def _view(options: argparse.Namespace) -> int:
+    home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
-    out.write_bytes(png(draw(home)))
-    print(out)
+    _write(out, png(draw(home)))
     return 0
+
+
+def _check(options: argparse.Namespace) -> int:
+    faults = [str(fault) for fault in check_home(options.home)]
+    if options.json:
+        print(json.dumps(faults, indent=2, ensure_ascii=False))
+    else:
+        print("\n".join(faults or [f"{options.home}: no faults"]))
+    return 1 if faults else 0
+
+
+def _generate(options: argparse.Namespace) -> int:
+    text = generate_home(options.rooms, options.furniture, options.seed)
+    if options.out is None:
+        print(text, end="")
+    else:
+        _write(options.out, text.encode())
+    return 0
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        right = "give a file in a folder that exists"
+        raise InputError(f"--out {path}", f"cannot write: {error.strerror}", right) from None
+    print(path)
 
 
 def draw(home: Home) -> NDArray[np.uint8]:
     """The home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
     edges = np.array([room.rectangle for room in home.rooms])
     lower, upper = edges[:, :2].min(axis=0), edges[:, 2:].max(axis=0)
-    focal = DISTANCE_M * WIDTH / (float(upper[0] - lower[0]) * MARGIN)
+    across, along = (upper - lower) * MARGIN
+    distance = DISTANCE * float(max(upper - lower))
+    focal = distance * float(min(WIDTH / across, HEIGHT / (along * np.sin(STEEPNESS))))
     intrinsics = Intrinsics(WIDTH, HEIGHT, focal, focal, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
     turn = Rotation.from_euler("x", -np.pi / 2 - STEEPNESS)
     middle = np.array([*(lower + upper) / 2, 0.0])
-    eye = middle - DISTANCE_M * turn.as_matrix()[:, 2]
+    eye = middle - distance * turn.as_matrix()[:, 2]
     pose = Pose(tuple(eye.tolist()), tuple(turn.as_quat().tolist()))
     client = connect()
     build_home(client, home.model_copy(update={"wall_height": VIEWED_WALL_HEIGHT_M}))
     place_objects(client, home, load_objects())
-    color = render(client, pose, intrinsics, far=2 * DISTANCE_M).color
+    color = render(client, pose, intrinsics, far=2 * distance).color
     client.disconnect()
     return color
 

@@ -11,7 +11,7 @@ Span = tuple[float, float]
 class Room(BaseModel):
     """A room with walls along the edges of its rectangle; neighbours share what is between them."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str
     kind: str
@@ -24,11 +24,17 @@ class Room(BaseModel):
         left, lower, right, upper = self.rectangle
         return left <= x <= right and lower <= y <= upper
 
+    def overlaps(self, other: "Room") -> bool:
+        """Whether the rooms have more than an edge in common."""
+        left, lower, right, upper = self.rectangle
+        a, b, c, d = other.rectangle
+        return max(left, a) < min(right, c) and max(lower, b) < min(upper, d)
+
 
 class Door(BaseModel):
     """A gap in a wall, from floor to ceiling."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     position: tuple[float, float]
     """Its middle, on the line of a wall (metres, in `map`)."""

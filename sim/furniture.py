@@ -21,8 +21,15 @@ Form = Literal["table", "case", "fridge", "sofa", "bed"]
 
 FORM_OF_KIND: dict[str, Form] = {
     "Table": "table",
+    "DiningTable": "table",
+    "CoffeeTable": "table",
+    "SideTable": "table",
     "Desk": "table",
     "Wagon": "table",
+    "Counter": "case",
+    "Dresser": "case",
+    "Nightstand": "case",
+    "TvStand": "case",
     "Cabinet": "case",
     "Bookshelf": "case",
     "Shelf": "case",
@@ -90,7 +97,7 @@ PoseInDegrees = Annotated[PlanarPose, AfterValidator(_yaw_in_radians)]
 class Furniture(BaseModel):
     """A piece of furniture that things may be on or in; `pose` x points out of its front."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str
     kind: str

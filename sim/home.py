@@ -5,7 +5,8 @@ A home is a TOML file; `homes/four_rooms.toml` shows every key. Its frame is `ma
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from importlib.resources import files
 from itertools import combinations
 from pathlib import Path
@@ -19,6 +20,7 @@ from pydantic import (
     PositiveFloat,
     ValidationError,
 )
+from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.types import Place, Pose, Vector3
@@ -29,6 +31,9 @@ from sim.spots import NoRoomError, Spot, Standing, arrange
 
 __all__ = ["DELIVERY", "PERSON", "Furniture", "Home", "PlanarPose", "Surface", "load_home"]
 
+Fault = tuple[str, str]
+"""What is wrong, and what would be right."""
+
 PERSON = "person"
 DELIVERY = "delivery"
 STAND_OFF_M = 0.62
@@ -36,6 +41,8 @@ STAND_OFF_M = 0.62
 TALKING_DISTANCE_M = 0.9
 """From the middle of the person to the middle of the robot that talks to them."""
 FACE_HEIGHT_M = 1.55
+LARGEST_M = 200.0
+"""A home that is longer was not meant in metres."""
 VIEW_DEPTH_M = 0.17
 """Behind the front edge of a surface, where the camera looks."""
 VIEW_HEIGHT_M = 0.06
@@ -49,7 +56,7 @@ def _as_spot(value: Any) -> Any:
 class Home(BaseModel):
     """A home as its file describes it; made by `load_home`."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str
     wall_height: PositiveFloat = 2.4
@@ -57,7 +64,7 @@ class Home(BaseModel):
     robot_start: PoseInDegrees
     person: PoseInDegrees
     """Where the person is, and where they look."""
-    rooms: tuple[Room, ...]
+    rooms: Annotated[tuple[Room, ...], Field(min_length=1)]
     doors: tuple[Door, ...] = ()
     furniture: tuple[Furniture, ...]
     delivery: Furniture
@@ -151,7 +158,8 @@ class Home(BaseModel):
         """
         spots = {name: Spot(furniture=where) for name, where in placement.items()}
         home = self.model_copy(update={"objects": {**self.objects, **spots}})
-        _check_objects(home, "--place")
+        for fault in (*_object_faults(home), *_spot_faults(home)):
+            raise InputError("--place", *fault)
         return home
 
     def arrangement(self) -> dict[str, Standing]:
@@ -166,6 +174,18 @@ def load_home(name_or_path: str) -> Home:
     Raises:
         InputError: if there is no such home or something in it is wrong, naming file and key.
     """
+    home, faults = inspect_home(name_or_path)
+    if home is None or faults:
+        raise faults[0]
+    return home
+
+
+def inspect_home(name_or_path: str) -> tuple[Home | None, tuple[InputError, ...]]:
+    """Read a home and all that is wrong in its file; no home if it does not have the right form.
+
+    Raises:
+        InputError: if there is no such home or it is not TOML.
+    """
     text, where = _read(name_or_path)
     try:
         data = {"name": Path(where).stem, **tomllib.loads(text)}
@@ -174,10 +194,8 @@ def load_home(name_or_path: str) -> Home:
     try:
         home = Home.model_validate(data)
     except ValidationError as error:
-        raise _input_error(where, data, error) from None
-    for check in (_check_rooms, _check_furniture, _check_overlaps, _check_objects):
-        check(home, where)
-    return home
+        return None, tuple(_input_error(where, data, fault) for fault in error.errors())
+    return home, tuple(InputError(where, *fault) for fault in home_faults(home))
 
 
 def home_text(name_or_path: str) -> str:
@@ -211,15 +229,14 @@ def _read(name_or_path: str) -> tuple[str, str]:
         raise InputError(name_or_path, f"cannot read this home: {why}", known) from None
 
 
-def _input_error(where: str, data: Any, error: ValidationError) -> InputError:
-    """The first of pydantic's complaints, with the key as the file has it."""
-    first = error.errors()[0]
-    key = _key(data, first["loc"])
-    if first["type"] == "extra_forbidden":
+def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
+    """One of pydantic's complaints, with the key as the file has it."""
+    key = _key(data, fault["loc"])
+    if fault["type"] == "extra_forbidden":
         return InputError(where, f"there is no key {key}", "see sim/homes/four_rooms.toml")
-    if first["type"] == "missing":
+    if fault["type"] == "missing":
         return InputError(where, f"{key} is missing", "see sim/homes/four_rooms.toml")
-    return InputError(where, f"{key} is {first['input']!r}", first["msg"].lower())
+    return InputError(where, f"{key} is {fault['input']!r}", fault["msg"].lower())
 
 
 def _key(data: Any, path: tuple[str | int, ...]) -> str:
@@ -235,66 +252,93 @@ def _key(data: Any, path: tuple[str | int, ...]) -> str:
     return ".".join(words)
 
 
-def _check_rooms(home: Home, where: str) -> None:
+def home_faults(home: Home) -> Iterator[Fault]:
+    """All that is wrong; what follows only from an earlier fault is left out."""
+    unbuildable = [*_room_faults(home), *_furniture_faults(home)]
+    yield from unbuildable
+    yield from _layout_faults(home)
+    yield from _object_faults(home)
+    if not unbuildable:
+        yield from _spot_faults(home)
+
+
+def _room_faults(home: Home) -> Iterator[Fault]:
     for room in home.rooms:
         left, lower, right, upper = room.rectangle
         if left >= right or lower >= upper:
-            right_order = "give left, lower, right and upper edge"
-            raise InputError(where, f"room {room.name} has no area", right_order)
-    _check_unique(where, "room", [room.name for room in home.rooms])
+            yield f"room {room.name} has no area", "give left, lower, right and upper edge"
+    left, lower, right, upper = home.extent()
+    if max(right - left, upper - lower) > LARGEST_M:
+        yield f"the rooms span more than {LARGEST_M:g} m", "give metres"
+    yield from _twice("room", [room.name for room in home.rooms])
     for door in home.doors:
         if not is_on_wall(door, home.rooms):
             on_edge = "put its middle on the edge of a room, away from the corners"
-            raise InputError(where, f"the door at {door.position} is not in a wall", on_edge)
+            yield f"the door at {door.position} is not in a wall", on_edge
 
 
-def _check_furniture(home: Home, where: str) -> None:
-    _check_unique(where, "furniture", [PERSON, DELIVERY, *(f.name for f in home.furniture)])
+def _furniture_faults(home: Home) -> Iterator[Fault]:
+    yield from _twice("furniture", [PERSON, DELIVERY, *(f.name for f in home.furniture)])
     if home.delivery.name != DELIVERY:
-        raise InputError(where, f"the delivery table is named {home.delivery.name}", DELIVERY)
-    rooms = {room.name: room for room in home.rooms}
+        yield f"the delivery table is named {home.delivery.name}", f"name it {DELIVERY}"
+    rooms = [room.name for room in home.rooms]
     for piece in (*home.furniture, home.delivery):
         of = f"furniture {piece.name}"
         if piece.room not in rooms:
-            raise InputError(where, f"{of}: no room {piece.room!r}", f"rooms: {', '.join(rooms)}")
+            yield f"{of}: no room {piece.room!r}", f"rooms: {', '.join(rooms)}"
         if piece.form is None and piece.kind not in FORM_OF_KIND:
             known = f"known are {', '.join(FORM_OF_KIND)}; or give its form"
-            raise InputError(where, f"{of}: cannot build kind {piece.kind!r}", known)
-        if max(piece.boards, default=0.0) >= piece.size[2]:
-            raise InputError(where, f"{of}: a board is above its top", f"below {piece.size[2]} m")
-        lengths = [length for shape in piece.shapes() for length in shape.size]
-        if min(lengths) <= 0:
-            raise InputError(where, f"{of}: too small or too low to be built", "make it larger")
-        if not piece.surfaces():
-            raise InputError(where, f"{of}: nothing can stand on it", "give its boards")
-        if not all(rooms[piece.room].holds(x, y) for x, y in piece.corners()):
-            raise InputError(where, f"{of}: it sticks out of room {piece.room}", "move it inside")
+            yield f"{of}: cannot build kind {piece.kind!r}", known
+        elif max(piece.boards, default=0.0) >= piece.size[2]:
+            yield f"{of}: a board is above its top", f"below {piece.size[2]} m"
+        elif min(length for shape in piece.shapes() for length in shape.size) <= 0:
+            yield f"{of}: too small or too low to be built", "make it larger"
+        elif not piece.surfaces():
+            yield f"{of}: nothing can stand on it", "give its boards"
 
 
-def _check_overlaps(home: Home, where: str) -> None:
-    for one, other in combinations((*home.furniture, home.delivery), 2):
+def _layout_faults(home: Home) -> Iterator[Fault]:
+    for room, neighbour in combinations(home.rooms, 2):
+        if room.overlaps(neighbour):
+            yield f"room {room.name} and {neighbour.name} overlap", "let them share an edge at most"
+    rooms = {room.name: room for room in home.rooms}
+    pieces = (*home.furniture, home.delivery)
+    for piece in pieces:
+        here = rooms.get(piece.room)
+        if here and not all(here.holds(x, y) for x, y in piece.corners()):
+            yield f"furniture {piece.name}: it sticks out of room {here.name}", "move it inside"
+    for one, other in combinations(pieces, 2):
         if one.overlaps(other):
-            what = f"furniture {one.name} and {other.name} overlap"
-            raise InputError(where, what, "move one of them")
+            yield f"furniture {one.name} and {other.name} overlap", "move one of them"
 
 
-def _check_objects(home: Home, where: str) -> None:
+def _object_faults(home: Home) -> Iterator[Fault]:
     models = load_objects()
     furniture = [*(f.name for f in home.furniture), DELIVERY]
     for name, spot in home.objects.items():
         if name not in models:
-            known = f"objects: {', '.join(models)}"
-            raise InputError(where, f"there is no object {name!r}", known)
+            yield f"there is no object {name!r}", f"objects: {', '.join(models)}"
         if spot.furniture not in furniture:
-            known = f"furniture: {', '.join(furniture)}"
-            raise InputError(where, f"{name}: there is no furniture {spot.furniture!r}", known)
-    try:
-        home.arrangement()
-    except NoRoomError as error:
-        raise InputError(where, f"{error.name}: {error}", "choose another place for it") from None
+            where = f"furniture: {', '.join(furniture)}"
+            yield f"{name}: there is no furniture {spot.furniture!r}", where
 
 
-def _check_unique(where: str, what: str, names: list[str]) -> None:
-    for name in names:
-        if names.count(name) > 1:
-            raise InputError(where, f"{what} {name!r} is there twice", "give each its own name")
+def _spot_faults(home: Home) -> Iterator[Fault]:
+    """Objects for which there is no room; those named otherwise are left out."""
+    furniture = [*(f.name for f in home.furniture), DELIVERY]
+    models = load_objects()
+    left = {n: s for n, s in home.objects.items() if n in models and s.furniture in furniture}
+    while True:
+        try:
+            home.model_copy(update={"objects": left}).arrangement()
+        except NoRoomError as error:
+            yield f"{error.name}: {error}", "choose another place for it"
+            del left[error.name]
+        else:
+            return
+
+
+def _twice(what: str, names: list[str]) -> Iterator[Fault]:
+    for name, count in Counter(names).items():
+        if count > 1:
+            yield f"{what} {name!r} is there twice", "give each its own name"

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from sim.home import Home
 
@@ -21,6 +21,8 @@ FOOTPRINT_M = 0.33
 """Radius of the robot, seen from above."""
 COMFORT_M = 0.55
 """With this much room around its middle the robot is at ease; less costs extra."""
+FAR_M = 1.0
+"""What is farther away than this does not matter."""
 DISCOMFORT = 6.0
 """How much dearer a metre is where the robot just fits."""
 PERSON_RADIUS_M = 0.25
@@ -42,7 +44,7 @@ class OccupancyGrid:
         origin: the middle of cell [0, 0] in `map` (metres).
         resolution: side of a cell (metres).
         clearance: (columns, rows) distance from the middle of a cell, x by column and y by row, to
-            the nearest wall, furniture or person (metres); 0 inside of them.
+            the nearest wall, furniture or person (metres, at most FAR_M); 0 inside of them.
     """
 
     origin: Point
@@ -63,11 +65,13 @@ class OccupancyGrid:
             [(x >= a) & (x <= c) & (y >= b) & (y <= d) for a, b, c, d in edges.tolist()], axis=0
         )
         person = np.hypot(x - home.person[0], y - home.person[1]) - PERSON_RADIUS_M
-        clearance = np.where(inside, person.clip(min=0.0), 0.0)
+        clearance = np.where(inside, person.clip(0.0, FAR_M), 0.0)
         boxes = [(*wall.center, 0.0, *wall.size) for wall in home.walls()]
         boxes += [(*piece.pose, *piece.size[:2]) for piece in (*home.furniture, home.delivery)]
         for box in boxes:
-            np.minimum(clearance, _distance_to_box(x, y, box), out=clearance)
+            near = _window(origin, resolution, box)
+            found = _distance_to_box(x[near], y[near], box)
+            clearance[near] = np.minimum(clearance[near], found)
         return cls(origin, resolution, clearance)
 
     @cached_property
@@ -134,6 +138,19 @@ def plan(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
     return start, *_way(grid, _nearest_free(grid, start), goal)
 
 
+def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
+    """(columns, rows) the cells that the robot can get to from where it starts.
+
+    Raises:
+        Unreachable: if it cannot move at all.
+    """
+    if not grid.is_free(grid.cell(start)):
+        start = _nearest_free(grid, start)
+    _, numbers = connected_components(grid.graph, directed=False)
+    parts = np.reshape(numbers, grid.free.shape)
+    return np.asarray(parts == parts[grid.cell(start)])
+
+
 def _way(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
     """The cheapest way between two free points."""
     shape = grid.clearance.shape
@@ -189,6 +206,19 @@ def _neighbours(grid: NDArray[np.bool_], dx: int, dy: int) -> tuple[Slices, Slic
     here = slice(0, columns - dx), slice(low, high)
     there = slice(dx, columns), slice(low + dy, high + dy)
     return here, there
+
+
+def _window(origin: Point, resolution: float, box: tuple[float, ...]) -> Slices:
+    """The cells that may be within FAR_M of a rectangle: middle x and y, yaw, length and width."""
+    reach = float(np.hypot(box[3], box[4])) / 2 + FAR_M
+    columns, rows = (
+        slice(
+            max(0, int((middle - start - reach) / resolution)),
+            max(0, int((middle - start + reach) / resolution) + 2),
+        )
+        for middle, start in zip(box[:2], origin, strict=True)
+    )
+    return columns, rows
 
 
 def _distance_to_box(x: Floats, y: Floats, box: tuple[float, ...]) -> Floats:

@@ -26,7 +26,7 @@ HEADROOM_M = 0.05
 class Spot(BaseModel):
     """Where an object is: on which furniture and, if it matters, where on it."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     furniture: str
     surface: NonNegativeInt | None = None

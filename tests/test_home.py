@@ -194,6 +194,12 @@ FAULTS = {
     "wrong type": ("[1, 1, 0]", '["here", 1, 0]', "robot_start.0 is 'here'; .*valid number"),
     "wrong type in furniture": ("0.6, 1.2, 0.7", "0.6, -1, 0.7", "furniture.desk.size.1 is -1; "),
     "room without area": ("[0, 0, 5, 5]", "[5, 0, 0, 5]", "room den has no area"),
+    "rooms that overlap": (
+        "[0, 0, 5, 5] }",
+        '[0, 0, 5, 5] }, { name = "loo", kind = "Bathroom", rectangle = [4, 4, 6, 6] }',
+        "room den and loo overlap",
+    ),
+    "millimetres": ("[0, 0, 5, 5]", "[0, 0, 5000, 5000]", "rooms span more than 200 m"),
     "door in no wall": ("[2, 0]", "[2, 1]", "door at .* is not in a wall"),
     "unknown room": (
         'room = "den"',

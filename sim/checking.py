@@ -1,0 +1,92 @@
+"""All that is wrong with a home: in its file, for who drives in it, and for the arm."""
+
+from collections.abc import Iterator
+from itertools import product
+
+import numpy as np
+
+from executive.errors import InputError
+from sim.grasps import TILTS, find_grasps
+from sim.hardware import FOLDED
+from sim.home import DELIVERY, PERSON, Fault, Home, inspect_home
+from sim.manipulation import APPROACH_M
+from sim.navigation import FOOTPRINT_M, OccupancyGrid, Unreachable, reachable
+from sim.objects import ObjectModel, load_objects
+from sim.planning import PlanningWorld
+from sim.reaching import plan_reach, plan_stance, standing_poses
+
+GRASPS_TRIED = 4
+"""Of a thing, for each way to hold the hand."""
+
+
+def check_home(name_or_path: str) -> tuple[InputError, ...]:
+    """Everything that is wrong with a home, each with its file and key and what would be right.
+
+    Faults of the file hide those that only a well-formed home can have: ways, then reach.
+
+    Raises:
+        InputError: if there is no such home or it is not TOML.
+    """
+    home, faults = inspect_home(name_or_path)
+    if home is None or faults:
+        return faults
+    where = name_or_path if name_or_path.endswith(".toml") else f"{name_or_path}.toml"
+    return tuple(InputError(where, *fault) for fault in (*way_faults(home), *_reach_faults(home)))
+
+
+def way_faults(home: Home) -> Iterator[Fault]:
+    """Where the robot does not fit or cannot get to."""
+    grid = OccupancyGrid.from_home(home)
+    needed = FOOTPRINT_M + grid.resolution
+    for door in home.doors:
+        if door.width < 2 * needed:
+            right = f"make its width {2 * needed + grid.resolution:.2f} m or more"
+            yield f"the door at {door.position} is too narrow for the robot", right
+    if not any(room.holds(*home.person[:2]) for room in home.rooms):
+        yield "person: they are outside of all rooms", "put them in a room"
+    try:
+        area = reachable(grid, home.robot_start[:2])
+    except Unreachable:
+        right = f"leave {needed:.2f} m around its middle free"
+        yield f"robot_start: the robot does not fit at {home.robot_start[:2]}", right
+        return
+    for place in (PERSON, DELIVERY, *(piece.name for piece in home.furniture)):
+        x, y, _ = home.stand(place)
+        key = place if place in (PERSON, DELIVERY) else f"furniture {place}"
+        cell = grid.cell((x, y))
+        if not grid.is_free(cell):
+            right = f"leave {needed:.2f} m around ({x:.2f}, {y:.2f}) free"
+            yield f"{key}: there is no room for the robot to stand before it", right
+        elif not area[cell]:
+            right = f"make a way to ({x:.2f}, {y:.2f}) that is {2 * needed:.2f} m wide"
+            yield f"{key}: it cannot be reached from robot_start", right
+
+
+def _reach_faults(home: Home) -> Iterator[Fault]:
+    """Objects that the arm would not get hold of, were each alone on its furniture."""
+    world = PlanningWorld(home)
+    models = load_objects()
+    for name, spot in home.objects.items():
+        if not _reaches(world, home, models[name]):
+            right = "put it nearer to the front of its furniture, or on another board"
+            yield f"{name}: it is out of the arm's reach on {spot.furniture}", right
+    world.close()
+
+
+def _reaches(world: PlanningWorld, home: Home, model: ObjectModel) -> bool:
+    """Whether there is a grasp, a place to stand for it, and a motion to it."""
+    piece = home.furniture_named(home.objects[model.name].furniture)
+    pose = home.object_pose(model.name)
+    before = np.array(home.stand(piece.name))
+    stances = [
+        stance
+        for stance in standing_poses(piece, np.asarray(pose.position))
+        if plan_stance(world, before, stance)
+    ]
+    for tilt in TILTS:
+        grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:GRASPS_TRIED]
+        for stance, grasp, length in product(stances, grasps, APPROACH_M):
+            way = length * grasp.hand.approach
+            if plan_reach(world, stance, FOLDED, grasp.hand, way):
+                return True
+    return False
