@@ -110,14 +110,20 @@ class Inbox:
         return self._collect()
 
     def take_all(self) -> tuple[Event, ...]:
-        """Empty the box, oldest first; ends of dropped requests are left out."""
+        """Empty the box, oldest first.
+
+        Ends of dropped requests are left out, and so is a second end of the same request.
+        """
         self._collect()
-        events = tuple(self._taken)
+        events = tuple(event for event in self._taken if self._close(event))
         self._taken.clear()
-        for event in events:
-            if isinstance(event, Ended):
-                del self._open[event.request]
         return events
+
+    def _close(self, event: Event) -> bool:
+        """Whether the event counts; an end closes its request."""
+        if not isinstance(event, Ended):
+            return True
+        return self._open.pop(event.request, None) is not None
 
     def _collect(self) -> bool:
         """Move what was posted to the taken side, less the ends of dropped requests."""

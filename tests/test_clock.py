@@ -104,3 +104,12 @@ def test_the_end_of_a_request_dropped_after_it_was_posted_is_not_delivered() -> 
     assert inbox.has_events
     inbox.drop(request)
     assert inbox.take_all() == ()
+
+
+def test_only_the_first_end_of_a_request_is_delivered() -> None:
+    inbox = Inbox()
+    request = inbox.open()
+    inbox.end(request, Succeeded())
+    inbox.end(request, Succeeded())
+    assert len(inbox.take_all()) == 1
+    assert not inbox.has_events

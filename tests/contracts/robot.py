@@ -94,6 +94,7 @@ class RobotContract:
     def test_the_end_of_a_cancelled_goal_is_not_delivered(self, bench: Bench) -> None:
         request = bench.robot.start(DriveTo(bench.place))
         bench.robot.cancel(request)
+        assert not bench.inbox.is_open(request)
         bench.advance(1.0)
         assert bench.do(Halt()) == Succeeded()
         assert not bench.inbox.awaits_anything
