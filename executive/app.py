@@ -8,7 +8,7 @@ import logging
 import math
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -70,16 +70,21 @@ class Session:
         view: bool = False,
         gui: bool = False,
         out: TextIO | None = None,
+        recorded: bool = True,
+        sinks: Sequence[Sink] = (),
     ) -> None:
         """Build everything; `user` and `model` replace what the settings name.
 
-        The robot's words go to `out` (default: standard error).
+        The robot's words go to `out` (default: standard error). Missions that are not `recorded`
+        leave no folder; `sinks` are told everything in either case, and closed after each mission.
 
         Raises:
             ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
         """
         self.settings = settings
         self._view = view
+        self._recorded = recorded
+        self._sinks = tuple(sinks)
         self.inbox = inbox or Inbox()
         self.home = load_home(settings.home).with_placement(settings.place)
         self.knowledge = Ontology(
@@ -115,12 +120,14 @@ class Session:
         """How often the tree of the last mission was ticked."""
 
     def run(self, words: str) -> Outcome:
-        """One mission, from words to its outcome, with its own run folder."""
+        """One mission, from words to its outcome, with its own run folder if it is recorded."""
         began = time.monotonic()
         started = datetime.now(UTC)
-        folder = new_folder(self.settings.runs, started, words)
+        folder = new_folder(self.settings.runs, started, words) if self._recorded else None
         self.clock.restart()
-        self._open_logs(folder, started)
+        logs = self._logs(folder, started) if folder else []
+        self.recorder.open([*logs, *self._sinks], started)
+        self.world.describe()
         situation = Situation(words=words)
         tree = MissionTree(mission(self._team(situation)))
         executive = Executive(
@@ -138,12 +145,13 @@ class Session:
             outcome = situation.outcome(
                 mission_time_s=self.clock.now(),
                 wall_time_s=time.monotonic() - began,
-                run_dir=str(folder),
+                run_dir=str(folder) if folder else None,
             )
             self.recorder.record(Finished(outcome))
         finally:
             self.recorder.close()
-        write(folder / "outcome.json", to_json(outcome) + "\n")
+        if folder:
+            write(folder / "outcome.json", to_json(outcome) + "\n")
         return outcome
 
     def next_command(self) -> str | None:
@@ -193,7 +201,7 @@ class Session:
         """Where things are by the robot's map; in the instant world they have no true position."""
         return None if self.settings.world == "fake" else furniture_at(self.home, point)
 
-    def _open_logs(self, folder: Path, started: datetime) -> None:
+    def _logs(self, folder: Path, started: datetime) -> list[Sink]:
         config = self.settings.to_toml()
         write(folder / "config.toml", config)
         attachments = {
@@ -208,12 +216,10 @@ class Session:
             "model": self.model.name if self.model else "none",
             **{name: version(name) for name in PACKAGES},
         }
-        sinks = working(
+        return working(
             lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
             lambda: RerunSink(folder / "mission.rrd", view=self._view),
         )
-        self.recorder.open(sinks, started)
-        self.world.describe()
 
 
 def furniture_at(home: Home, point: Vector3) -> str | None:

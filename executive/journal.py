@@ -1,0 +1,154 @@
+"""A campaign's truth on disk: one JSON line for each mission that has ended.
+
+A line is appended in one write when its mission ends, by whichever process ran it, so that whatever
+kills the campaign costs at most the missions under way. The tables are made from it.
+"""
+
+import csv
+import json
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import get_type_hints
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from executive.config import KnowledgeSystem
+from executive.errors import InputError
+
+CRASHED = "crashed"
+"""Status of a mission that ended in an exception, beside those of an Outcome."""
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """Which mission of a campaign."""
+
+    system: KnowledgeSystem
+    defaults: bool
+    seed: int
+    command: str
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """How one mission of a campaign went; times in seconds. What is not known is 0 or empty."""
+
+    system: str
+    defaults: bool
+    seed: int
+    command: str
+    turn: int
+    """Its place in the order of its household's commands, from 0."""
+    kind: str = ""
+    object: str = ""
+    status: str = CRASHED
+    """done, not_done, not_understood, stopped, or crashed."""
+    reason: str = ""
+    completed: bool = False
+    """Done, and the thing was found where the home file has it."""
+    source: str = ""
+    location: str = ""
+    inquiries: int = 0
+    visits: int = 0
+    visited: str = ""
+    """Pieces of furniture in the order of the visits, with blanks between."""
+    llm_calls: int = 0
+    generated_tokens: int = 0
+    llm_s: float = 0.0
+    """Wall time inside the language model."""
+    thinking_time_s: float = 0.0
+    """Mission time from asking the model for places until it has answered."""
+    mission_time_s: float = 0.0
+    wall_time_s: float = 0.0
+    model: str = ""
+    run_dir: str = ""
+
+    @property
+    def key(self) -> Key:
+        """Which mission it was."""
+        return Key(KnowledgeSystem(self.system), self.defaults, self.seed, self.command)
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A line of the journal: the row, and what was said between robot and language model."""
+
+    row: Row
+    exchanges: tuple[tuple[str, str], ...] = ()
+    """Inquiry and reply of each call in which the model wrote."""
+
+
+class Journal:
+    """The file with the entries; any number of processes on one machine may append."""
+
+    def __init__(self, file: Path) -> None:
+        """Use this file, which need not exist yet."""
+        self._file = file
+
+    def mend(self) -> None:
+        """Cut off half a line that a power failure left; only while nobody appends.
+
+        Raises:
+            InputError: if the file cannot be written.
+        """
+        try:
+            self._file.touch()
+            with self._file.open("rb+") as stream:
+                stream.truncate(stream.read().rfind(b"\n") + 1)
+        except OSError as error:
+            raise InputError(
+                str(self._file), f"cannot be written: {error.strerror}", "choose another --out"
+            ) from None
+
+    def append(self, entry: Entry) -> None:
+        """Add a line, on the disk when this returns."""
+        line = json.dumps({**asdict(entry.row), "exchanges": entry.exchanges}) + "\n"
+        target = os.open(self._file, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o644)
+        try:
+            os.write(target, line.encode())
+            os.fsync(target)
+        finally:
+            os.close(target)
+
+    def entries(self) -> list[Entry]:
+        """All entries so far, in the order in which missions ended.
+
+        Raises:
+            InputError: names the line that is no entry.
+        """
+        lines = self._file.read_bytes().split(b"\n")[:-1] if self._file.exists() else []
+        return [self._entry(number, line) for number, line in enumerate(lines, 1)]
+
+    def _entry(self, number: int, line: bytes) -> Entry:
+        try:
+            values = json.loads(line)
+            exchanges = tuple((said, reply) for said, reply in values.pop("exchanges"))
+            return Entry(Row(**values), exchanges)
+        except (ValueError, TypeError, KeyError, AttributeError) as error:
+            raise InputError(
+                f"{self._file}:{number}",
+                f"is not a mission of this version: {error}",
+                "delete the line, or choose another --out",
+            ) from None
+
+
+def in_order(rows: Iterable[Row]) -> list[Row]:
+    """Sorted by system, situation, seed and turn, whatever order the missions ended in."""
+    systems = list(KnowledgeSystem)
+    return sorted(rows, key=lambda r: (systems.index(r.key.system), r.defaults, r.seed, r.turn))
+
+
+def write_tables(rows: Sequence[Row], folder: Path) -> None:
+    """Write `results.csv` and `results.parquet`, one row a mission."""
+    names = [field.name for field in fields(Row)]
+    with (folder / "results.csv").open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, names)
+        writer.writeheader()
+        writer.writerows(asdict(row) for row in rows)
+    kinds = {str: pa.string(), bool: pa.bool_(), int: pa.int64(), float: pa.float64()}
+    schema = pa.schema([(name, kinds[kind]) for name, kind in get_type_hints(Row).items()])
+    table = pa.Table.from_pylist([asdict(row) for row in rows], schema=schema)
+    pq.write_table(table, folder / "results.parquet")

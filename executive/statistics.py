@@ -1,0 +1,116 @@
+"""Means, intervals and tests for the tables of an experiment.
+
+The commands are what an experiment samples; its seeds only repeat them, and a system that does not
+depend on chance repeats them exactly. So intervals and tests rest on the mean of each command.
+"""
+
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+RESAMPLES = 10_000
+LEVEL = 0.95
+
+Name = TypeVar("Name", bound=Hashable)
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """What a column of numbers comes to; the interval is that of the mean (95 %)."""
+
+    n: int
+    mean: float
+    sd: float
+    """Of single missions (n - 1 in the denominator); 0 for a single one."""
+    low: float
+    high: float
+
+
+def summarize(groups: Mapping[str, Sequence[float]], seed: int = 0) -> Summary | None:
+    """Summarize missions that are grouped by command; None if there are none.
+
+    The interval is a percentile bootstrap that draws commands, each with all its missions.
+    """
+    filled = [np.asarray(values, float) for values in groups.values() if len(values)]
+    if not filled:
+        return None
+    values = np.concatenate(filled)
+    draws = np.random.default_rng(seed).integers(len(filled), size=(RESAMPLES, len(filled)))
+    sums, sizes = np.array([g.sum() for g in filled]), np.array([g.size for g in filled])
+    means = sums[draws].sum(axis=1) / sizes[draws].sum(axis=1)
+    low, high = np.quantile(means, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    sd = float(values.std(ddof=1)) if values.size > 1 else 0.0
+    return Summary(values.size, float(values.mean()), sd, float(low), float(high))
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison(Generic[Name]):
+    """Two conditions compared; `difference` is the mean of `a` - `b` over the pairs."""
+
+    a: Name
+    b: Name
+    pairs: int
+    difference: float
+    p: float
+    """After Holm's correction over the comparisons made together."""
+
+
+def pairwise(columns: Mapping[Name, Mapping[Hashable, float]]) -> list[Comparison[Name]]:
+    """Wilcoxon's signed-rank test of each two conditions on what they have in common.
+
+    Args:
+        columns: of each condition the value of each unit (a command, or a mission).
+    """
+    found: list[Comparison[Name]] = []
+    for a, b in combinations(columns, 2):
+        units = [unit for unit in columns[a] if unit in columns[b]]
+        if units:
+            d = np.array([columns[a][unit] - columns[b][unit] for unit in units])
+            found.append(Comparison(a, b, len(units), float(d.mean()), signed_rank(d)))
+    corrected = holm([one.p for one in found])
+    return [replace(one, p=p) for one, p in zip(found, corrected, strict=True)]
+
+
+EXACT_UP_TO = 12
+"""So many pairs that differ are tested by all assignments of signs; more by the normal curve."""
+
+
+def signed_rank(
+    differences: Sequence[float] | NDArray[np.float64],
+) -> float:
+    """Two-sided p of Wilcoxon's signed-rank test; pairs that do not differ say nothing."""
+    d = np.asarray(differences, float)
+    d = d[np.abs(d) > 1e-12]
+    if d.size < 2:
+        return 1.0
+    if d.size > EXACT_UP_TO:
+        return float(stats.wilcoxon(d, method="approx").pvalue)
+    every = stats.PermutationMethod(n_resamples=2**EXACT_UP_TO)
+    return float(stats.wilcoxon(d, method=every).pvalue)
+
+
+def holm(ps: Sequence[float]) -> list[float]:
+    """Holm's step-down correction for multiple comparisons, in the order given."""
+    corrected, least = [0.0] * len(ps), 0.0
+    for rank, index in enumerate(np.argsort(ps, kind="stable")):
+        least = max(least, min(1.0, (len(ps) - rank) * ps[index]))
+        corrected[index] = least
+    return corrected
+
+
+def stars(p: float) -> str:
+    """As in the paper's figures: ** below 0.01, * below 0.05."""
+    return "**" if p < 0.01 else "*" if p < 0.05 else ""
+
+
+def grouped(pairs: Iterable[tuple[str, float]]) -> dict[str, list[float]]:
+    """Values by command."""
+    groups: dict[str, list[float]] = {}
+    for name, value in pairs:
+        groups.setdefault(name, []).append(value)
+    return groups

@@ -1,0 +1,290 @@
+"""The experiment: its grid, its journal, resuming, and what the tables say."""
+
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterable
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+
+from executive import households
+from executive.app import Session
+from executive.campaign import Campaign, clock, main, parser
+from executive.config import KnowledgeSystem, load_settings
+from executive.events import Inbox
+from executive.experiment import report
+from executive.journal import Entry, Journal, Row, in_order
+from executive.types import Outcome
+from kb.scripted import Scripted
+
+COMMANDS = ("Find an apple.", "Find a power_drill.", "Take a mug.")
+
+
+@pytest.fixture
+def grid(tmp_path: Path) -> list[str]:
+    file = tmp_path / "commands.txt"
+    file.write_text("# three of the paper's\n\n" + "\n".join(COMMANDS))
+    out = str(tmp_path / "out")
+    return ["--llm", "none", "--seeds", "2", "--commands", str(file), "--out", out]
+
+
+def rows_of(out: Path) -> list[Row]:
+    return [entry.row for entry in Journal(out / "journal.jsonl").entries()]
+
+
+def test_each_condition_command_and_seed_is_one_row(grid: list[str], tmp_path: Path) -> None:
+    assert main(grid) == 0
+    rows = rows_of(tmp_path / "out")
+    assert len(rows) == len({row.key for row in rows}) == 3 * 2 * 3 * 2
+    assert all(row.completed for row in rows)
+
+
+def test_the_tables_hold_what_the_journal_holds(grid: list[str], tmp_path: Path) -> None:
+    main(grid)
+    rows = in_order(rows_of(tmp_path / "out"))
+    table = pq.read_table(tmp_path / "out" / "results.parquet").to_pylist()
+    assert [Row(**row) for row in table] == rows
+    assert (tmp_path / "out" / "results.csv").read_text().count("\n") == len(rows) + 1
+
+
+def test_missions_leave_no_folders_unless_asked_to(grid: list[str], tmp_path: Path) -> None:
+    main([*grid, "--systems", "okb", "--seeds", "1"])
+    assert {row.run_dir for row in rows_of(tmp_path / "out")} == {""}
+    recorded = [*grid, "--systems", "okb", "--seeds", "1", "--out", str(tmp_path / "again")]
+    main([*recorded, "--runs", str(tmp_path / "runs")])
+    folders = {row.run_dir for row in rows_of(tmp_path / "again")}
+    assert folders == {str(folder) for folder in (tmp_path / "runs").iterdir()}
+    assert len(folders) == 6
+
+
+def test_a_stopped_campaign_goes_on_where_it_was(
+    grid: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run, count = Session.run, 0
+
+    def run_until_stopped(session: Session, words: str) -> Outcome:
+        nonlocal count
+        count += 1
+        if count == 8:
+            raise KeyboardInterrupt
+        return run(session, words)
+
+    monkeypatch.setattr(Session, "run", run_until_stopped)
+    assert main(grid) == 130
+    before = rows_of(tmp_path / "out")
+    assert len(before) == 7
+    assert "7 of 36" in (tmp_path / "out" / "report.md").read_text()
+    assert main(grid) == 0
+    after = rows_of(tmp_path / "out")
+    assert after[:7] == before
+    assert len(after) == len({row.key for row in after}) == 36
+    assert count == 1 + 36
+
+
+def test_half_a_line_left_by_a_power_failure_is_run_again(grid: list[str], tmp_path: Path) -> None:
+    main(grid)
+    journal = tmp_path / "out" / "journal.jsonl"
+    journal.write_bytes(journal.read_bytes()[:-20])
+    main(grid)
+    rows = rows_of(tmp_path / "out")
+    assert len(rows) == len({row.key for row in rows}) == 36
+
+
+def test_more_seeds_extend_a_campaign(grid: list[str], tmp_path: Path) -> None:
+    main([*grid, "--seeds", "1"])
+    first = rows_of(tmp_path / "out")
+    main(grid)
+    assert rows_of(tmp_path / "out")[: len(first)] == first
+
+
+def test_a_crash_is_a_row_with_its_reason(
+    grid: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = Session.run
+
+    def run_or_break(session: Session, words: str) -> Outcome:
+        if "drill" in words:
+            raise ZeroDivisionError("the floor is lava")
+        return run(session, words)
+
+    monkeypatch.setattr(Session, "run", run_or_break)
+    assert main(grid) == 0
+    rows = rows_of(tmp_path / "out")
+    crashed = [row for row in rows if row.status == "crashed"]
+    assert len(crashed) == 12
+    assert {row.reason for row in crashed} == {"ZeroDivisionError: the floor is lava"}
+    assert all(row.completed for row in rows if row not in crashed)
+    text = (tmp_path / "out" / "report.md").read_text()
+    assert "66.7 % (98.0 %)" in text
+    assert "| crashed | ZeroDivisionError: the floor is lava | okb, defaults | 2 |" in text
+
+
+def test_a_folder_with_other_settings_is_refused(
+    grid: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    main([*grid, "--seeds", "1"])
+    assert main([*grid, "--top", "3"]) == 2
+    assert "other settings" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", ["", "# nothing\n", "Find a mug.\nFind a mug.\n"])
+def test_a_commands_file_without_commands_or_with_one_twice_is_refused(
+    text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "c").write_text(text)
+    assert main(["--commands", str(tmp_path / "c"), "--out", str(tmp_path / "out")]) == 2
+    assert "one command a line" in capsys.readouterr().err
+
+
+def test_worker_processes_give_the_same_rows(grid: list[str], tmp_path: Path) -> None:
+    def told(out: Path) -> list[tuple[object, ...]]:
+        return [(r.key, r.turn, r.visited, r.inquiries) for r in in_order(rows_of(out))]
+
+    main(grid)
+    assert main([*grid, "--workers", "2", "--out", str(tmp_path / "two")]) == 0
+    assert told(tmp_path / "two") == told(tmp_path / "out")
+
+
+def test_a_killed_worker_costs_no_mission(
+    grid: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    options = parser().parse_args([*grid, "--workers", "2", "--seeds", "4"])
+    campaign, entries, killed = Campaign(options), Campaign._entries, []
+
+    def kill_one(self: Campaign) -> list[Entry]:
+        ended = entries(self)
+        if len(ended) > 3 and not killed:
+            killed.append(children()[0])
+            os.kill(killed[0], signal.SIGKILL)
+        return ended
+
+    monkeypatch.setattr(Campaign, "_entries", kill_one)
+    assert campaign.run() == 0
+    rows = rows_of(tmp_path / "out")
+    assert killed
+    assert len(rows) == len({row.key for row in rows}) == 3 * 2 * 3 * 4
+
+
+def children() -> list[int]:
+    return [p.pid for p in multiprocessing.active_children() if p.pid]
+
+
+def test_ctrl_c_ends_the_workers_and_keeps_their_missions(grid: list[str], tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "executive.campaign", *grid, "--workers", "2", "--seeds", "40"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
+    journal = tmp_path / "out" / "journal.jsonl"
+    latest = time.monotonic() + 60
+    while not (journal.exists() and journal.stat().st_size) and time.monotonic() < latest:
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    process.communicate(timeout=60)
+    assert process.returncode == 130
+    rows = rows_of(tmp_path / "out")
+    assert 0 < len(rows) < 720
+    assert len(rows) == len({row.key for row in rows})
+    assert json.loads((tmp_path / "out" / "campaign.json").read_text())["commands"]
+    assert len(pq.read_table(tmp_path / "out" / "results.parquet")) == len(rows)
+
+
+def test_every_system_gets_the_commands_in_the_same_order() -> None:
+    orders = {
+        (h.settings.seed, h.commands)
+        for h in households.for_conditions(
+            load_settings(), list(KnowledgeSystem), COMMANDS, 20, None
+        )
+    }
+    assert len(orders) == 20
+    assert len({order for _, order in orders}) > 1
+
+
+def entry_with(household: households.Household, said: str, reply: str) -> Entry:
+    key = household.keys[0]
+    row = Row(str(key.system), key.defaults, key.seed, key.command, 0)
+    return Entry(row, ((said, reply),))
+
+
+def household_that_writes(
+    monkeypatch: pytest.MonkeyPatch, system: str
+) -> tuple[households.Household, list[Scripted]]:
+    models: list[Scripted] = []
+
+    def build(settings: object, inbox: Inbox) -> Scripted:
+        places = ("dining_table", "shelf_lobby", "coffee_table")
+        replies = [json.dumps({"places": [place]}) for place in places]
+        models.append(Scripted(replies, inbox))
+        return models[0]
+
+    monkeypatch.setattr(households, "build_model", build)
+    settings = load_settings(
+        world="fake", user="oracle", knowledge=system, defaults=False, elicit="generate"
+    )
+    return households.Household(settings, COMMANDS), models
+
+
+def prompts(models: Iterable[Scripted]) -> list[int]:
+    return [len(request.messages) for model in models for request in model.requests]
+
+
+@pytest.mark.parametrize(("system", "lengths"), [("okb+llm", 2), ("okb+llm+mem", 6)])
+def test_the_dialogue_spans_the_commands_only_with_a_memory(
+    monkeypatch: pytest.MonkeyPatch, system: str, lengths: int
+) -> None:
+    household, models = household_that_writes(monkeypatch, system)
+    entries = list(households.run(household))
+    assert [entry.row.visited for entry in entries] == [
+        "dining_table",
+        "shelf_lobby",
+        "coffee_table",
+    ]
+    assert prompts(models)[-1] == lengths
+
+
+def test_a_resumed_household_remembers_what_was_said_before(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    household, models = household_that_writes(monkeypatch, "okb+llm+mem")
+    whole = list(households.run(household))
+    said = models[0].requests[1].messages
+    household, models = household_that_writes(monkeypatch, "okb+llm+mem")
+    next(households.run(household, whole[:1]))
+    assert models[0].requests[0].messages == said
+
+
+def missions(system: str, inquiries: Iterable[int], command: str = "Find a mug.") -> list[Row]:
+    return [
+        Row(system, True, seed, command, 0, "find", status="done", completed=True, inquiries=n)
+        for seed, n in enumerate(inquiries)
+    ]
+
+
+def test_the_report_says_what_a_hand_computes() -> None:
+    rows = [*missions("okb", [1, 1, 1, 1]), *missions("okb+llm", [0, 0, 0, 1])]
+    text = report(rows, {"seeds": "4"})
+    assert "| okb, defaults | 1.00 (0.80) | 1.00 to 1.00 | 0.00 (0.40) | 4 |" in text
+    assert "| okb+llm, defaults | 0.25 (0.14) | 0.25 to 0.25 | 0.50 (0.35) | 4 |" in text
+    assert "| defaults | okb - okb+llm | +0.75 | 1.000 (n = 1) | 0.250 (n = 4) |" in text
+
+
+def test_a_policy_that_always_asks_shows_in_the_tables() -> None:
+    rows = []
+    for number in range(9):
+        command = f"Find thing {number}."
+        rows += missions("okb+llm", [0, 0], command) + missions("okb+llm+mem", [1, 1], command)
+    text = report(rows, {})
+    assert "| okb+llm+mem, defaults | 1.00 (0.08) |" in text
+    assert r"| defaults | okb+llm - okb+llm+mem | -1.00 | 0.004 \*\* (n = 9) |" in text
+
+
+def test_time_left_reads_as_a_clock() -> None:
+    assert clock(3725.4) == "1:02:05"
+
+
+def test_a_campaign_of_no_seeds_is_refused() -> None:
+    with pytest.raises(SystemExit):
+        parser().parse_args(["--seeds", "0"])
