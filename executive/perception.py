@@ -5,6 +5,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from executive.events import Inbox
 from executive.interfaces import Camera, Detector, Recorder
@@ -87,13 +88,5 @@ def rays(
 
 def transform(pose: Pose, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points (n, 3) from the child frame of `pose` to its parent frame."""
-    x, y, z, w = pose.orientation
-    rotation = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-    moved: NDArray[np.float64] = points @ rotation.T + np.asarray(pose.position)
+    moved: NDArray[np.float64] = Rotation.from_quat(pose.orientation).apply(points) + pose.position
     return moved
