@@ -14,6 +14,7 @@ from concurrent.futures.process import BrokenProcessPool
 from importlib.metadata import version
 from multiprocessing.synchronize import Event
 from pathlib import Path
+from types import FrameType
 from typing import TextIO
 
 from executive import households, paper
@@ -72,10 +73,12 @@ class Campaign:
         self._about = claim(self._out, settings, commands)
         self._journal = Journal(self._out / "journal.jsonl")
         self._journal.mend()
+        self._interrupted = False
 
     def run(self) -> int:
         """Run what has not ended yet; the tables are written however it ends."""
         progress = Progress(len(self._keys), len(self._entries()))
+        before = signal.signal(signal.SIGINT, self._interrupt)
         try:
             if self._workers == 1:
                 self._run_here(progress)
@@ -85,9 +88,15 @@ class Campaign:
             print("\nstopped; the same command goes on from here", file=sys.stderr)
             return STOPPED
         finally:
+            signal.signal(signal.SIGINT, before)
             self._write()
         print(f"\n{self._out / 'report.md'}", file=sys.stderr)
         return 0
+
+    def _interrupt(self, number: int, frame: FrameType | None) -> None:
+        """Note Ctrl-C, too: the exception is lost if it is raised within a callback."""
+        self._interrupted = True
+        raise KeyboardInterrupt
 
     def _run_here(self, progress: "Progress") -> None:
         before = self._entries()
@@ -107,6 +116,8 @@ class Campaign:
             try:
                 return self._run_pool(progress)
             except BrokenProcessPool:
+                if self._interrupted:  # it reached a worker that was still starting
+                    raise KeyboardInterrupt from None
                 if len(self._entries()) == ended:
                     raise ExecutiveError(
                         "a worker process died, and the next one, too, before any mission ended; "
@@ -126,6 +137,8 @@ class Campaign:
                 for household in self._households
             }
             while left:
+                if self._interrupted:
+                    raise KeyboardInterrupt
                 done, left = wait(left, timeout=POLL_S)
                 for future in done:
                     future.result()
