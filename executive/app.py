@@ -5,7 +5,6 @@ Nothing else knows all the rooms of the house.
 
 import json
 import logging
-import math
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -224,14 +223,8 @@ class Session:
 
 def furniture_at(home: Home, point: Vector3) -> str | None:
     """The furniture that has this point of `map` (metres) above its outline; None if none has."""
-    for piece in (*home.furniture, home.delivery):
-        x, y, yaw = piece.pose
-        east, north = point[0] - x, point[1] - y
-        ahead = math.cos(yaw) * east + math.sin(yaw) * north
-        left = math.cos(yaw) * north - math.sin(yaw) * east
-        if abs(ahead) <= piece.size[0] / 2 and abs(left) <= piece.size[1] / 2:
-            return piece.name
-    return None
+    pieces = (*home.furniture, home.delivery)
+    return next((piece.name for piece in pieces if piece.is_below(point)), None)
 
 
 def working(*makers: Callable[[], Sink]) -> list[Sink]:

@@ -280,14 +280,6 @@ class Manipulator:
         x, y, _ = self._hardware.base_pose
         for piece in (*self._home.furniture, self._home.delivery):
             stand = self._home.stand(piece.name)
-            if np.hypot(stand[0] - x, stand[1] - y) < _BEFORE_M and _is_over(piece, pose):
+            if np.hypot(stand[0] - x, stand[1] - y) < _BEFORE_M and piece.is_below(pose.position):
                 return piece
         return None
-
-
-def _is_over(piece: Furniture, pose: Pose) -> bool:
-    """Whether a pose in `map` is within the outline of the furniture."""
-    x, y, yaw = piece.pose
-    ahead, left = pose.position[0] - x, pose.position[1] - y
-    local = (np.cos(yaw) * ahead + np.sin(yaw) * left, np.cos(yaw) * left - np.sin(yaw) * ahead)
-    return bool(abs(local[0]) < piece.size[0] / 2 and abs(local[1]) < piece.size[1] / 2)
