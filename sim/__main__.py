@@ -2,9 +2,7 @@
 
 import argparse
 import json
-import struct
 import sys
-import zlib
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +18,7 @@ from sim.client import connect
 from sim.generation import generate_home
 from sim.home import Home, load_home
 from sim.objects import load_objects
+from sim.pictures import png
 
 WIDTH, HEIGHT = 1280, 1080
 DISTANCE = 4.35
@@ -107,18 +106,6 @@ def draw(home: Home) -> NDArray[np.uint8]:
     color = render(client, pose, intrinsics, far=2 * distance).color
     client.disconnect()
     return color
-
-
-def png(color: NDArray[np.uint8]) -> bytes:
-    """An RGB picture (height, width, 3) as a PNG file (ISO/IEC 15948)."""
-    height, width, _ = color.shape
-    rows = np.concatenate((np.zeros((height, 1), np.uint8), color.reshape(height, -1)), axis=1)
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes())), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-        for kind, body in chunks
-    )
 
 
 if __name__ == "__main__":

@@ -1,0 +1,153 @@
+"""Pictures for training: `python -m sim.frames DIR` draws scenes and keeps them, shard by shard.
+
+A shard is a Parquet file, so what a run has finished stays when it is stopped, and the next run with
+the same DIR goes on with what is missing.
+"""
+
+import argparse
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from executive.errors import ExecutiveError, InputError
+from sim.objects import load_objects
+from sim.scenes import Scene, SceneMaker
+
+SHARD = 50
+"""Pictures in a file."""
+SHAPE = (480, 640, 3)
+EVALUATION_SEED = 10_000_000
+"""Seeds from here on are for evaluation only."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Example:
+    """A picture and its boxes.
+
+    Attributes:
+        color: (480, 640, 3) uint8, RGB, without the camera's flaws.
+        boxes: (n, 4) float32: left, top, right, bottom (pixels).
+        classes: (n,) int64, indices into `class_names()`.
+        counts: (n,) bool, whether a detector is asked for it.
+    """
+
+    color: NDArray[np.uint8]
+    boxes: NDArray[np.float32]
+    classes: NDArray[np.int64]
+    counts: NDArray[np.bool_]
+
+
+def class_names() -> tuple[str, ...]:
+    """What is recognised, in the order of the network's outputs."""
+    return tuple(sorted(load_objects()))
+
+
+def make_shards(folder: Path, frames: int, seed: int, workers: int) -> Iterator[Path]:
+    """Make the shards that are missing for so many frames of these seeds; yields each when done.
+
+    Raises:
+        InputError: if the folder cannot be written, or the seeds are those of the evaluation.
+    """
+    if seed < 0 or seed + frames > EVALUATION_SEED:
+        right = f"give seeds below {EVALUATION_SEED}: the others are for evaluation"
+        raise InputError("--seed", f"cannot train on seeds {seed} to {seed + frames - 1}", right)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(str(folder), f"cannot be made: {error.strerror}", "name another") from None
+    starts = range(seed, seed + frames, SHARD)
+    jobs = [
+        (folder / f"{start:08d}.parquet", start, min(SHARD, seed + frames - start))
+        for start in starts
+    ]
+    missing = [job for job in jobs if not job[0].exists()]
+    with get_context("spawn").Pool(workers) as pool:
+        yield from pool.imap_unordered(_make_shard, missing)
+
+
+def _make_shard(job: tuple[Path, int, int]) -> Path:
+    path, start, count = job
+    with tempfile.TemporaryDirectory() as directory:
+        maker = SceneMaker(load_objects(), Path(directory))
+        rows = [_row(maker.make(seed)) for seed in range(start, start + count)]
+        maker.close()
+    beside = path.with_suffix(f".{os.getpid()}")
+    pq.write_table(pa.Table.from_pylist(rows), beside, compression="zstd", compression_level=6)
+    beside.rename(path)
+    return path
+
+
+def _row(scene: Scene) -> dict[str, object]:
+    numbers = {name: number for number, name in enumerate(class_names())}
+    return {
+        "seed": scene.seed,
+        "color": scene.frame.color.tobytes(),
+        "classes": [numbers[truth.name] for truth in scene.truths],
+        "boxes": [
+            float(edge)
+            for b in (truth.box for truth in scene.truths)
+            for edge in (b.left, b.top, b.left + b.width, b.top + b.height)
+        ],
+        "counts": [truth.counts for truth in scene.truths],
+    }
+
+
+def shards(folder: Path) -> tuple[Path, ...]:
+    """The shards in a folder, by seed.
+
+    Raises:
+        InputError: if there are none.
+    """
+    found = tuple(sorted(folder.glob("*.parquet")))
+    if not found:
+        raise InputError(str(folder), "there are no frames", f"run python -m sim.frames {folder}")
+    return found
+
+
+def read_shard(path: Path) -> list[Example]:
+    """The pictures of a shard."""
+    return [
+        Example(
+            np.frombuffer(row["color"], np.uint8).reshape(SHAPE),
+            np.array(row["boxes"], np.float32).reshape(-1, 4),
+            np.array(row["classes"], np.int64),
+            np.array(row["counts"], np.bool_),
+        )
+        for row in pq.read_table(path).to_pylist()
+    ]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command; returns its exit status."""
+    parser = argparse.ArgumentParser(prog="python -m sim.frames", description=__doc__)
+    parser.add_argument("folder", type=Path, help="where the shards go, or are already")
+    parser.add_argument("--frames", type=int, default=6000)
+    parser.add_argument("--seed", type=int, default=0, help="of the first frame (default: 0)")
+    parser.add_argument("--workers", type=int, default=os.cpu_count())
+    options = parser.parse_args(arguments)
+    total = -(-options.frames // SHARD)
+    try:
+        for path in make_shards(options.folder, options.frames, options.seed, options.workers):
+            done = len(list(options.folder.glob("*.parquet")))
+            print(f"\r{done} of {total} shards, the last {path.name}", end="", file=sys.stderr)
+    except ExecutiveError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("\nstopped; the same command goes on from here", file=sys.stderr)
+        return 130
+    print(file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
