@@ -35,10 +35,10 @@ class Part:
     uv: Floats
     skin: Image
 
-    def moved(self, at: ArrayLike = (0, 0, 0), rpy: ArrayLike = (0, 0, 0)) -> Self:
+    def moved(self, at: Sequence[float], rpy: Sequence[float] = (0, 0, 0)) -> Self:
         """The part turned by roll, pitch and yaw (degrees), then shifted (metres)."""
         turn = Rotation.from_euler("xyz", rpy, degrees=True)
-        return replace(self, points=turn.apply(self.points) + at)
+        return replace(self, points=turn.apply(self.points) + np.asarray(at))
 
 
 def ring(
@@ -158,7 +158,7 @@ def prism(outline: ArrayLike, low: float, high: float, side: Image, top: Image) 
     flat = np.asarray(outline, dtype=np.float64)
     below, above = (np.column_stack((flat, np.full(len(flat), z))) for z in (low, high))
     walls = [
-        _quad(below[i], below[j], above[j], above[i], side)
+        _quad(np.array([below[i], below[j], above[j], above[i]]), side)
         for i, j in ((i, (i + 1) % len(flat)) for i in range(len(flat)))
     ]
     return [*walls, cap(below, top, up=False), cap(above, top)]
@@ -167,11 +167,18 @@ def prism(outline: ArrayLike, low: float, high: float, side: Image, top: Image) 
 def box(size: ArrayLike, at: ArrayLike, *skins: Image) -> list[Part]:
     """A box with pictures: front and back, left and right, top and bottom; or one for all."""
     front, side, top = skins if len(skins) == 3 else skins * 3
+    middle = np.asarray(at, dtype=np.float64)
     x, y, z = np.diag(np.asarray(size, dtype=np.float64) / 2)
-    sides = ((x, y, z, front), (-x, -y, z, front), (y, -x, z, side))
-    sides += ((-y, x, z, side), (z, y, -x, top), (-z, y, x, top))
+    sides = (
+        (x, y, z, front),
+        (-x, -y, z, front),
+        (y, -x, z, side),
+        (-y, x, z, side),
+        (z, y, -x, top),
+        (-z, y, x, top),
+    )
     return [
-        _quad(*(at + n + a * right + b * up for a, b in _CORNERS), skin)
+        _quad(np.array([middle + n + a * right + b * up for a, b in _CORNERS]), skin)
         for n, right, up, skin in sides
     ]
 
@@ -179,9 +186,9 @@ def box(size: ArrayLike, at: ArrayLike, *skins: Image) -> list[Part]:
 _CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 
-def _quad(a: Floats, b: Floats, c: Floats, d: Floats, skin: Image) -> Part:
+def _quad(corners: Floats, skin: Image) -> Part:
     uv = (np.array(_CORNERS) + 1) / 2
-    return _part(np.array([a, b, c, d]), np.array([[0, 1, 2], [0, 2, 3]]), uv, skin)
+    return _part(corners, np.array([[0, 1, 2], [0, 2, 3]]), uv, skin)
 
 
 def _part(points: Floats, faces: NDArray[np.int64], uv: Floats, skin: Image) -> Part:

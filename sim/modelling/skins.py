@@ -52,9 +52,10 @@ class Label:
     def text(self, x: float, y: float, words: str, width: float, ink: str) -> Self:
         """Write words of this width around (x, y)."""
         wide = self._draw.textlength(words, ImageFont.load_default(100))
-        font = ImageFont.load_default(100 * width * self._scale / wide)
+        points = 100 * width * self._scale / wide
+        font = ImageFont.load_default(points)
         at = (x * self._scale, y * self._scale)
-        self._draw.text(at, words, ink, font, anchor="mm", stroke_width=round(font.size / 30))
+        self._draw.text(at, words, ink, font, anchor="mm", stroke_width=round(points / 30))
         return self
 
     def image(self) -> Image.Image:

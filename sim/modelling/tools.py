@@ -1,4 +1,4 @@
-"""Tools: the wrench, the scissors, the spatula and the hammer lie, the drill stands on its battery."""
+"""Tools, as they lie; the drill stands on its battery."""
 
 import numpy as np
 from numpy.typing import ArrayLike
