@@ -1,4 +1,7 @@
-"""Homes on the command line: `view` draws one, `check` names its faults, `generate` makes one."""
+"""Homes on the command line: `view` draws one, `check` names its faults, `generate` makes one.
+
+`view objects` draws all objects.
+"""
 
 import argparse
 import json
@@ -13,6 +16,7 @@ from executive.errors import ExecutiveError, InputError
 from executive.types import Intrinsics, Pose
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
+from sim.catalogue import contact_sheet
 from sim.checking import check_home
 from sim.client import connect
 from sim.generation import generate_home
@@ -32,9 +36,11 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command; returns its exit status (0 done, 1 the home has faults, 2 bad input)."""
     parser = argparse.ArgumentParser(prog="python -m sim", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
-    view = commands.add_parser("view", help="draw a home from above into a PNG file")
-    view.add_argument("home", nargs="?", default="four_rooms", help="name or FILE.toml")
-    view.add_argument("--out", type=Path, help="the picture; default HOME.png")
+    view = commands.add_parser("view", help="draw a home from above, or all objects, as a PNG file")
+    view.add_argument(
+        "home", nargs="?", default="four_rooms", help="name or FILE.toml; or: objects"
+    )
+    view.add_argument("--out", type=Path, help="the picture; default HOME.png or objects.png")
     view.set_defaults(run=_view)
     check = commands.add_parser("check", help="name all that is wrong with a home")
     check.add_argument("home", help="name or FILE.toml")
@@ -55,6 +61,10 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _view(options: argparse.Namespace) -> int:
+    if options.home == "objects":
+        sheet = np.asarray(contact_sheet(load_objects().values()))
+        _write(options.out or Path("objects.png"), png(sheet))
+        return 0
     home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
     _write(out, png(draw(home)))
