@@ -18,7 +18,7 @@ from executive.types import Box, Frame, Intrinsics, Pose, Vector3
 from sim.bodies import PERSON_SHAPES, create_body, create_object
 from sim.camera import LOOKING, Rendering, pinhole, render
 from sim.client import connect
-from sim.decor import draw_light, dress, through_the_lens, write_patterns
+from sim.learning.decor import draw_light, dress, through_the_lens, write_patterns
 from sim.furniture import Furniture, Surface, box
 from sim.generation import SIZES
 from sim.hardware import Hardware

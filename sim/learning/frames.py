@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from executive.errors import ExecutiveError, InputError
 from sim.objects import load_objects
-from sim.scenes import Scene, SceneMaker
+from sim.learning.scenes import Scene, SceneMaker
 
 SHARD = 50
 """Pictures in a file."""

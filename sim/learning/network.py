@@ -17,7 +17,7 @@ class Block(nn.Sequential):
     def __init__(self, inputs: int, outputs: int, size: int = 3, stride: int = 1) -> None:
         """Keep the size of the picture, or divide it by the stride."""
         super().__init__(
-            nn.Conv2d(inputs, outputs, size, stride, size // 2, bias=False),
+            nn.Conv2d(inputs, outputs, size, stride, (size - stride + 1) // 2, bias=False),
             nn.BatchNorm2d(outputs),
             nn.SiLU(inplace=True),
         )
@@ -60,9 +60,7 @@ class Network(nn.Module):
     def __init__(self, classes: int) -> None:
         """Recognise so many classes."""
         super().__init__()
-        self.eighth = nn.Sequential(
-            Block(3, 16, stride=2), Block(16, 32, stride=2), Block(32, 64, stride=2), Residual(64)
-        )
+        self.eighth = nn.Sequential(Block(3, 32, size=6, stride=4), Block(32, 64, stride=2))
         self.sixteenth = nn.Sequential(
             Block(64, 128, stride=2), Residual(128), Residual(128), Surroundings(128)
         )

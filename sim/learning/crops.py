@@ -10,8 +10,8 @@ import torch
 from numpy.random import Generator
 from torch import Tensor
 
-from sim.frames import Example, read_shard, shards
-from sim.loss import Wanted
+from sim.learning.frames import Example, read_shard, shards
+from sim.learning.loss import Wanted
 
 SIDE = 256
 """Side of a crop (pixels)."""
@@ -45,7 +45,7 @@ def batches(folder: Path, size: int, chance: Generator) -> Iterator[Batch]:
 
 
 def _batches(folder: Path, size: int, chance: Generator) -> Iterator[Batch]:
-    noise = chance.normal(0.0, 1.0, (_NOISES, 3, SIDE, SIDE)).astype(np.float32)
+    noise = torch.from_numpy(chance.normal(0.0, 1.0, (_NOISES, SIDE, SIDE, 3)).astype(np.float32))
     crops: list[Example] = []
     while True:
         order = chance.permutation(np.array(shards(folder), dtype=object))
@@ -88,19 +88,18 @@ def crop(example: Example, left: int, top: int, flip: bool) -> Example:
     return Example(color, boxes[in_it], example.classes[in_it], counts[in_it])
 
 
-def _batch(crops: list[Example], noise: np.ndarray, chance: Generator) -> Batch:
+def _batch(crops: list[Example], noise: Tensor, chance: Generator) -> Batch:
     """Crops with the camera's flaws, as `sim.decor.through_the_lens` draws them."""
     size = len(crops)
-    colors = np.stack([one.color for one in crops])
-    pictures = torch.from_numpy(colors).permute(0, 3, 1, 2).float()
-    gain = chance.uniform(0.72, 1.22, (size, 1)) * chance.uniform(0.94, 1.06, (size, 3))
-    sigma = chance.uniform(0.0, 6.5, size)
-    flaws = torch.from_numpy(noise[chance.integers(_NOISES, size=size)])
-    pictures = pictures * torch.tensor(gain, dtype=torch.float32)[..., None, None]
-    pictures += flaws * torch.tensor(sigma, dtype=torch.float32)[:, None, None, None]
-    pictures = (pictures / 255).clamp(0, 1)
+    colors = torch.from_numpy(np.stack([one.color for one in crops]))
+    gain = chance.uniform(0.72, 1.22, (size, 1)) * chance.uniform(0.94, 1.06, (size, 3)) / 255
+    sigma = torch.from_numpy(chance.uniform(0.0, 6.5 / 255, size)).to(torch.float32)
+    pictures = colors.float().mul_(torch.from_numpy(gain).float()[:, None, None])
+    for picture, strength, which in zip(pictures, sigma, chance.integers(_NOISES, size=size), strict=True):
+        picture.add_(noise[which], alpha=float(strength))
+    pictures = pictures.clamp_(0, 1).permute(0, 3, 1, 2)
     wanted = [
         Wanted(*(torch.from_numpy(a) for a in (one.boxes, one.classes, one.counts)))
         for one in crops
     ]
-    return pictures.contiguous(memory_format=torch.channels_last), wanted
+    return pictures, wanted

@@ -17,10 +17,10 @@ import torch
 from torch import Tensor, nn
 
 from executive.errors import ExecutiveError, InputError
-from sim.crops import SIDE, batches
-from sim.frames import class_names, shards
-from sim.loss import loss
-from sim.network import Exported, Network, boxes_of, cells, flatten
+from sim.learning.crops import SIDE, batches
+from sim.learning.frames import class_names, shards
+from sim.learning.loss import loss
+from sim.learning.network import Exported, Network, boxes_of, cells, flatten
 
 WARM_UP = 0.02
 """Share of the training in which the rate of learning rises; then it falls as a cosine."""
