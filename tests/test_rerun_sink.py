@@ -76,14 +76,14 @@ def test_a_mission_fills_every_view(recording: Path) -> None:
         assert logged[entity], entity
 
 
-def test_the_recording_is_on_the_mission_time_and_the_tick_timeline(recording: Path) -> None:
+def test_the_recording_is_on_mission_time_wall_time_and_tick(recording: Path) -> None:
     names = {
         name
         for chunk in RrdReader(recording).stream()
         if str(chunk.entity_path) == "/belief"
         for name in chunk.to_record_batch().schema.names
     }
-    assert {"mission_time", "tick"} <= names
+    assert {"mission_time", "wall_time", "tick"} <= names
 
 
 def test_a_call_reads_as_asked_answered_accepted_and_dropped(recording: Path) -> None:
