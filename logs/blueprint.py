@@ -32,7 +32,10 @@ def mission_blueprint(entities: Iterable[Entity] = ()) -> rrb.Blueprint:
                 _words(),
                 column_shares=[5, 3, 4],
             ),
-            rrb.StateTimelineView(origin=tree.LANES, name="What ran when"),
+            rrb.Tabs(
+                rrb.StateTimelineView(origin=tree.LANES, name="What ran when"),
+                rrb.StateTimelineView(origin=tree.EVERY, name="Every behaviour"),
+            ),
             row_shares=[5, 2],
         ),
         rrb.BlueprintPanel(state="collapsed"),
@@ -65,7 +68,7 @@ def _birds_eye(entities: Iterable[Entity]) -> rrb.EyeControls3D | None:
     sizes = np.array([shape.size for shape in shapes])
     low, high = (centers - sizes / 2).min(axis=0), (centers + sizes / 2).max(axis=0)
     middle = (low + high) / 2
-    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.34, 0.53])
+    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.39, 0.58])
     return rrb.EyeControls3D(position=_vector(middle + away), look_target=_vector(middle))
 
 

@@ -122,6 +122,15 @@ def test_a_tree_that_did_not_change_is_not_drawn_again(tmp_path: Path) -> None:
     assert rows(path)["/behaviour_tree/branch"] == 1
 
 
+def test_every_behaviour_has_a_lane_from_when_it_first_does_something(recording: Path) -> None:
+    logged = rows(recording)
+    assert logged["/behaviours/2_ask"] == 1 + 2  # its colours, running, success
+    assert logged["/behaviours/3_drive"] == 1 + 2
+    early = [record for time, record in mission() if time < 2]
+    half = write(recording.parent / "half.rrd", *((0.0, record) for record in early))
+    assert "/behaviours/3_drive" not in rows(half)
+
+
 def test_the_scene_is_logged_once_and_only_frames_move(tmp_path: Path) -> None:
     moves = [(float(t), robot_at(float(t))) for t in range(10)]
     logged = rows(write(tmp_path / "a.rrd", (0.0, scene()), *moves))
