@@ -20,8 +20,8 @@ PATIENCE_S = 0.5
 POLL_S = 0.005
 """How often it looks for room."""
 FLUSH_S = 0.5
-"""So long after a record all is flushed, also while nothing more happens; so much less than a second
-that with the time that flushing takes, on a busy machine too, no more than a second is lost."""
+"""So long after a record all is flushed, also while nothing more happens; short enough that with
+the time that flushing takes, on a busy machine too, no more than a second is lost."""
 CLOSE_S = 30.0
 """How long `close` waits for what is queued to be written."""
 
