@@ -16,11 +16,13 @@ from typing import TextIO
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
 from executive.config import Settings
+from executive.detector import LEARNED, OnnxDetector
 from executive.errors import InputError
 from executive.events import Ended, Inbox, Started, StopRequested
 from executive.interfaces import (
     Camera,
     Detector,
+    Knowledge,
     LanguageModel,
     Recorder,
     Robot,
@@ -97,7 +99,7 @@ class Session:
         self.model = model or build_model(settings, self.inbox)
         self.recorder = FanOut(lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
-            settings, self.home, self.inbox, self.recorder, gui
+            settings, self.home, self.inbox, self.recorder, self.knowledge, gui
         )
         self.clock = SimulatedClock(self.inbox, self.world)
         self.eyes = Eyes(camera, detector, self.inbox, self.recorder)
@@ -239,7 +241,12 @@ def working(*makers: Callable[[], Sink]) -> list[Sink]:
 
 
 def build_simulation(
-    settings: Settings, home: Home, inbox: Inbox, recorder: Recorder, gui: bool = False
+    settings: Settings,
+    home: Home,
+    inbox: Inbox,
+    recorder: Recorder,
+    knowledge: Knowledge,
+    gui: bool = False,
 ) -> tuple[SimulatedHome, Robot, Camera, Detector]:
     """The world that the settings name, with its robot and the robot's senses."""
     if settings.world == "fake":
@@ -256,7 +263,11 @@ def build_simulation(
         gui=gui,
         camera_hz=settings.camera_hz,
     )
-    return physics, physics.robot, physics.camera, physics.detector
+    detector: Detector = physics.detector
+    if settings.detector != "simulated":
+        file = LEARNED if settings.detector == "learned" else Path(settings.detector)
+        detector = OnnxDetector(file, knowledge.objects_named)
+    return physics, physics.robot, physics.camera, detector
 
 
 def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:

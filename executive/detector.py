@@ -2,7 +2,7 @@
 
 import ast
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -110,7 +110,7 @@ class OnnxDetector:
         return fitting([np.asarray(o) for o in outputs], len(self._names), str(self._path))
 
 
-def class_list(path: Path, metadata: dict[str, str] | object) -> tuple[str, ...]:
+def class_list(path: Path, metadata: Mapping[str, str]) -> tuple[str, ...]:
     """The names of the network's classes, from a file beside it or from its metadata.
 
     Raises:
@@ -127,18 +127,18 @@ def class_list(path: Path, metadata: dict[str, str] | object) -> tuple[str, ...]
             if not names:
                 raise InputError(str(beside), "names no class", right)
             return names
-    text = metadata.get("names") if isinstance(metadata, dict) else None
+    text = metadata.get("names")
     if text is None:
         raise InputError(str(path), "says nothing of its classes", right)
     try:
-        names = ast.literal_eval(text)
-        if isinstance(names, dict):
-            names = [names[number] for number in sorted(names, key=int)]
-        if not names or not all(isinstance(name, str) for name in names):
+        listed = ast.literal_eval(text)
+        if isinstance(listed, dict):
+            listed = [listed[number] for number in sorted(listed, key=int)]
+        if not listed or not all(isinstance(name, str) for name in listed):
             raise ValueError
     except (ValueError, SyntaxError, TypeError):
         raise InputError(str(path), f"its metadata's names are {text[:80]!r}", right) from None
-    return tuple(names)
+    return tuple(listed)
 
 
 def _labels(

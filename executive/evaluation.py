@@ -1,7 +1,7 @@
 """How good a detector is in scenes that it never learned from: `python -m executive.evaluation`.
 
-Renders scenes of seeds that training may not use, and prints a report in Markdown; `--picture` draws
-which things are taken for which.
+Renders scenes of seeds that training may not use, and prints a report in Markdown; `--picture`
+draws which things are taken for which.
 """
 
 import argparse
@@ -57,9 +57,7 @@ def _judged(found: Found, names: Sequence[str], scene: Scene) -> Judged:
     numbers = {name: number for number, name in enumerate(class_names())}
     ours = np.array([numbers.get(name, -1) for name in names], np.int64)[found.classes]
     truths = scene.truths
-    edges = [
-        (b.left, b.top, b.left + b.width, b.top + b.height) for b in (t.box for t in truths)
-    ]
+    edges = [(b.left, b.top, b.left + b.width, b.top + b.height) for b in (t.box for t in truths)]
     return Judged(
         found.boxes[ours >= 0].astype(np.float64),
         found.scores[ours >= 0].astype(np.float64),

@@ -1,7 +1,7 @@
 """How good a detector is: average precision, recall and confusions, over arrays of boxes.
 
-Boxes are (n, 4): left, top, right, bottom. Things that do not count (too small, too much covered) may
-be found or not: neither is right or wrong.
+Boxes are (n, 4): left, top, right, bottom. Things that do not count (too small, too much covered)
+may be found or not: neither is right or wrong.
 """
 
 from collections.abc import Sequence

@@ -32,7 +32,7 @@ class OnnxFile:
     """What the file says.
 
     Attributes:
-        input: lengths of the first four-dimensional input (b, c, h, w); 0 where it leaves them open.
+        input: lengths of the first four-dimensional input (b, c, h, w); 0 where left open.
         metadata: its own words, such as `names` of Ultralytics' exports.
     """
 

@@ -131,10 +131,14 @@ class DriveTo:
 
 @dataclass(frozen=True, slots=True)
 class LookAt:
-    """Point the head at a place or `delivery`; `view` counts from 0 to `Robot.views(place) - 1`."""
+    """Point the head at a place or `delivery`; `view` counts from 0 to `Robot.views(place) - 1`.
+
+    With a `point` of `map` (metres) given, that is in the middle of the picture instead.
+    """
 
     place: str
     view: int = 0
+    point: Vector3 | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,8 +4,9 @@ Pictures come from PyBullet's TinyRenderer, which computes on the CPU.
 """
 
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 import pybullet as p
@@ -17,7 +18,7 @@ from executive.types import Box, Detection, Frame, Intrinsics, Pose, Vector3
 
 NEAR_M, FAR_M = 0.05, 15.0
 BACKGROUND = -1
-KEPT_SEGMENTATIONS = 32
+KEPT_SEGMENTATIONS = 4
 _OPTICAL_TO_OPENGL = np.diag([1.0, -1.0, -1.0, 1.0])
 """OpenGL cameras look along -z with y up, optical frames along z with y down."""
 
@@ -108,21 +109,24 @@ class SimulatedCamera:
         self,
         client: BulletClient,
         pose: Callable[[], Pose],
-        intrinsics: Intrinsics | None = None,
+        lens: Intrinsics = LOOKING,
+        numbers: Iterator[int] | None = None,
     ) -> None:
-        """Look through the camera whose optical frame in `map` is given by `pose`."""
+        """Look through the camera whose optical frame in `map` is given by `pose`.
+
+        Cameras that share `numbers` count their pictures together.
+        """
         self._client = client
         self._pose = pose
-        self.intrinsics = intrinsics or pinhole()
+        self._lens = lens
+        self._numbers = count() if numbers is None else numbers
         self._segmentations: OrderedDict[int, NDArray[np.int32]] = OrderedDict()
-        self._taken = 0
 
     def capture(self) -> Frame:
         """The picture of this moment."""
         pose = self._pose()
-        seen = render(self._client, pose, self.intrinsics)
-        frame = Frame(self._taken, seen.color, seen.depth, self.intrinsics, pose)
-        self._taken += 1
+        seen = render(self._client, pose, self._lens)
+        frame = Frame(next(self._numbers), seen.color, seen.depth, self._lens, pose)
         self._segmentations[frame.number] = seen.segmentation
         if len(self._segmentations) > KEPT_SEGMENTATIONS:
             self._segmentations.popitem(last=False)
@@ -145,7 +149,7 @@ class SimulatedDetector:
     """
 
     def __init__(
-        self, camera: SimulatedCamera, names: Mapping[int, str], minimum_pixels: int = 40
+        self, camera: SimulatedCamera, names: Mapping[int, str], minimum_pixels: int = 160
     ) -> None:
         """Recognise the bodies in `names` (name by body id) that show `minimum_pixels`."""
         self._camera = camera

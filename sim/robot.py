@@ -4,7 +4,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import Recorder
 from executive.records import Path
-from executive.types import DriveTo, Failed, Goal, Halt, LookAt, Pick, PutDown, Succeeded
+from executive.types import DriveTo, Failed, Goal, Halt, LookAt, Pick, PutDown, Succeeded, Vector3
 from sim.arm import hold
 from sim.driving import brake, drive
 from sim.hardware import Hardware
@@ -105,8 +105,8 @@ class SimulatedRobot:
         match goal:
             case DriveTo(place):
                 return self._drive(place)
-            case LookAt(place, view):
-                return self._look(place, view)
+            case LookAt(place, view, point):
+                return self._look(place, view, point)
             case Pick(detection):
                 return self._manipulator.pick(detection)
             case PutDown(place):
@@ -132,12 +132,12 @@ class SimulatedRobot:
             raise CannotError(f"the way to the {place} is blocked") from None
         self._at = place
 
-    def _look(self, place: str, view: int) -> Skill:
+    def _look(self, place: str, view: int, point: Vector3 | None) -> Skill:
         self._check_here(place)
         targets = self._home.view_targets(place)
         if not 0 <= view < len(targets):
             raise CannotError(f"there are only {len(targets)} views of the {place}")
-        yield from look_at(self._hardware, targets[view])
+        yield from look_at(self._hardware, point or targets[view])
 
     def _put_down(self, place: str) -> Skill:
         self._check_here(place)

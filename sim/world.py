@@ -1,6 +1,7 @@
 """The home, its things and the robot in PyBullet: advances physics and writes down what moves."""
 
 from collections.abc import Mapping
+from itertools import count
 
 import numpy as np
 import pybullet
@@ -11,7 +12,7 @@ from executive.interfaces import Recorder
 from executive.records import Picture, Scene, Transforms
 from executive.types import Pose
 from sim.bodies import build_home, frame_pose, home_entities, place_objects
-from sim.camera import SimulatedCamera, SimulatedDetector, render
+from sim.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector, render
 from sim.client import aim_window, connect
 from sim.hardware import Floats, Hardware
 from sim.home import Home
@@ -73,7 +74,9 @@ class PhysicsWorld:
         self._let_sleep()
         self._hardware = Hardware(self._client, home.robot_start)
         self._planning = PlanningWorld(home)
-        self.camera = SimulatedCamera(self._client, self._camera_pose)
+        numbers = count()
+        self.camera = SimulatedCamera(self._client, self._camera_pose, LOOKING, numbers)
+        self._glancing = SimulatedCamera(self._client, self._camera_pose, GLANCING, numbers)
         self.detector = SimulatedDetector(self.camera, self._things)
         manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan)
         self.robot = SimulatedRobot(self._hardware, manipulator, home, inbox, recorder)
@@ -113,7 +116,7 @@ class PhysicsWorld:
         self._recorder.record(Scene(entities))
         self._recorder.record(Transforms(self._frames.all()))
         if self._picture_every:
-            self._recorder.record(Picture(self.camera.capture()))
+            self._recorder.record(Picture(self._glancing.capture()))
 
     def resting_place(self, name: str) -> str | None:
         """The furniture that an object rests on, by the simulator's truth; None if on none."""
@@ -146,7 +149,7 @@ class PhysicsWorld:
         if self._periods % TRANSFORMS_EVERY == 0:
             self._write_moved()
         if self._picture_every and self._periods % self._picture_every == 0:
-            self._recorder.record(Picture(self.camera.capture()))
+            self._recorder.record(Picture(self._glancing.capture()))
 
     def _use_steps(self, steps: int) -> None:
         if steps != self._steps:
@@ -169,7 +172,7 @@ class PhysicsWorld:
 
     def _scan(self) -> Floats:
         """Points in `map` (n, 3) that the depth camera sees now."""
-        pose, lens = self._camera_pose(), self.camera.intrinsics
+        pose, lens = self._camera_pose(), GLANCING
         depth = render(self._client, pose, lens).depth.astype(np.float64)
         rows, columns = np.nonzero(np.isfinite(depth))
         far = depth[rows, columns]

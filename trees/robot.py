@@ -101,6 +101,17 @@ class LookAtCandidate(RobotAction):
         return LookAt(self.situation.candidate.place, self.situation.view)
 
 
+class LookCloser(RobotAction):
+    """Brings what may be the thing to the middle of the picture."""
+
+    def goal(self) -> Goal:
+        """Look at the doubtful detection."""
+        assert self.situation.candidate
+        assert self.situation.doubtful
+        point = self.situation.doubtful.position
+        return LookAt(self.situation.candidate.place, self.situation.view, point)
+
+
 class PickUp(RobotAction):
     """Grasps the thing where it was seen, and lifts it."""
 
@@ -154,14 +165,19 @@ class SeeTarget(Action):
         if not isinstance(result, Saw):
             return self.failed(result)
         self._remember(result.detections)
-        wanted = [d for d in result.detections if d.label == self.situation.object]
-        if not wanted:
+        self.situation.doubtful = None
+        seen = next((d for d in result.detections if d.label == self.situation.object), None)
+        if seen is None:
             self.situation.views_without += 1
             self.feedback_message = f"no {self.situation.object} in view"
             return Status.FAILURE
-        self.situation.detection = wanted[0]
+        if seen.confidence < self.team.rules.sure:
+            self.situation.doubtful = seen
+            self.feedback_message = f"perhaps {seen.label}, confidence {seen.confidence:.2f}"
+            return Status.FAILURE
+        self.situation.detection = seen
         self.situation.found = self.situation.candidate
-        return self.succeed(f"{wanted[0].label}, confidence {wanted[0].confidence:.2f}")
+        return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
     def cancel(self, request: int) -> None:
         """Look no more."""
@@ -171,6 +187,8 @@ class SeeTarget(Action):
         """A thing may be on furniture behind this place; with none below it, it counts as here."""
         assert self.situation.candidate
         for seen in detections:
+            if seen.confidence < self.team.rules.sure:
+                continue
             below = self.team.place_at(seen.position) if seen.position else None
             self.team.facts.saw((seen.label,), below or self.situation.candidate.place)
 

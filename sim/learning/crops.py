@@ -95,7 +95,9 @@ def _batch(crops: list[Example], noise: Tensor, chance: Generator) -> Batch:
     gain = chance.uniform(0.72, 1.22, (size, 1)) * chance.uniform(0.94, 1.06, (size, 3)) / 255
     sigma = torch.from_numpy(chance.uniform(0.0, 6.5 / 255, size)).to(torch.float32)
     pictures = colors.float().mul_(torch.from_numpy(gain).float()[:, None, None])
-    for picture, strength, which in zip(pictures, sigma, chance.integers(_NOISES, size=size), strict=True):
+    for picture, strength, which in zip(
+        pictures, sigma, chance.integers(_NOISES, size=size), strict=True
+    ):
         picture.add_(noise[which], alpha=float(strength))
     pictures = pictures.clamp_(0, 1).permute(0, 3, 1, 2)
     wanted = [

@@ -47,7 +47,7 @@ def _pattern(chance: Generator) -> NDArray[np.uint8]:
     noise = chance.normal(0.0, chance.uniform(0.0, 0.06), (PATTERN, PATTERN))
     shade = 1.0 - contrast * (1 - waves) / 2 + noise
     tint = 1.0 - chance.uniform(0.0, 0.2, 3) * (waves[..., None] < 0)
-    return (255 * np.clip(shade[..., None] * tint, 0, 1)).astype(np.uint8)
+    return np.asarray(255 * np.clip(shade[..., None] * tint, 0, 1), np.uint8)
 
 
 def draw_color(chance: Generator) -> Color:

@@ -1,12 +1,11 @@
-"""Pictures for training: `python -m sim.frames DIR` draws scenes and keeps them, shard by shard.
+"""Pictures for training: scenes drawn and kept, shard by shard.
 
-A shard is a Parquet file, so what a run has finished stays when it is stopped, and the next run with
-the same DIR goes on with what is missing.
+A shard is a Parquet file, so what a run has finished stays when it is stopped, and the next run
+into the same folder goes on with what is missing.
 """
 
-import argparse
 import os
-import sys
+import signal
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,9 +17,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from executive.errors import ExecutiveError, InputError
-from sim.objects import load_objects
+from executive.errors import InputError
 from sim.learning.scenes import Scene, SceneMaker
+from sim.objects import load_objects
 
 SHARD = 50
 """Pictures in a file."""
@@ -70,8 +69,12 @@ def make_shards(folder: Path, frames: int, seed: int, workers: int) -> Iterator[
         for start in starts
     ]
     missing = [job for job in jobs if not job[0].exists()]
-    with get_context("spawn").Pool(workers) as pool:
+    with get_context("spawn").Pool(workers, _leave_stopping_to_the_parent) as pool:
         yield from pool.imap_unordered(_make_shard, missing)
+
+
+def _leave_stopping_to_the_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _make_shard(job: tuple[Path, int, int]) -> Path:
@@ -109,7 +112,9 @@ def shards(folder: Path) -> tuple[Path, ...]:
     """
     found = tuple(sorted(folder.glob("*.parquet")))
     if not found:
-        raise InputError(str(folder), "there are no frames", f"run python -m sim.frames {folder}")
+        raise InputError(
+            str(folder), "there are no frames", f"run python -m sim.learning frames {folder}"
+        )
     return found
 
 
@@ -124,30 +129,3 @@ def read_shard(path: Path) -> list[Example]:
         )
         for row in pq.read_table(path).to_pylist()
     ]
-
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; returns its exit status."""
-    parser = argparse.ArgumentParser(prog="python -m sim.frames", description=__doc__)
-    parser.add_argument("folder", type=Path, help="where the shards go, or are already")
-    parser.add_argument("--frames", type=int, default=6000)
-    parser.add_argument("--seed", type=int, default=0, help="of the first frame (default: 0)")
-    parser.add_argument("--workers", type=int, default=os.cpu_count())
-    options = parser.parse_args(arguments)
-    total = -(-options.frames // SHARD)
-    try:
-        for path in make_shards(options.folder, options.frames, options.seed, options.workers):
-            done = len(list(options.folder.glob("*.parquet")))
-            print(f"\r{done} of {total} shards, the last {path.name}", end="", file=sys.stderr)
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("\nstopped; the same command goes on from here", file=sys.stderr)
-        return 130
-    print(file=sys.stderr)
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,7 +1,8 @@
-"""Scenes drawn by chance, as the robot's camera may see them, with the truth about what is in them.
+"""Scenes drawn by chance, as the robot's camera may see them, and the truth about what is in them.
 
-A scene is a piece of furniture with things on it, before a wall or not, with other furniture around.
-The camera looks as the robot does when it searches, or from anywhere. One seed gives one scene.
+A scene is a piece of furniture with things on it, before a wall or not, with other furniture
+around. The camera looks as the robot does when it searches, or from anywhere. One seed gives one
+scene.
 """
 
 from collections.abc import Iterator, Mapping
@@ -14,15 +15,15 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from executive.records import Shape
-from executive.types import Box, Frame, Intrinsics, Pose, Vector3
+from executive.types import Box, Frame, Pose, Vector3
 from sim.bodies import PERSON_SHAPES, create_body, create_object
 from sim.camera import LOOKING, Rendering, pinhole, render
 from sim.client import connect
-from sim.learning.decor import draw_light, dress, through_the_lens, write_patterns
 from sim.furniture import Furniture, Surface, box
 from sim.generation import SIZES
 from sim.hardware import Hardware
 from sim.home import STAND_OFF_M, VIEW_DEPTH_M, VIEW_HEIGHT_M
+from sim.learning.decor import draw_light, dress, through_the_lens, write_patterns
 from sim.looking import aim
 from sim.objects import ObjectModel
 
@@ -112,7 +113,7 @@ class SceneMaker:
         """Floor, walls, the furniture and what stands beside and behind it."""
         back = -piece.size[0] / 2 - (chance.uniform(0.03, 0.1) if chance.random() < 0.6 else 2.5)
         floor = box((_ROOM, _ROOM, 0.1), (back + _ROOM / 2, 0.0, -0.05), (0.0, 0.0, 0.0, 1.0))
-        fixtures = [(floor,), (_wall((0.1, _ROOM), back - 0.05, 0.0),)]
+        fixtures: list[tuple[Shape, ...]] = [(floor,), (_wall((0.1, _ROOM), back - 0.05, 0.0),)]
         side = chance.choice([-1, 1]) * chance.uniform(piece.size[1] / 2 + 0.05, 3.0)
         if chance.random() < 0.5:
             fixtures.append((_wall((_ROOM, 0.1), back + _ROOM / 2, side),))

@@ -1,25 +1,25 @@
-"""Training the detector: `python -m sim.train FRAMES` (needs the `train` extra).
+"""Training the detector on crops of rendered frames, and writing it as an ONNX file.
 
-Reads the frames of `python -m sim.frames`, writes checkpoints and, at the end, an ONNX file with the
-class names in its metadata. The same command goes on from the last checkpoint.
+The file has the names of the classes in its metadata, so that it needs none beside it.
 """
 
-import argparse
 import copy
 import json
-import sys
 import time
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import onnx
 import torch
 from torch import Tensor, nn
 
-from executive.errors import ExecutiveError, InputError
 from sim.learning.crops import SIDE, batches
 from sim.learning.frames import class_names, shards
-from sim.learning.loss import loss
+from sim.learning.loss import Wanted, loss
 from sim.learning.network import Exported, Network, boxes_of, cells, flatten
 
 WARM_UP = 0.02
@@ -43,14 +43,16 @@ class Trainer:
         self.steps, self.rate, self.step = steps, rate, 0
         self._middles, self._strides = cells(SIDE, SIDE)
 
-    def learn(self, pictures: Tensor, wanted: list) -> float:
+    def learn(self, pictures: Tensor, wanted: list[Wanted]) -> float:
         """Make one step; returns the loss."""
         for group in self.optimizer.param_groups:
             group["lr"] = self.rate * self._schedule()
         with torch.autocast("cpu", torch.bfloat16):
             maps = self.network(pictures)
         distances, logits = flatten([one.float() for one in maps])
-        wrong = loss(boxes_of(distances, self._middles, self._strides), logits, self._middles, wanted)
+        wrong = loss(
+            boxes_of(distances, self._middles, self._strides), logits, self._middles, wanted
+        )
         self.optimizer.zero_grad()
         wrong.backward()
         nn.utils.clip_grad_norm_(self.network.parameters(), 10.0)
@@ -66,16 +68,16 @@ class Trainer:
             return (done + 1e-4) / WARM_UP
         return float(0.01 + 0.99 * (1 + np.cos(np.pi * (done - WARM_UP) / (1 - WARM_UP))) / 2)
 
-    @torch.no_grad()
     def _follow(self) -> None:
         """Let the averaged weights follow the trained ones, faster at the beginning."""
         keep = min(SMOOTHING, (1 + self.step) / (20 + self.step))
         trained = self.network.state_dict()
-        for name, value in self.average.state_dict().items():
-            if value.dtype.is_floating_point:
-                value.lerp_(trained[name], 1 - keep)
-            else:
-                value.copy_(trained[name])
+        with torch.no_grad():
+            for name, value in self.average.state_dict().items():
+                if value.dtype.is_floating_point:
+                    value.lerp_(trained[name], 1 - keep)
+                else:
+                    value.copy_(trained[name])
 
     def save(self, path: Path) -> None:
         """Write a checkpoint; a killed run leaves the one before."""
@@ -99,7 +101,7 @@ class Trainer:
             self.step = state["step"]
 
 
-def _groups(network: nn.Module) -> list[dict]:
+def _groups(network: nn.Module) -> list[dict[str, Any]]:
     """Weights of convolutions decay, biases and normalisations do not."""
     decaying = [p for p in network.parameters() if p.ndim > 1]
     others = [p for p in network.parameters() if p.ndim <= 1]
@@ -123,63 +125,61 @@ def export(network: Network, path: Path) -> None:
     onnx.save(graph, path)
 
 
-def train(options: argparse.Namespace) -> None:
-    """Train, say how it goes, and export."""
-    shards(options.folder)
-    steps = options.crops // options.batch
-    trainer = Trainer(steps, options.rate)
-    if options.checkpoint.exists():
-        trainer.load(options.checkpoint)
-        print(f"going on from step {trainer.step} of {steps}", flush=True)
-    elif options.start:
-        trainer.load(options.start, weights_only=True)
-    chance = np.random.default_rng((options.seed, trainer.step))
-    torch.manual_seed(options.seed)
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What to train on, for how long, and where the results go.
+
+    Attributes:
+        frames: the folder of the shards.
+        out: the ONNX file.
+        checkpoint: is gone on from if it is there, and written every two minutes.
+        start: a checkpoint whose weights a new training starts with.
+        crops: to learn from, in all.
+        batch: crops a step.
+        rate: the highest rate of learning.
+        seed: of weights and crops.
+    """
+
+    frames: Path
+    out: Path
+    checkpoint: Path
+    start: Path | None
+    crops: int
+    batch: int
+    rate: float
+    seed: int
+
+
+def train(plan: Plan) -> Iterator[str]:
+    """Train and export; yields how it goes.
+
+    Raises:
+        InputError: if there are no frames.
+    """
+    shards(plan.frames)
+    torch.manual_seed(plan.seed)
+    trainer = Trainer(plan.crops // plan.batch, plan.rate)
+    if plan.checkpoint.exists():
+        trainer.load(plan.checkpoint)
+        yield f"going on from step {trainer.step} of {trainer.steps}"
+    elif plan.start:
+        trainer.load(plan.start, weights_only=True)
+    source = batches(plan.frames, plan.batch, np.random.default_rng((plan.seed, trainer.step)))
     began = saved = time.monotonic()
-    losses: list[float] = []
-    first = trainer.step
-    source = batches(options.folder, options.batch, chance)
-    while trainer.step < steps:
+    first, losses = trainer.step, deque[float](maxlen=SAY_STEPS)
+    while trainer.step < trainer.steps:
         losses.append(trainer.learn(*next(source)))
+        now = time.monotonic()
         if trainer.step % SAY_STEPS == 0:
-            pace = (trainer.step - first) * options.batch / (time.monotonic() - began)
-            print(
-                f"step {trainer.step} of {steps}, loss {np.mean(losses[-SAY_STEPS:]):.3f}, "
-                f"{pace:.0f} crops/s, {(steps - trainer.step) * options.batch / pace / 60:.0f} min left",
-                flush=True,
+            pace = (trainer.step - first) / (now - began)
+            left = (trainer.steps - trainer.step) / pace / 60
+            yield (
+                f"step {trainer.step} of {trainer.steps}, loss {np.mean(losses):.3f}, "
+                f"{pace * plan.batch:.0f} crops/s, {left:.0f} min left"
             )
-        if time.monotonic() - saved > SAVE_S:
-            trainer.save(options.checkpoint)
-            saved = time.monotonic()
-    trainer.save(options.checkpoint)
-    export(trainer.average, options.out)
-    print(options.out)
-
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; returns its exit status."""
-    parser = argparse.ArgumentParser(prog="python -m sim.train", description=__doc__)
-    parser.add_argument("folder", type=Path, help="the frames of python -m sim.frames")
-    parser.add_argument("--out", type=Path, default=Path("detector.onnx"))
-    parser.add_argument("--checkpoint", type=Path, default=Path("detector.pt"))
-    parser.add_argument("--start", type=Path, help="checkpoint whose weights to start with")
-    parser.add_argument("--crops", type=int, default=600_000, help="to learn from, in all")
-    parser.add_argument("--batch", type=int, default=32)
-    parser.add_argument("--rate", type=float, default=2e-3)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--threads", type=int, default=torch.get_num_threads())
-    options = parser.parse_args(arguments)
-    torch.set_num_threads(options.threads)
-    try:
-        train(options)
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("stopped; the same command goes on from the last checkpoint", file=sys.stderr)
-        return 130
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+        if now - saved > SAVE_S:
+            trainer.save(plan.checkpoint)
+            saved = now
+    trainer.save(plan.checkpoint)
+    export(trainer.average, plan.out)
+    yield str(plan.out)
