@@ -8,6 +8,7 @@ import json
 import struct
 import sys
 import zlib
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,8 @@ from sim.checking import check_home
 from sim.client import connect
 from sim.generation import generate_home
 from sim.home import Home, load_home
-from sim.objects import load_objects
+from sim.objects import ObjectModel, load_objects
+from sim.ycb import with_scans
 
 WIDTH, HEIGHT = 1280, 1080
 DISTANCE = 4.35
@@ -42,6 +44,7 @@ def main(arguments: list[str] | None = None) -> int:
         "home", nargs="?", default="four_rooms", help="name or FILE.toml; or: objects"
     )
     view.add_argument("--out", type=Path, help="the picture; default HOME.png or objects.png")
+    view.add_argument("--ycb", type=Path, metavar="DIR", help="YCB models to see instead of ours")
     view.set_defaults(run=_view)
     check = commands.add_parser("check", help="name all that is wrong with a home")
     check.add_argument("home", help="name or FILE.toml")
@@ -62,13 +65,16 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _view(options: argparse.Namespace) -> int:
+    models = load_objects()
+    if options.ycb:
+        models = with_scans(models, options.ycb)
     if options.home == "objects":
-        sheet = np.asarray(contact_sheet(load_objects().values()))
+        sheet = np.asarray(contact_sheet(models.values()))
         _write(options.out or Path("objects.png"), png(sheet))
         return 0
     home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
-    _write(out, png(draw(home)))
+    _write(out, png(draw(home, models)))
     return 0
 
 
@@ -99,7 +105,7 @@ def _write(path: Path, content: bytes) -> None:
     print(path)
 
 
-def draw(home: Home) -> NDArray[np.uint8]:
+def draw(home: Home, models: Mapping[str, ObjectModel]) -> NDArray[np.uint8]:
     """The home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
     edges = np.array([room.rectangle for room in home.rooms])
     lower, upper = edges[:, :2].min(axis=0), edges[:, 2:].max(axis=0)
@@ -113,7 +119,7 @@ def draw(home: Home) -> NDArray[np.uint8]:
     pose = Pose(tuple(eye.tolist()), tuple(turn.as_quat().tolist()))
     client = connect()
     build_home(client, home.model_copy(update={"wall_height": VIEWED_WALL_HEIGHT_M}))
-    place_objects(client, home, load_objects())
+    place_objects(client, home, models)
     color = render(client, pose, intrinsics, far=2 * distance).color
     client.disconnect()
     return color
