@@ -105,9 +105,7 @@ def _read(path: Path) -> Floats:
         points = np.array([line.split()[1:4] for line in _lines(text, "v")], dtype=np.float64)
         corners = {int(c.split("/")[0]) for line in _lines(text, "f") for c in line.split()[1:]}
     except ValueError:
-        raise InputError(
-            str(path), "has lines that are no points or faces of an OBJ file"
-        ) from None
+        raise InputError(str(path), "has points or faces that are no OBJ") from None
     if not corners or min(corners) < 1 or max(corners) > len(points):
         raise InputError(str(path), "has no faces, or faces of points that it does not have")
     try:
