@@ -4,15 +4,15 @@
 """
 
 import argparse
+import io
 import json
-import struct
 import sys
-import zlib
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from executive.errors import ExecutiveError, InputError
@@ -69,12 +69,11 @@ def _view(options: argparse.Namespace) -> int:
     if options.ycb:
         models = with_scans(models, options.ycb)
     if options.home == "objects":
-        sheet = np.asarray(contact_sheet(models.values()))
-        _write(options.out or Path("objects.png"), png(sheet))
+        _write(options.out or Path("objects.png"), _png(contact_sheet(models.values())))
         return 0
     home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
-    _write(out, png(draw(home, models)))
+    _write(out, _png(Image.fromarray(draw(home, models))))
     return 0
 
 
@@ -125,16 +124,10 @@ def draw(home: Home, models: Mapping[str, ObjectModel]) -> NDArray[np.uint8]:
     return color
 
 
-def png(color: NDArray[np.uint8]) -> bytes:
-    """An RGB picture (height, width, 3) as a PNG file (ISO/IEC 15948)."""
-    height, width, _ = color.shape
-    rows = np.concatenate((np.zeros((height, 1), np.uint8), color.reshape(height, -1)), axis=1)
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes())), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-        for kind, body in chunks
-    )
+def _png(picture: Image.Image) -> bytes:
+    content = io.BytesIO()
+    picture.save(content, "PNG", optimize=True)
+    return content.getvalue()
 
 
 if __name__ == "__main__":

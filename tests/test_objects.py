@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from conftest import four_rooms
 from numpy.typing import NDArray
 from PIL import Image
 from scipy.spatial.transform import Rotation
@@ -12,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from executive.errors import InputError
 from executive.records import Shape
 from sim.__main__ import main
+from sim.bodies import home_entities
 from sim.catalogue import portrait
 from sim.modelling.__main__ import RECIPES
 from sim.modelling.__main__ import main as make
@@ -110,7 +112,15 @@ def test_the_packaged_meshes_are_those_that_are_made_today(tmp_path: Path):
         assert np.abs(old - new).mean() < 2.0
 
 
-# --- what the simulator shows ---
+# --- what the simulator and the log show ---
+
+
+def test_the_log_shows_the_same_mesh_upright():
+    for entity in home_entities(four_rooms(), MODELS):
+        if entity.name in MODELS:
+            (shape,) = entity.shapes
+            x, y, z = trimesh.load_scene(shape.mesh).to_mesh().extents
+            assert (z, x, y) == pytest.approx(MODELS[entity.name].size, abs=1e-4)  # glTF: y is up
 
 
 @pytest.mark.physics
