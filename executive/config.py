@@ -49,6 +49,9 @@ class Settings(BaseSettings):
         "learned",
         description="learned, simulated (never wrong), or FILE.onnx; the fake world has its own",
     )
+    ycb: Path | None = Field(
+        None, description="folder of YCB models to see instead of the packaged meshes"
+    )
     seed: int = Field(0, ge=0, description="of the world, the model and the simulated person")
     memory: Path | None = Field(
         None, description="SQLite file of what was seen and said; without, this session only"

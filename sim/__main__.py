@@ -4,12 +4,15 @@
 """
 
 import argparse
+import io
 import json
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from executive.errors import ExecutiveError, InputError
@@ -21,8 +24,8 @@ from sim.checking import check_home
 from sim.client import connect
 from sim.generation import generate_home
 from sim.home import Home, load_home
-from sim.objects import load_objects
-from sim.pictures import png
+from sim.objects import ObjectModel, load_objects
+from sim.ycb import with_scans
 
 WIDTH, HEIGHT = 1280, 1080
 DISTANCE = 4.35
@@ -41,6 +44,7 @@ def main(arguments: list[str] | None = None) -> int:
         "home", nargs="?", default="four_rooms", help="name or FILE.toml; or: objects"
     )
     view.add_argument("--out", type=Path, help="the picture; default HOME.png or objects.png")
+    view.add_argument("--ycb", type=Path, metavar="DIR", help="YCB models to see instead of ours")
     view.set_defaults(run=_view)
     check = commands.add_parser("check", help="name all that is wrong with a home")
     check.add_argument("home", help="name or FILE.toml")
@@ -61,13 +65,15 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _view(options: argparse.Namespace) -> int:
+    models = load_objects()
+    if options.ycb:
+        models = with_scans(models, options.ycb)
     if options.home == "objects":
-        sheet = np.asarray(contact_sheet(load_objects().values()))
-        _write(options.out or Path("objects.png"), png(sheet))
+        _write(options.out or Path("objects.png"), _png(contact_sheet(models.values())))
         return 0
     home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
-    _write(out, png(draw(home)))
+    _write(out, _png(Image.fromarray(draw(home, models))))
     return 0
 
 
@@ -98,7 +104,7 @@ def _write(path: Path, content: bytes) -> None:
     print(path)
 
 
-def draw(home: Home) -> NDArray[np.uint8]:
+def draw(home: Home, models: Mapping[str, ObjectModel]) -> NDArray[np.uint8]:
     """The home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
     edges = np.array([room.rectangle for room in home.rooms])
     lower, upper = edges[:, :2].min(axis=0), edges[:, 2:].max(axis=0)
@@ -112,10 +118,16 @@ def draw(home: Home) -> NDArray[np.uint8]:
     pose = Pose(tuple(eye.tolist()), tuple(turn.as_quat().tolist()))
     client = connect()
     build_home(client, home.model_copy(update={"wall_height": VIEWED_WALL_HEIGHT_M}))
-    place_objects(client, home, load_objects())
+    place_objects(client, home, models)
     color = render(client, pose, intrinsics, far=2 * distance).color
     client.disconnect()
     return color
+
+
+def _png(picture: Image.Image) -> bytes:
+    content = io.BytesIO()
+    picture.save(content, "PNG", optimize=True)
+    return content.getvalue()
 
 
 if __name__ == "__main__":

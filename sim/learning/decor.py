@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
+from PIL import Image
 from pybullet_utils.bullet_client import BulletClient
 
 from executive.types import Color
 from sim.camera import Light
-from sim.pictures import png
 
 PATTERN = 64
 """Side of a pattern (pixels); the renderer stretches it over each face."""
@@ -25,7 +25,7 @@ def write_patterns(folder: Path) -> tuple[Path, ...]:
     chance = np.random.default_rng(0)
     files = tuple(folder / f"{number}.png" for number in range(PATTERNS))
     for file in files:
-        file.write_bytes(png(_pattern(chance)))
+        Image.fromarray(_pattern(chance)).save(file)
     return files
 
 

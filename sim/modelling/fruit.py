@@ -69,8 +69,8 @@ def pear() -> list[Part]:
 def banana() -> list[Part]:
     """Bent, five-sided, with brown ends."""
     y = np.array([-0.094, -0.088, -0.078, -0.058, -0.03, 0, 0.03, 0.058, 0.074, 0.084, 0.094])
-    width = np.array([7, 11, 20, 30, 35, 36, 35, 31, 22, 11, 9]) / 1000
-    spine = np.column_stack((2.5 * y**2, y, width / 2 * 0.6 + 0.0072))
+    width = np.array([9, 14, 24, 30, 35, 36, 35, 31, 25, 14, 11]) / 1000
+    spine = np.column_stack((3.4 * y**2, y, width / 2 * 0.6 + 0.0072))
     across, along = gradient(100, 200)
     ripe = 0.5 + 0.3 * (noise(100, 200, (12, 40), 8) - 0.5)
     ripe += 0.35 * np.clip((along - 0.86) / 0.05, 0, 1) * (along < 0.93)

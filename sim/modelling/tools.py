@@ -112,8 +112,9 @@ def scissors() -> list[Part]:
     mirrored = [(-x, y) for x, y in reversed(blade)]
     orange = mottled(("#c94c16", "#e0561f", "#ea6a30"), 44, 180, 12)
     angles = np.linspace(0, 2 * np.pi, 18, endpoint=False)
-    loop = np.column_stack((0.0125 * np.sin(angles), 0.033 * np.cos(angles), 0 * angles))
-    tube = sweep(loop, (0.012, 0.014), orange, count=8)
+    width = 0.0145 * np.sin(angles) * (0.7 - 0.3 * np.cos(angles))
+    loop = np.column_stack((width, 0.033 * np.cos(angles), 0 * angles))
+    tube = sweep(loop, (0.011, 0.014), orange, count=8)
     arm = sweep([(0, -0.02, 0), (0, 0.02, 0)], (0.014, 0.013), orange, 1.0, 8, orange)
     screw = lathe([(0.005, 0.0), (0.005, 0.0135), (0, 0.0135)], plain("#5f666c"), count=10)
     parts = [screw]
@@ -123,7 +124,7 @@ def scissors() -> list[Part]:
             p.moved((side * 0.003, 0, 0), turn)
             for p in prism(outline, low, low + 0.006, *[steel] * 2)
         ]
-        parts += [p.moved((side * 0.0265, -0.065, 0.007), (0, 0, side * 17.0)) for p in tube]
+        parts += [p.moved((side * 0.0225, -0.0625, 0.007), (0, 0, side * 17.0)) for p in tube]
         parts += [p.moved((side * 0.0085, -0.020, 0.007), (0, 0, side * 17.0)) for p in arm]
     return parts
 
