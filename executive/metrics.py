@@ -78,7 +78,7 @@ def average_precision(right: NDArray[np.bool_], asked: int) -> float:
     return float((best * right).sum() / asked)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class ClassReport:
     """How well one class is recognised; recall and precision at the least confidence asked."""
 

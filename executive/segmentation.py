@@ -30,6 +30,13 @@ NEAR_M = 0.015
 """Farther than this outside the block around its largest part, a part is of something else."""
 _FEW = 0.06
 """A level with a smaller share of the level pixels is not what the thing stands on."""
+_LEAST_RISING = 0.08
+_MOST_SINKING = 0.1
+"""Shares of the box above and below what the thing stands on."""
+HIGHEST_M = 0.27
+"""No thing is higher; what is farther below is the background."""
+_MOSTLY = 0.7
+"""A part with this share in the block around the largest one belongs to it."""
 _MIDDLE = 0.3
 """Standard deviation, in sides of the box, of how much a pixel counts by its place in the box."""
 
@@ -45,15 +52,14 @@ def segment(frame: Frame, box: Box) -> Mask:
         slice(box.top - rows.start, box.top - rows.start + box.height),
         slice(box.left - columns.start, box.left - columns.start + box.width),
     )
-    thing = points[inside]
-    ground = support_height(points, inside[0].stop)
-    candidates = np.isfinite(thing[..., 2])
+    ground = support_height(points, inside)
+    candidates = np.isfinite(points[..., 2])
     if ground is not None:
-        candidates &= thing[..., 2] > ground + ABOVE_M
-    parts = parts_of(thing, candidates)
-    if not parts.max(initial=0):
+        candidates &= points[..., 2] > ground + ABOVE_M
+    parts = parts_of(points, candidates)
+    if not parts[inside].any():
         return np.ones((box.height, box.width), np.bool_)
-    return _join(thing, parts)
+    return _join(points[inside], parts[inside], np.bincount(parts.ravel()))
 
 
 def _around(box: Box, frame: Frame) -> tuple[slice, slice]:
@@ -67,27 +73,34 @@ def _around(box: Box, frame: Frame) -> tuple[slice, slice]:
     )
 
 
-def support_height(points: Floats, bottom: int) -> float | None:
-    """The height (z, metres) of what a thing stands on whose box ends at row `bottom`.
+def support_height(points: Floats, inside: tuple[slice, slice]) -> float | None:
+    """The height (z, metres) of what the thing in a box stands on; None if it is not in sight.
 
-    That is the highest level surface in sight beside the foot of the thing; None without any.
+    That is the highest level surface beside and below the foot of the box that something in the
+    box rises above and hardly anything goes on below: other surfaces are the tops of neighbours.
 
     Args:
         points: (h, w, 3) in `map`, not finite where nothing was measured.
-        bottom: the row below the box.
+        inside: rows and columns of the box.
     """
-    level = _is_level(points)
-    foot = max(0, bottom - max(2, bottom // 4))
-    heights = points[foot:][level[foot:]][:, 2]
+    rows, columns = inside
+    beside = _is_level(points)
+    beside[: rows.stop - max(2, (rows.stop - rows.start) // 3)] = False
+    beside[rows, columns] = False
+    heights = points[beside][:, 2]
     if len(heights) < LEAST_AROUND:
         return None
     bins = np.round(heights / BIN_M).astype(int)
-    found, counts = np.unique(bins, return_counts=True)
-    around = np.array([counts[np.abs(found - one) <= 1].sum() for one in found])
-    enough = found[around >= max(LEAST_AROUND, _FEW * len(heights))]
-    if not len(enough):
-        return None
-    return float(np.median(heights[np.abs(bins - enough.max()) <= 1]))
+    within = points[inside][..., 2]
+    for one in sorted(set(bins.tolist()), reverse=True):
+        same = np.abs(bins - one) <= 1
+        height = float(np.median(heights[same]))
+        rising = (within > height + ABOVE_M).mean()
+        sinking = ((within < height - ABOVE_M) & (within > height - HIGHEST_M)).mean()
+        enough = same.sum() >= max(LEAST_AROUND, _FEW * len(heights))
+        if enough and rising > _LEAST_RISING and sinking < _MOST_SINKING:
+            return height
+    return None
 
 
 def _is_level(points: Floats) -> Mask:
@@ -130,18 +143,25 @@ def parts_of(points: Floats, candidates: Mask) -> NDArray[np.int32]:
     return parts
 
 
-def _join(points: Floats, parts: NDArray[np.int32]) -> Mask:
-    """The part that fills the middle best, and those within the block around it."""
+def _join(points: Floats, parts: NDArray[np.int32], sizes: NDArray[np.int64]) -> Mask:
+    """The part that fills the middle of the box best, and those in the block around and below it.
+
+    Of a part that goes on outside of the box, where `sizes` counts it too, less is thought.
+    """
     height, width = parts.shape
     row = (np.arange(height) + 0.5) / height - 0.5
     column = (np.arange(width) + 0.5) / width - 0.5
     weight = np.exp(-(row[:, None] ** 2 + column**2) / (2 * _MIDDLE**2))
-    chosen = int(np.bincount(parts.ravel(), weight.ravel())[1:].argmax()) + 1
-    thing = parts == chosen
+    count = len(sizes)
+    inside = np.bincount(parts.ravel(), minlength=count)
+    filled = (
+        np.bincount(parts.ravel(), weight.ravel(), count) * (inside / np.maximum(sizes, 1)) ** 2
+    )
+    thing = parts == int(filled[1:].argmax()) + 1
     low = np.quantile(points[thing], 0.02, axis=0) - NEAR_M
+    low[2] = -np.inf
     high = np.quantile(points[thing], 0.98, axis=0) + NEAR_M
     with np.errstate(invalid="ignore"):
         in_block = ((points > low) & (points < high)).all(-1) & (parts > 0)
-    sizes = np.bincount(parts.ravel())
-    within = np.bincount(parts.ravel(), in_block.ravel()) / np.maximum(sizes, 1)
-    return np.asarray((within > 0.7)[parts] & (parts > 0) | thing)
+    within = np.bincount(parts.ravel(), in_block.ravel(), count) / np.maximum(sizes, 1)
+    return np.asarray((within > _MOSTLY)[parts] & (parts > 0) | thing)
