@@ -11,7 +11,7 @@ import pytest
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Facts, User
+from executive.interfaces import Detector, Facts, User
 from executive.loop import Executive
 from executive.perception import Eyes
 from executive.records import Record, Tick, Verified
@@ -94,6 +94,7 @@ def run_mission(
     first: Iterable[Event] = (),
     notebook: Notebook | None = None,
     facts: Facts | None = None,
+    detector: Callable[[FakeWorld], Detector] = FakeDetector,
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
@@ -132,7 +133,7 @@ def run_mission(
         interpreter=EnglishInterpreter(),
         knowledge=knowledge,
         robot=robot,
-        eyes=Eyes(FakeCamera(world), FakeDetector(world), inbox, notebook),
+        eyes=Eyes(FakeCamera(world), detector(world), inbox, notebook),
         user=user,
         model=thinker,
         advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,

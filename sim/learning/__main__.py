@@ -19,6 +19,7 @@ def main(arguments: list[str] | None = None) -> int:
     frames.add_argument("--frames", type=int, default=3000)
     frames.add_argument("--seed", type=int, default=0, help="of the first frame (default: 0)")
     frames.add_argument("--workers", type=int, default=os.cpu_count())
+    frames.add_argument("--ycb", type=Path, metavar="DIR", help="scans to show instead of ours")
     frames.set_defaults(run=_frames)
     train = commands.add_parser("train", help="train on them (needs the train extra)")
     train.add_argument("folder", type=Path, help="the frames")
@@ -45,8 +46,9 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _frames(options: argparse.Namespace) -> None:
     total = -(-options.frames // SHARD)
-    for path in make_shards(options.folder, options.frames, options.seed, options.workers):
-        done = len(list(options.folder.glob("*.parquet")))
+    folder, workers = options.folder, options.workers
+    for path in make_shards(folder, options.frames, options.seed, workers, options.ycb):
+        done = len(list(folder.glob("*.parquet")))
         print(f"\r{done} of {total} shards, the last {path.name}", end="", file=sys.stderr)
     print(file=sys.stderr)
 

@@ -7,7 +7,7 @@ into the same folder goes on with what is missing.
 import os
 import signal
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from executive.errors import InputError
 from sim.learning.scenes import Scene, SceneMaker
-from sim.objects import load_objects
+from sim.objects import ObjectModel, load_objects
+from sim.ycb import with_scans
 
 SHARD = 50
 """Pictures in a file."""
@@ -50,8 +51,12 @@ def class_names() -> tuple[str, ...]:
     return tuple(sorted(load_objects()))
 
 
-def make_shards(folder: Path, frames: int, seed: int, workers: int) -> Iterator[Path]:
+def make_shards(
+    folder: Path, frames: int, seed: int, workers: int, ycb: Path | None = None
+) -> Iterator[Path]:
     """Make the shards that are missing for so many frames of these seeds; yields each when done.
+
+    Things look as ours, or as the scans in the folder `ycb`.
 
     Raises:
         InputError: if the folder cannot be written, or the seeds are those of the evaluation.
@@ -64,8 +69,9 @@ def make_shards(folder: Path, frames: int, seed: int, workers: int) -> Iterator[
     except OSError as error:
         raise InputError(str(folder), f"cannot be made: {error.strerror}", "name another") from None
     starts = range(seed, seed + frames, SHARD)
+    models = with_scans(load_objects(), ycb) if ycb else load_objects()
     jobs = [
-        (folder / f"{start:08d}.parquet", start, min(SHARD, seed + frames - start))
+        (folder / f"{start:08d}.parquet", start, min(SHARD, seed + frames - start), models)
         for start in starts
     ]
     missing = [job for job in jobs if not job[0].exists()]
@@ -77,10 +83,10 @@ def _leave_stopping_to_the_parent() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _make_shard(job: tuple[Path, int, int]) -> Path:
-    path, start, count = job
+def _make_shard(job: tuple[Path, int, int, Mapping[str, ObjectModel]]) -> Path:
+    path, start, count, models = job
     with tempfile.TemporaryDirectory() as directory:
-        maker = SceneMaker(load_objects(), Path(directory))
+        maker = SceneMaker(models, Path(directory))
         rows = [_row(maker.make(seed)) for seed in range(start, start + count)]
         maker.close()
     beside = path.with_suffix(f".{os.getpid()}")
