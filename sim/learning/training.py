@@ -116,7 +116,14 @@ def export(network: Network, path: Path) -> None:
     model = Exported(copy.deepcopy(network).float(), HEIGHT, WIDTH).eval()
     picture = torch.zeros(1, 3, HEIGHT, WIDTH)
     torch.onnx.export(
-        model, (picture,), str(path), input_names=["images"], output_names=["output0"], dynamo=False
+        model,
+        (picture,),
+        str(path),
+        input_names=["images"],
+        output_names=["output0"],
+        opset_version=18,
+        external_data=False,
+        verbose=False,
     )
     graph = onnx.load(path)
     names = dict(enumerate(class_names()))
