@@ -4,6 +4,8 @@ In `map`, where z is up: what the thing stands on is level and lies below it, wh
 beside it is apart from it. Pure functions over arrays.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
@@ -26,6 +28,8 @@ ABOVE_M = 0.005
 """Lower than this above what it stands on, a pixel belongs to that."""
 STEP_M = 0.012
 """Neighbouring pixels farther apart than this are not of one surface."""
+JOINED_M = 0.035
+"""So near to the thing, what is mostly in its box is a part of it."""
 NEAR_M = 0.015
 """Farther than this outside the block around its largest part, a part is of something else."""
 _FEW = 0.06
@@ -35,10 +39,22 @@ _MOST_SINKING = 0.1
 """Shares of the box above and below what the thing stands on."""
 HIGHEST_M = 0.27
 """No thing is higher; what is farther below is the background."""
+_IN_BOX = 0.6
+_LINKS = 3
+"""How many such parts may follow one another."""
 _MOSTLY = 0.7
 """A part with this share in the block around the largest one belongs to it."""
 _MIDDLE = 0.3
 """Standard deviation, in sides of the box, of how much a pixel counts by its place in the box."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Steps:
+    """Pairs of neighbouring pixels (n,), by their numbers in the grid, and their distance (m)."""
+
+    starts: NDArray[np.intp]
+    ends: NDArray[np.intp]
+    distances: Floats
 
 
 def segment(frame: Frame, box: Box) -> Mask:
@@ -56,10 +72,12 @@ def segment(frame: Frame, box: Box) -> Mask:
     candidates = np.isfinite(points[..., 2])
     if ground is not None:
         candidates &= points[..., 2] > ground + ABOVE_M
-    parts = parts_of(points, candidates)
+    steps = steps_between(points, candidates)
+    parts = parts_of(candidates, steps)
     if not parts[inside].any():
         return np.ones((box.height, box.width), np.bool_)
-    return _join(points[inside], parts[inside], np.bincount(parts.ravel()))
+    main = main_part(parts, inside)
+    return those_with(main, points, parts, steps, inside)[parts[inside]]
 
 
 def _around(box: Box, frame: Frame) -> tuple[slice, slice]:
@@ -117,51 +135,81 @@ def _is_level(points: Floats) -> Mask:
     return level
 
 
-def parts_of(points: Floats, candidates: Mask) -> NDArray[np.int32]:
+def parts_of(candidates: Mask, steps: Steps) -> NDArray[np.int32]:
     """Numbers (h, w) from 1 of the connected surfaces among the candidates; 0 elsewhere."""
+    near = steps.distances < STEP_M
+    joined = (np.ones(near.sum()), (steps.starts[near], steps.ends[near]))
+    graph = coo_array(joined, shape=(candidates.size,) * 2)
+    _, labels = connected_components(graph, directed=False)
+    parts = np.zeros(candidates.shape, np.int32)
+    chosen = labels.reshape(candidates.shape)[candidates]
+    parts[candidates] = np.unique(chosen, return_inverse=True)[1] + 1
+    return parts
+
+
+def steps_between(points: Floats, candidates: Mask) -> Steps:
+    """How far apart neighbouring candidates (h, w) are, to all eight sides."""
     numbers = np.arange(candidates.size).reshape(candidates.shape)
-    starts, ends = [], []
+    starts, ends, distances = [], [], []
     for one, other in (
         (np.s_[:, :-1], np.s_[:, 1:]),
         (np.s_[:-1], np.s_[1:]),
         (np.s_[:-1, :-1], np.s_[1:, 1:]),
         (np.s_[:-1, 1:], np.s_[1:, :-1]),
     ):
-        with np.errstate(invalid="ignore"):
-            near = np.linalg.norm(points[one] - points[other], axis=-1) < STEP_M
-        joined = near & candidates[one] & candidates[other]
-        starts.append(numbers[one][joined])
-        ends.append(numbers[other][joined])
-    start, end = np.concatenate(starts), np.concatenate(ends)
-    graph = coo_array((np.ones(len(start)), (start, end)), shape=(candidates.size,) * 2)
-    _, labels = connected_components(graph, directed=False)
-    parts = np.zeros(candidates.shape, np.int32)
-    _, parts[candidates] = np.unique(
-        labels.reshape(candidates.shape)[candidates], return_inverse=True
-    )
-    parts[candidates] += 1
-    return parts
+        both = candidates[one] & candidates[other]
+        starts.append(numbers[one][both])
+        ends.append(numbers[other][both])
+        distances.append(np.linalg.norm(points[one][both] - points[other][both], axis=-1))
+    return Steps(np.concatenate(starts), np.concatenate(ends), np.concatenate(distances))
 
 
-def _join(points: Floats, parts: NDArray[np.int32], sizes: NDArray[np.int64]) -> Mask:
-    """The part that fills the middle of the box best, and those in the block around and below it.
+def main_part(parts: NDArray[np.int32], inside: tuple[slice, slice]) -> int:
+    """The part that fills the middle of the box best; of one that goes on outside, less is thought.
 
-    Of a part that goes on outside of the box, where `sizes` counts it too, less is thought.
+    Raises:
+        ValueError: if there is no part in the box.
     """
-    height, width = parts.shape
+    in_box = parts[inside]
+    height, width = in_box.shape
     row = (np.arange(height) + 0.5) / height - 0.5
     column = (np.arange(width) + 0.5) / width - 0.5
     weight = np.exp(-(row[:, None] ** 2 + column**2) / (2 * _MIDDLE**2))
-    count = len(sizes)
-    inside = np.bincount(parts.ravel(), minlength=count)
-    filled = (
-        np.bincount(parts.ravel(), weight.ravel(), count) * (inside / np.maximum(sizes, 1)) ** 2
+    filled = np.bincount(in_box.ravel(), weight.ravel(), int(parts.max()) + 1)
+    return int((filled * shares_inside(parts, inside) ** 2)[1:].argmax()) + 1
+
+
+def shares_inside(parts: NDArray[np.int32], inside: tuple[slice, slice]) -> Floats:
+    """How much of each part, by its number, is in the box."""
+    sizes = np.bincount(parts.ravel())
+    return np.asarray(
+        np.bincount(parts[inside].ravel(), minlength=len(sizes)) / np.maximum(sizes, 1)
     )
-    thing = parts == int(filled[1:].argmax()) + 1
-    low = np.quantile(points[thing], 0.02, axis=0) - NEAR_M
+
+
+def those_with(
+    main: int, points: Floats, parts: NDArray[np.int32], steps: Steps, inside: tuple[slice, slice]
+) -> Mask:
+    """Which parts, by number, are of one thing with the main one.
+
+    Those in the block around and below it, such as the bottom of a mug; and those mostly in the
+    box that touch the thing but for a small step, such as the shaft of a spatula.
+    """
+    count = int(parts.max()) + 1
+    thing = points[parts == main]
+    low, high = np.quantile(thing, 0.02, axis=0) - NEAR_M, np.quantile(thing, 0.98, axis=0) + NEAR_M
     low[2] = -np.inf
-    high = np.quantile(points[thing], 0.98, axis=0) + NEAR_M
     with np.errstate(invalid="ignore"):
-        in_block = ((points > low) & (points < high)).all(-1) & (parts > 0)
-    within = np.bincount(parts.ravel(), in_block.ravel(), count) / np.maximum(sizes, 1)
-    return np.asarray((within > _MOSTLY)[parts] & (parts > 0) | thing)
+        in_block = ((points > low) & (points < high)).all(-1)
+    within = np.bincount(parts.ravel(), in_block.ravel(), count)
+    chosen = within > _MOSTLY * np.bincount(parts.ravel(), minlength=count)
+    chosen[main] = True
+    in_box = shares_inside(parts, inside) > _IN_BOX
+    touching = steps.distances < JOINED_M
+    one, other = (parts.ravel()[ends[touching]] for ends in (steps.starts, steps.ends))
+    for _ in range(_LINKS):
+        reached = np.zeros(count, np.bool_)
+        reached[other[chosen[one]]] = reached[one[chosen[other]]] = True
+        chosen |= reached & in_box
+    chosen[0] = False
+    return chosen

@@ -58,6 +58,13 @@ def test_the_bottom_of_a_hollow_thing_belongs_to_it() -> None:
     assert mask.sum() == 26 * 26
 
 
+def test_a_higher_handle_and_a_flat_blade_are_one_thing() -> None:
+    handle = (slice(42, 68), slice(62, 72), 0.962)
+    blade = (slice(48, 62), slice(72, 88), 0.99)
+    mask = segment(frame(handle, blade), BOX)
+    assert mask.sum() == 26 * 10 + 14 * 16
+
+
 def test_the_top_of_a_neighbour_is_not_what_a_thing_stands_on() -> None:
     thing = [(slice(42 + row, 43 + row), slice(62, 88), 0.9 + 0.003 * row) for row in range(30)]
     box = Box(60, 40, 30, 34)
