@@ -13,6 +13,10 @@ from executive.types import Verdict
 from kb.names import PlaceNames, unique
 
 
+MOST_CHARACTERS = 20_000
+"""Of a reply, from its end: a longer one is no list of places, and would take long to look through."""
+
+
 class Reply(BaseModel):
     """The output format: a list of places."""
 
@@ -42,7 +46,7 @@ def read(reply: str) -> tuple[str, ...] | None:
     """
     for value in json_objects(reply):
         try:
-            return tuple(name.strip() for name in Reply.model_validate(value).places)
+            return tuple(_text(name) for name in Reply.model_validate(value).places)
         except ValidationError:
             continue
     return None
@@ -71,13 +75,21 @@ def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -
 
 
 def json_objects(text: str) -> Iterator[object]:
-    """What can be read as JSON from each opening brace on. Never raises."""
+    """What can be read as JSON from each opening brace on. Never raises, and never takes long."""
+    text = text[-MOST_CHARACTERS:]
     decoder = json.JSONDecoder()
     start = text.find("{")
     while start >= 0:
         try:
             value, _ = decoder.raw_decode(text, start)
             yield value
-        except (ValueError, RecursionError):
+        except ValueError:
             pass
+        except RecursionError:
+            return
         start = text.find("{", start + 1)
+
+
+def _text(name: str) -> str:
+    """A name that can be written down: JSON may escape half of a character, "\\ud800"."""
+    return name.encode(errors="replace").decode().strip()
