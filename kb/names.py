@@ -72,7 +72,10 @@ class PlaceNames:
         self, places: Sequence[Place], called: Mapping[str, Sequence[str]] | None = None
     ) -> None:
         """Index the home; `called` says what furniture and room classes are called."""
-        self._places = tuple(places)
+        self._room_of = {place.name: place.room for place in places}
+        self._pieces_in: dict[str, list[str]] = {}
+        for place in places:
+            self._pieces_in.setdefault(place.room, []).append(place.name)
         called = called or {}
 
         def names_of(kind: str) -> Iterable[str]:
@@ -105,8 +108,7 @@ class PlaceNames:
                 unknown.append(words[0])
             del words[:length]
         if furniture and rooms:
-            inside = {p.name for p in self._places if p.room in rooms}
-            furniture = [name for name in furniture if name in inside]
+            furniture = [name for name in furniture if self._room_of[name] in rooms]
             rooms = []
         return Reading(unique(furniture), unique(rooms), tuple(unknown))
 
@@ -121,7 +123,8 @@ class PlaceNames:
                 continue
             reading = self.read(clause)
             found.extend(reading.furniture)
-            found.extend(p.name for p in self._places if p.room in reading.rooms)
+            for room in reading.rooms:
+                found.extend(self._pieces_in[room])
         return unique(found)
 
     def exactly(self, name: str) -> Reading:
@@ -133,8 +136,7 @@ class PlaceNames:
 
     def rooms_of(self, furniture: Iterable[str]) -> tuple[str, ...]:
         """The rooms that these pieces of furniture stand in."""
-        wanted = set(furniture)
-        return unique(p.room for p in self._places if p.name in wanted)
+        return unique(self._room_of[name] for name in furniture if name in self._room_of)
 
     def _longest_match(
         self, words: list[str], furniture: list[str], rooms: list[str]

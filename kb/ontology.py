@@ -68,8 +68,13 @@ class Ontology:
                 raise InputError(str(path), "another file has the same name", "rename one")
             load(self._world, path)
             self._files[path.name] = path.read_bytes()
-        self._places = tuple(places)
+        self._places = {place.name: place for place in places}
+        self._order = {name: number for number, name in enumerate(self._places)}
         self._home = self._world.get_ontology(INDIVIDUALS)
+        self._kinds = {
+            root: {kind.name: kind for kind in downwards(self._class(root))}
+            for root in ("Furniture", "Room")
+        }
         with self._home:
             for place in places:
                 self._add(place)
@@ -87,14 +92,18 @@ class Ontology:
             )
         )
         self._person = self._person_named(person) if person else None
-        self.place_names = PlaceNames(self._places, self._called())
+        self.place_names = PlaceNames(self.places(), self._called())
         """What the furniture and the rooms of the home are called."""
 
     # --- the Knowledge protocol ---
 
     def places(self) -> tuple[Place, ...]:
         """Every piece of furniture of the home, in the home file's order."""
-        return self._places
+        return tuple(self._places.values())
+
+    def has_place(self, name: str) -> bool:
+        """Whether a piece of furniture of this name is in the home."""
+        return name in self._places
 
     def objects_named(self, words: str) -> tuple[str, ...]:
         """The objects that the words may mean: none, one, or all members of a class ("fruit").
@@ -126,8 +135,8 @@ class Ontology:
 
     def usual_places(self, name: str) -> tuple[str, ...]:
         """Default locations of the object or its nearest class; those in this home only."""
-        usual = self.default_locations(name)
-        return tuple(place.name for place in self._places if place.name in usual)
+        here = filter(self.has_place, self.default_locations(name))
+        return tuple(sorted(here, key=self._order.__getitem__))
 
     def places_named(self, words: str) -> tuple[str, ...]:
         """Furniture that the words name, in their order; a room stands for its furniture."""
@@ -238,9 +247,9 @@ class Ontology:
         self._individual(place.name, place.kind, "Furniture").isIn = room
 
     def _individual(self, name: str, kind: str, root: str) -> Any:
-        class_, root_class = self._class(kind), self._class(root)
-        if class_ is None or class_ not in downwards(root_class):
-            known = ", ".join(c.name for c in downwards(root_class))
+        class_ = self._kinds[root].get(kind)
+        if class_ is None:
+            known = ", ".join(self._kinds[root])
             raise InputError(name, f"is a {kind!r}, which the ontology lacks", f"known are {known}")
         individual = self._world[INDIVIDUALS + name]
         if individual is None:
@@ -265,11 +274,10 @@ class Ontology:
 
     def _called(self) -> dict[str, tuple[str, ...]]:
         """Furniture or room class -> what it and the classes above it are called."""
-        roots = (self._class("Furniture"), self._class("Room"))
         return {
-            kind.name: tuple(n for c in upwards(kind) if c not in roots for n in _names(c))
-            for root in roots
-            for kind in downwards(root)
+            name: tuple(n for c in upwards(kind) if c.name not in self._kinds for n in _names(c))
+            for kinds in self._kinds.values()
+            for name, kind in kinds.items()
         }
 
 

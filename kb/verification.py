@@ -9,12 +9,12 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from executive.text import writable
 from executive.types import Verdict
 from kb.names import PlaceNames, unique
 
-
 MOST_CHARACTERS = 20_000
-"""Of a reply, from its end: a longer one is no list of places, and would take long to look through."""
+"""Of a reply, counted from its end: looking through more could take seconds."""
 
 
 class Reply(BaseModel):
@@ -46,7 +46,7 @@ def read(reply: str) -> tuple[str, ...] | None:
     """
     for value in json_objects(reply):
         try:
-            return tuple(_text(name) for name in Reply.model_validate(value).places)
+            return tuple(writable(name).strip() for name in Reply.model_validate(value).places)
         except ValidationError:
             continue
     return None
@@ -88,8 +88,3 @@ def json_objects(text: str) -> Iterator[object]:
         except RecursionError:
             return
         start = text.find("{", start + 1)
-
-
-def _text(name: str) -> str:
-    """A name that can be written down: JSON may escape half of a character, "\\ud800"."""
-    return name.encode(errors="replace").decode().strip()

@@ -162,6 +162,12 @@ def test_a_servers_streamed_words_become_the_reply():
     assert bodies[0]["messages"] == [{"role": "user", "content": "Where is the mug?"}]
 
 
+def test_a_character_that_a_server_cuts_in_two_is_whole_in_the_reply():
+    with asked(says("on \ud83d", "\ude00 and \ud83d"), model="m") as (model, inbox, _):
+        reply = end_of(inbox, model.chat(HELLO))
+    assert reply.text == "on \N{GRINNING FACE} and \N{REPLACEMENT CHARACTER}"
+
+
 def test_a_server_is_asked_to_keep_to_the_schema_if_so_set():
     with asked(says("{}"), says("{}"), grammar=True, model="m") as (model, inbox, bodies):
         end_of(inbox, model.chat(HELLO))
