@@ -12,13 +12,19 @@ from executive.errors import InputError
 from executive.types import Place
 from kb.faults import faults
 from kb.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
-from kb.owl import downwards, label, leaves, load, upwards, values
+from kb.owl import downwards, label, leaves, load, read, upwards, values
 from kb.sparql import Table, select
 
 HOUSEHOLD = Path(__file__).with_name("household.owl")
 DEFAULTS = Path(__file__).with_name("defaults.owl")
 CLASSES = "http://robot-executive.org/household.owl#"
 INDIVIDUALS = "http://robot-executive.org/home.owl#"
+VOCABULARY = (
+    *("Object", "Furniture", "Room", "Person"),
+    *("isIn", "hasDefaultLocation", "preferredBy", "preposition"),
+)
+"""Classes and properties that household.owl, or what replaces it, has to declare."""
+ALSO_CALLED = "http://www.w3.org/2004/02/skos/core#altLabel"
 PREFIXES = {
     "household": CLASSES,
     "home": INDIVIDUALS,
@@ -50,24 +56,28 @@ class Ontology:
     ) -> None:
         """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
 
+        A file with the IRI of another ontology, such as one of ours, takes its place.
+
         Args:
             places: the furniture of the home.
             defaults: whether to load defaults.owl.
-            files: a person's own OWL files, which add to ours.
+            files: a person's own OWL files, which add to ours or replace them.
             person: the name of who is at home, as the files have it.
 
         Raises:
             InputError: if a file is no ontology, imports one that is not loaded or is called like
-                another, if a place is of a class that the ontology does not have, or if it does not
-                know the person.
+                another; if what replaces household.owl lacks a name that every home needs, a place
+                is of a class that the ontology does not have, or nobody knows the person.
         """
         self._world = owlready2.World()
         self._files: dict[str, bytes] = {}
-        for path in (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files):
-            if path.name in self._files:
-                raise InputError(str(path), "another file has the same name", "rename one")
-            load(self._world, path)
-            self._files[path.name] = path.read_bytes()
+        read_files = map(read, (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files))
+        for file in {file.iri: file for file in read_files}.values():
+            if file.path.name in self._files:
+                raise InputError(str(file.path), "another file has the same name", "rename one")
+            load(self._world, file)
+            self._files[file.path.name] = file.content
+        self._expect_vocabulary()
         self._places = {place.name: place for place in places}
         self._order = {name: number for number, name in enumerate(self._places)}
         self._home = self._world.get_ontology(INDIVIDUALS)
@@ -204,6 +214,13 @@ class Ontology:
         return select(self._world, sparql, PREFIXES)
 
     # --- inside ---
+
+    def _expect_vocabulary(self) -> None:
+        """Refuse an ontology without the names that this class is about."""
+        for iri in (*(CLASSES + name for name in VOCABULARY), ALSO_CALLED):
+            if self._world[iri] is None:
+                right = f"keep {iri} as household.owl has it"
+                raise InputError("ontology", f"declares no {iri.rpartition('#')[2]}", right)
 
     def _similar(self, words: str) -> dict[str, float]:
         """Names that look like the words, most similar first, and how similar (of 100)."""

@@ -14,6 +14,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from pathlib import Path
 
 from hypothesis import HealthCheck, Phase, given, settings
@@ -102,15 +103,18 @@ def ask(model: LlamaCpp, inbox: Inbox, request: ChatRequest) -> str:
     return event.result.text
 
 
-def sample(cache: Path, threads: int | None) -> None:
+def sample(cache: Path, objects: int, threads: int | None) -> None:
     """Fill the file with what is still missing in it."""
-    done = set(read_cache(cache)) if cache.exists() else set()
     cache.parent.mkdir(parents=True, exist_ok=True)
+    cache.touch()
+    with cache.open("r+b") as file:  # a line that was cut off is written again
+        file.truncate(file.read().rfind(b"\n") + 1)
+    done = set(read_cache(cache))
     todo = [
         ((way, temperature, request.label, name), request)
         for temperature in TEMPERATURES
         for way in WAYS
-        for name, request, _ in requests()
+        for name, request, _ in islice(requests(), len(LABELS) * objects)
         if (way, temperature, request.label, name) not in done
     ]
     before, model, inbox = None, None, Inbox()
@@ -141,9 +145,9 @@ def sample(cache: Path, threads: int | None) -> None:
 
 
 def read_cache(cache: Path) -> dict[tuple[str, float, str, str], str]:
-    """The replies in the file; a last line that is cut off is left out."""
+    """The replies in the file."""
     replies = {}
-    for line in cache.read_text(encoding="utf-8").split("\n")[:-1]:
+    for line in cache.read_text(encoding="utf-8").splitlines():
         *key, text = json.loads(line)
         replies[tuple(key)] = text
     return replies
@@ -188,10 +192,11 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cache", type=Path, default=Path("runs/verification.jsonl"))
+    parser.add_argument("--objects", type=int, default=22, help="how many are asked about")
     parser.add_argument("--garbage", type=int, default=10_000)
     parser.add_argument("--threads", type=int, help="default: as the model chooses")
     given_ = parser.parse_args()
-    sample(given_.cache, given_.threads)
+    sample(given_.cache, given_.objects, given_.threads)
     print(
         f"{'':32} {'replies':>8} {'format %':>8} {'names':>8} {'invented/100':>12}"
         f" {'none %':>8} {'ms':>8}"
