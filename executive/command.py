@@ -28,6 +28,7 @@ _VERBS: dict[str, Kind] = {
     "give": Kind.BRING,
     "deliver": Kind.BRING,
     "hand": Kind.BRING,
+    "hand over": Kind.BRING,
     "pass": Kind.BRING,
     "carry": Kind.BRING,
     "let me have": Kind.BRING,

@@ -176,6 +176,9 @@ def test_names_are_found_in_a_text(words, names):
         ("the living room table", ("dining_table", "coffee_table")),
         ("the table in the bedroom", ()),
         ("on the roof", ()),
+        ("the dinning table", ("dining_table",)),
+        ("on the dsek", ("desk",)),
+        ("in the kichen cabinett", ("cabinet_kitchen",)),
         ("", ()),
     ],
 )
