@@ -17,6 +17,7 @@ from executive.types import ChatRequest, Failed, Message, RankRequest, Replied, 
 from kb.advisor import PlaceAdvisor
 from kb.gguf import Context, Gguf
 from kb.llama import LlamaCpp, embedded_model
+from kb.sampling import Sampler
 from kb.scripted import Scripted
 from kb.server import Server
 from kb.verification import Reply
@@ -476,6 +477,25 @@ def test_a_cancelled_reply_stops_at_once_and_is_not_delivered():
     assert time.monotonic() - began < 1.0
     assert not inbox.awaits_anything
     model.close()
+
+
+@pytest.mark.llm
+def test_a_cancelled_reply_is_written_not_one_token_further(monkeypatch):
+    written = []
+    model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=512, max_tokens=100)
+
+    def sample_and_cancel(sampler: Sampler, context: Context) -> int:
+        written.append(sample(sampler, context))
+        if len(written) == 5:
+            model.cancel(request)
+        return written[-1]
+
+    sample = Sampler.sample
+    monkeypatch.setattr(Sampler, "sample", sample_and_cancel)
+    request = model.chat(HELLO)
+    assert isinstance(end_of(inbox, model.rank(RANK)), Scored)
+    model.close()
+    assert len(written) == 5
 
 
 @pytest.mark.llm
