@@ -54,7 +54,7 @@ def act(team: Team) -> Behaviour:
         sequence(
             "is there already",
             asked_to(Kind.BRING),
-            Check("is at the delivery place", team, at_delivery),
+            Check("at the delivery place", team, at_delivery),
             Report("report", team, "The {object} is here already, on the delivery table."),
         ),
         sequence(
@@ -70,7 +70,7 @@ def act(team: Team) -> Behaviour:
 def holds_it(team: Team) -> Check:
     """Whether the robot has the thing in its hand."""
     situation = team.situation
-    return Check("is in my hand", team, lambda: situation.in_hand == situation.object)
+    return Check("in my hand", team, lambda: situation.in_hand == situation.object)
 
 
 def deliver(team: Team) -> Behaviour:

@@ -16,7 +16,7 @@ def search(team: Team) -> Behaviour:
     situation = team.situation
     return fallback(
         "search",
-        Check("is in my hand", team, lambda: situation.in_hand == situation.object),
+        Check("in my hand", team, lambda: situation.in_hand == situation.object),
         sequence(
             "look where it was",
             MemoryKnowsPlaces("memory knows it", team),
