@@ -13,7 +13,7 @@ from executive.text import writable
 from executive.types import Verdict
 from kb.names import PlaceNames, unique
 
-MOST_CHARACTERS = 20_000
+MOST_CHARACTERS = 10_000
 """Of a reply, counted from its end: looking through more could take seconds."""
 
 
