@@ -64,7 +64,7 @@ class Tally:
         self.counts["replies"] += 1
         self.counts["in the format"] += names is not None
         self.counts["names"] += len(names or ())
-        self.counts["dropped"] += len(verdict.dropped)
+        self.counts["invented"] += len(ADVISER.verify(verdict.dropped, ()).dropped)
         self.counts["nothing left"] += not (verdict.furniture or verdict.rooms)
         for name in {*(names or ())} - {*verdict.dropped}:
             if spoken(name) not in map(spoken, FURNITURE | ROOMS):
@@ -74,8 +74,8 @@ class Tally:
         """One line of the table."""
         c, percent = self.counts, 100 / self.counts["replies"]
         return (
-            f"{title:32} {c['replies']:8} {c['in the format'] * percent:8.0f} {c['names']:8}"
-            f" {c['dropped'] * percent:12.0f} {c['nothing left'] * percent:8.0f}"
+            f"{title:34} {c['replies']:8} {c['in the format'] * percent:8.0f} {c['names']:8}"
+            f" {c['invented'] * percent:12.0f} {c['nothing left'] * percent:8.0f}"
             f" {1000 * self.slowest_s:8.1f}"
         )
 
@@ -198,7 +198,7 @@ def main() -> None:
     given_ = parser.parse_args()
     sample(given_.cache, given_.objects, given_.threads)
     print(
-        f"{'':32} {'replies':>8} {'format %':>8} {'names':>8} {'invented/100':>12}"
+        f"{'':34} {'replies':>8} {'format %':>8} {'names':>8} {'invented/100':>12}"
         f" {'none %':>8} {'ms':>8}"
     )
     everything = report_real(given_.cache)
