@@ -147,8 +147,9 @@ def test_a_real_server_that_dies_in_the_middle_of_its_reply_fails_in_words(
 
     async def noted(response: httpx2.Response) -> AsyncIterator[dict[str, Any]]:
         async for chunk in chunks(response):
-            begun.set()
             yield chunk
+            if chunk["choices"][0]["delta"].get("content"):
+                begun.set()
 
     monkeypatch.setattr(server, "_chunks", noted)
     with socket.socket() as free:
