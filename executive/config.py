@@ -45,6 +45,7 @@ class Settings(BaseSettings):
         default_factory=dict, description="where things truly are, beside the home file"
     )
     world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
+    fault: tuple[str, ...] = Field((), description="what goes wrong in the simulated world")
     seed: int = Field(0, ge=0, description="of the world, the model and the simulated person")
     memory: Path | None = Field(
         None, description="SQLite file of what was seen and said; without, this session only"

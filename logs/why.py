@@ -7,6 +7,7 @@ was taken, those before it failed and said why, those after it were not needed.
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from heapq import merge
 
 from executive.records import LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
 from executive.types import Scored
@@ -15,6 +16,8 @@ from logs.reader import At, Run
 SOURCES = {"Ontology": "ontology", "Rank": "llm", "Adopt": "llm", "Ask": "user"}
 """Who speaks through a behaviour whose class name begins so."""
 
+WORLD = "world"
+"""Whose doing an ordered fault is."""
 NOT_NEEDED = "not needed"
 
 
@@ -34,7 +37,7 @@ class Decision:
         time_s: mission time at which it was settled.
         question: what was to be settled, as the tree names it.
         answer: what came of it.
-        source: `person`, `ontology`, `llm`, `user` or `eyes`; empty where the tree itself decides.
+        source: `person`, `ontology`, `llm`, `user`, `eyes` or `world`; empty where the tree itself decides.
         by: the behaviour that settled it.
         alternatives: what was not taken.
     """
@@ -48,8 +51,12 @@ class Decision:
 
 
 def why(run: Run) -> list[Decision]:
-    """Every decision of a mission, in order, up to how it ended."""
-    decisions = list(_Chain(run).decisions())
+    """Every decision of a mission, in order, up to how it ended; and what went wrong by order."""
+    ordered = (
+        Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
+        for at in run.mishaps()
+    )
+    decisions = list(merge(_Chain(run).decisions(), ordered, key=lambda d: d.time_s))
     outcome = run.outcome()
     if outcome is not None:
         ending = outcome.reason or outcome.status

@@ -20,6 +20,12 @@ CLEAR_M = 0.06
 HEADROOM_M = 0.05
 DROP_M = 0.002
 """How far above the surface a thing is let go."""
+_SHIFTED_M = 0.03
+"""A thing may slide this far when it is let go."""
+_FLAT_M = 0.012
+"""Lower than this above a surface, the camera does not tell a thing from it."""
+_UPRIGHT_M = 0.015
+"""What stands is as high as it should be, but for this and a tenth of it."""
 _STEP_M = 0.04
 _FEW_POINTS = 3
 _TURNS = (0.0, np.pi, np.pi / 2, -np.pi / 2)
@@ -51,6 +57,25 @@ def free_spots(piece: Furniture, model: ObjectModel, seen: Floats) -> Iterator[P
                         surface.center[2] + DROP_M,
                     )
                     yield _pose(piece, spot, turn)
+
+
+def stands(model: ObjectModel, spot: Pose, seen: Floats) -> str | None:
+    """What is wrong with a thing that was put down at `spot`; None if it stands there.
+
+    Args:
+        model: what was put down.
+        spot: where, in `map`.
+        seen: points (n, 3) in `map` that the depth camera sees now.
+    """
+    x, y, z = spot.position
+    reach = max(model.size[:2]) / 2 + _SHIFTED_M
+    near = np.hypot(seen[:, 0] - x, seen[:, 1] - y) < reach
+    heights = seen[near & (seen[:, 2] > z + _FLAT_M), 2] - z
+    if len(heights) < _FEW_POINTS:
+        return None if model.size[2] < 2 * _FLAT_M else "is not where I put it"
+    if abs(float(np.quantile(heights, 0.99)) - model.size[2]) > _UPRIGHT_M + 0.1 * model.size[2]:
+        return "fell over"
+    return None
 
 
 def _outline(model: ObjectModel, turn: float) -> tuple[Floats, Floats]:
