@@ -62,10 +62,18 @@ class Situation:
     visited: list[str] = field(default_factory=list)
     unreached: dict[str, str] = field(default_factory=dict)
     """Places that the robot could not get to, and why."""
+    unseen: dict[str, str] = field(default_factory=dict)
+    """Places that the robot got to but could not look at, and why."""
     detection: Detection | None = None
     """The thing, as last seen."""
     found: Candidate | None = None
     """Where the thing was seen."""
+    gone: bool = False
+    """Whether the thing was seen, and then was there no more."""
+    lost: str = ""
+    """What happened to the thing that fell from the hand, as a clause; empty if it did not."""
+    spot: str = ""
+    """Where the robot looks for what fell from its hand."""
     away: bool = False
     """Whether the robot has left the person."""
     inquiries: int = 0
@@ -111,9 +119,9 @@ class Situation:
     def search_so_far(self) -> str:
         """Where the thing was looked for in vain, as a clause; empty if nowhere."""
         clauses = []
-        if self.visited:
-            seen = ", ".join(dict.fromkeys(self.visited))
-            clauses.append(f"I did not find the {self.object} at {seen}")
+        if seen := [place for place in dict.fromkeys(self.visited) if place not in self.unseen]:
+            clauses.append(f"I did not find the {self.object} at {', '.join(seen)}")
+        clauses += [f"I could not look at {place}: {why}" for place, why in self.unseen.items()]
         clauses += [f"I could not get to {place}: {why}" for place, why in self.unreached.items()]
         return "; ".join(clauses)
 
@@ -130,8 +138,11 @@ class Situation:
             "view": self.view,
             "visited": list(self.visited),
             "unreached": dict(self.unreached),
+            "unseen": dict(self.unseen),
             "sighting": list(self.detection.position or ()) if self.detection else None,
             "found": asdict(self.found) if self.found else None,
+            "gone": self.gone,
+            "lost": self.lost,
             "inquiries": self.inquiries,
             "llm_calls": self.llm_calls,
             "status": self.status,

@@ -133,7 +133,10 @@ class DriveTo:
 
 @dataclass(frozen=True, slots=True)
 class LookAt:
-    """Point the head at a place or `delivery`; `view` counts from 0 to `Robot.views(place) - 1`."""
+    """Point the head at a place, `delivery` or the `floor`.
+
+    `view` counts from 0 to `Robot.views(place) - 1`.
+    """
 
     place: str
     view: int = 0

@@ -37,7 +37,8 @@ class Decision:
         time_s: mission time at which it was settled.
         question: what was to be settled, as the tree names it.
         answer: what came of it.
-        source: `person`, `ontology`, `llm`, `user`, `eyes` or `world`; empty where the tree itself decides.
+        source: `person`, `ontology`, `llm`, `user`, `eyes` or `world`; empty where the tree itself
+            decides.
         by: the behaviour that settled it.
         alternatives: what was not taken.
     """

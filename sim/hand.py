@@ -24,7 +24,7 @@ _WEIGHT_FELT = 0.5
 
 
 class LostError(CannotError):
-    """What was in the hand fell out of it on the way."""
+    """What was in the hand fell out of it on the way, or fell over when it was put down."""
 
 
 @dataclass(frozen=True, slots=True)

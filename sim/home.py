@@ -40,6 +40,8 @@ STAND_OFF_M = 0.62
 """From the front edge of a piece of furniture to the middle of the robot that uses it."""
 TALKING_DISTANCE_M = 0.9
 """From the middle of the person to the middle of the robot that talks to them."""
+FLOOR_VIEWS = 5
+"""How many looks it takes to see the floor all around the robot."""
 FACE_HEIGHT_M = 1.55
 LARGEST_M = 200.0
 """A home that is longer was not meant in metres."""

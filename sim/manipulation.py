@@ -16,7 +16,7 @@ from sim.arm import SLOW, follow
 from sim.clutter import CELL_M, Column, columns
 from sim.driving import CREEPING, drive
 from sim.grasps import TILTS, Grasp, HandPose, find_grasps
-from sim.hand import Hand, Held
+from sim.hand import Hand, Held, LostError
 from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
 from sim.home import Furniture, Home
 from sim.looking import look_at
@@ -244,7 +244,7 @@ class Manipulator:
         yield from look_at(self._hardware, spot.position)
         fault = stands(model, spot, self._scan())
         if fault:
-            raise CannotError(f"the {model.name} {fault} on the {piece.name}")
+            raise LostError(f"the {model.name} {fault} on the {piece.name}")
 
     # --- helpers ---
 

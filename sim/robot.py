@@ -21,7 +21,7 @@ from sim.arm import hold
 from sim.driving import CARRYING, FREE, brake
 from sim.hand import LostError
 from sim.hardware import Hardware
-from sim.home import PERSON, Home
+from sim.home import FLOOR_VIEWS, PERSON, Home
 from sim.looking import look_at
 from sim.manipulation import Manipulator
 from sim.navigation import Unreachable
@@ -64,7 +64,7 @@ class SimulatedRobot:
 
     def views(self, place: str) -> int:
         """How many head poses it takes to see all of a place."""
-        return len(FLOOR_PANS) if place == FLOOR else len(self._home.view_targets(place))
+        return FLOOR_VIEWS if place == FLOOR else len(self._home.view_targets(place))
 
     def start(self, goal: Goal) -> int:
         """Pursue a goal; ends Succeeded, or Failed with a reason."""
@@ -163,7 +163,7 @@ class SimulatedRobot:
         x, y, yaw = self.base_pose
         return [
             (x + FLOOR_AHEAD_M * math.cos(yaw + pan), y + FLOOR_AHEAD_M * math.sin(yaw + pan), 0.0)
-            for pan in FLOOR_PANS
+            for pan in FLOOR_PANS[:FLOOR_VIEWS]
         ]
 
     def _put_down(self, place: str) -> Skill:

@@ -1,11 +1,22 @@
 """Do what was asked with the thing that was found: find, take or bring."""
 
-from py_trees.behaviour import Behaviour
+from collections.abc import Iterator
 
-from executive.types import DELIVERY, Kind
-from trees.nodes import Check, fallback, sequence
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.types import DELIVERY, FLOOR, Kind
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Report
-from trees.robot import DriveBack, DriveToCandidate, LookAtCandidate, PickUp, PutDownAt, SeeTarget
+from trees.robot import (
+    DriveBack,
+    DriveToCandidate,
+    LookForLost,
+    PickUp,
+    PutDownAt,
+    SeeLost,
+)
+from trees.search import look_over, search
 from trees.team import Team
 
 
@@ -37,23 +48,107 @@ def act(team: Team) -> Behaviour:
             "bring",
             asked_to(Kind.BRING),
             grasp(team),
-            DriveBack("carry", team, DELIVERY),
-            PutDownAt("put down", team, DELIVERY),
+            deliver(team),
             Report("report", team, "Here is the {object} from {place}."),
         ),
     )
 
 
 def grasp(team: Team) -> Behaviour:
-    """Pick it up; after a miss, look again and try once more."""
+    """Pick it up; after a miss look again and try another approach; if it is gone, search again."""
+    situation = team.situation
+    more_tries = [f"try {number}" for number in range(2, team.rules.grasps + 1)]
     return fallback(
         "grasp",
         PickUp("pick", team),
+        FirstOf(
+            "try again",
+            lambda: more_tries,
+            lambda _: None,
+            sequence(
+                "another approach",
+                Check("it was there", team, lambda: not situation.gone),
+                DriveToCandidate("return", team),
+                look_over(team),
+                PickUp("pick", team),
+            ),
+        ),
         sequence(
-            "second try",
-            DriveToCandidate("return", team),
-            LookAtCandidate("aim", team),
-            SeeTarget("see", team),
+            "search again",
+            Check("it is gone", team, lambda: situation.gone),
+            ForgetSighting("begin anew", team),
+            search(team),
             PickUp("pick", team),
         ),
     )
+
+
+def deliver(team: Team) -> Behaviour:
+    """Carry it and put it down; what falls on the way, or falls over there, is picked up once."""
+    return sequence(
+        "deliver",
+        fallback(
+            "bring it there",
+            DriveBack("carry", team, DELIVERY),
+            sequence(
+                "after a fall",
+                pick_up_again(team, FLOOR),
+                DriveBack("carry", team, DELIVERY),
+            ),
+            SayItFell("it fell", team),
+        ),
+        fallback(
+            "leave it there",
+            PutDownAt("put down", team, DELIVERY),
+            sequence(
+                "after a fall",
+                pick_up_again(team, DELIVERY, FLOOR),
+                PutDownAt("put down", team, DELIVERY),
+            ),
+            SayItFell("it fell", team),
+        ),
+    )
+
+
+def pick_up_again(team: Team, *spots: str) -> Behaviour:
+    """Look for what fell from the hand at these spots, and pick it up."""
+    situation = team.situation
+
+    def views() -> Iterator[tuple[str, int]]:
+        return ((spot, view) for spot in spots for view in range(team.robot.views(spot)))
+
+    def choose(look: tuple[str, int]) -> None:
+        situation.spot, situation.view = look
+
+    return sequence(
+        "pick it up again",
+        Check("it fell", team, lambda: bool(situation.lost)),
+        FirstOf(
+            "look around",
+            views,
+            choose,
+            sequence("glance", LookForLost("aim", team), SeeLost("see", team)),
+        ),
+        PickUp("pick", team),
+    )
+
+
+class ForgetSighting(Step):
+    """The thing is no longer where it was seen."""
+
+    def update(self) -> Status:
+        """Begin the search anew."""
+        self.situation.detection = self.situation.found = None
+        self.situation.gone = False
+        return Status.SUCCESS
+
+
+class SayItFell(Step):
+    """Says that the thing fell, and why it could not be picked up; always fails."""
+
+    def update(self) -> Status:
+        """Put both clauses together, if there are two."""
+        lost, why = self.situation.lost, self.situation.reason
+        if not lost or lost == why:
+            return self.fail(why)
+        return self.fail(f"{lost}, and {why}")
