@@ -159,8 +159,8 @@ class FakeRobot:
         match goal:
             case DriveTo(place):
                 return self._drive(place)
-            case LookAt(place):
-                return LOOK_S, lambda: self._look(place)
+            case LookAt(place, view):
+                return LOOK_S, lambda: self._look(place, view)
             case Pick(detection):
                 return PICK_S, lambda: self._pick(detection.label)
             case PutDown(place):
@@ -184,7 +184,9 @@ class FakeRobot:
 
         return distance / SPEED_M_S, arrive
 
-    def _look(self, place: str) -> Result:
+    def _look(self, place: str, view: int) -> Result:
+        if not 0 <= view < self.views(place):
+            return Failed(f"there is only one view of the {place}")
         if place not in (self._world.at, FLOOR):
             return Failed(f"I am not at the {place}")
         self._world.looking_at = place

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
 from sim.clutter import CELL_M, Column, columns
-from sim.driving import CREEPING, drive
+from sim.driving import CREEPING, RADIUS_M, drive
 from sim.grasps import TILTS, Grasp, HandPose, find_grasps
 from sim.hand import Hand, Held, LostError
 from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
@@ -182,6 +182,8 @@ class Manipulator:
                 way = length * grasp.hand.approach
                 if plan_reach(self._planning, stance[-1], FOLDED, grasp.hand, way):
                     return grasp, way, stance
+        if stances and not any(grasps(float(stances[0][-1][2]), tilt) for tilt in TILTS):
+            raise CannotError(f"I cannot grasp the {model.name} as it lies")
         raise CannotError(f"I cannot reach the {model.name}")
 
     def _grasp(self, thing: Held, grasp: Grasp, way: Floats) -> Skill:
@@ -290,9 +292,12 @@ class Manipulator:
             stand = self._home.stand(piece.name)
             if np.hypot(stand[0] - x, stand[1] - y) < _BEFORE_M and piece.is_below(tuple(middle)):
                 return piece
-        if middle[2] < _ON_FLOOR_M and np.hypot(middle[0] - x, middle[1] - y) < _NEAR_M:
-            return None
-        raise CannotError("it is out of my reach")
+        away = np.hypot(middle[0] - x, middle[1] - y)
+        if away < RADIUS_M:
+            raise CannotError("it lies on my own base")
+        if middle[2] > _ON_FLOOR_M or away > _NEAR_M:
+            raise CannotError("it is out of my reach")
+        return None
 
     def _has_missed(self, model: ObjectModel, grasp: Grasp) -> bool:
         """Whether the thing was missed with the hand turned like this."""
