@@ -12,8 +12,10 @@ from dataclasses import KW_ONLY, dataclass
 from typing import ClassVar, Self
 
 from executive.errors import InputError
+from executive.types import Pose
 from sim.floorplan import doors_between
 from sim.home import DELIVERY, Home
+from sim.spots import NoRoomError, Spot
 
 JOINTS = ("lift", *(f"joint{i}" for i in range(1, 8)))
 """What can be stuck, in the order of `sim.hardware.ARM`."""
@@ -124,9 +126,19 @@ class Moved(Fault):
         if self.place not in places:
             raise ValueError(f"there is no {self.place} in this home; there is {_of(places)}")
         try:
-            home.with_placement({self.thing: self.place})
-        except InputError as error:
-            raise ValueError(str(error).removeprefix("--place: ")) from None
+            self.pose(home)
+        except NoRoomError as error:
+            raise ValueError(str(error)) from None
+
+    def pose(self, home: Home) -> Pose:
+        """Where the thing is put, in `map`: on a spot that none of the others has at the start.
+
+        Raises:
+            NoRoomError: if there is none.
+        """
+        others = {name: spot for name, spot in home.objects.items() if name != self.thing}
+        objects = {**others, self.thing: Spot(furniture=self.place)}
+        return home.model_copy(update={"objects": objects}).object_pose(self.thing)
 
 
 @dataclass(frozen=True, slots=True)

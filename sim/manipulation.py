@@ -21,7 +21,7 @@ from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
 from sim.home import Furniture, Home
 from sim.looking import look_at
 from sim.objects import ObjectModel
-from sim.placing import free_spots, stands
+from sim.placing import FLAT_M, free_spots, stands
 from sim.planning import PlanningWorld
 from sim.reaching import (
     Reach,
@@ -97,6 +97,8 @@ class Manipulator:
         model = self._model_of(detection)
         points = np.asarray(detection.points, dtype=np.float64)
         piece = self._furniture_below(points)
+        if piece is None:
+            points = yield from self._look_closely(model, points)
         model, pose = locate_fallen(model, points, _support(piece, points))
         grasp, way, stance = self._choose_grasp(model, pose, points, piece)
         yield from self._creep(stance)
@@ -160,6 +162,17 @@ class Manipulator:
         if len(detection.points) < FEWEST_POINTS:
             raise CannotError(f"I could not see the {name} well enough")
         return self._models[name]
+
+    def _look_closely(self, model: ObjectModel, points: Floats) -> Generator[None, None, Floats]:
+        """Turn to what lies on the floor and look; return all that rises there, if it is more."""
+        x, y, z = (float(value) for value in np.median(points, axis=0))
+        here = self._hardware.base_pose
+        yield from self._creep([np.append(here[:2], np.arctan2(y - here[1], x - here[0]))])
+        yield from look_at(self._hardware, (x, y, z))
+        seen = self._scan()
+        near = np.hypot(seen[:, 0] - x, seen[:, 1] - y) < max(model.size)
+        closely = seen[near & (seen[:, 2] > FLAT_M)]
+        return closely if len(closely) > len(points) else points
 
     def _choose_grasp(
         self, model: ObjectModel, pose: Pose, points: Floats, piece: Furniture | None

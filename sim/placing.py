@@ -22,7 +22,7 @@ DROP_M = 0.002
 """How far above the surface a thing is let go."""
 _SHIFTED_M = 0.03
 """A thing may slide this far when it is let go."""
-_FLAT_M = 0.012
+FLAT_M = 0.012
 """Lower than this above a surface, the camera does not tell a thing from it."""
 _UPRIGHT_M = 0.015
 """What stands is as high as it should be, but for this and a tenth of it."""
@@ -70,9 +70,9 @@ def stands(model: ObjectModel, spot: Pose, seen: Floats) -> str | None:
     x, y, z = spot.position
     reach = max(model.size[:2]) / 2 + _SHIFTED_M
     near = np.hypot(seen[:, 0] - x, seen[:, 1] - y) < reach
-    heights = seen[near & (seen[:, 2] > z + _FLAT_M), 2] - z
+    heights = seen[near & (seen[:, 2] > z + FLAT_M), 2] - z
     if len(heights) < _FEW_POINTS:
-        return None if model.size[2] < 2 * _FLAT_M else "is not where I put it"
+        return None if model.size[2] < 2 * FLAT_M else "is not where I put it"
     if abs(float(np.quantile(heights, 0.99)) - model.size[2]) > _UPRIGHT_M + 0.1 * model.size[2]:
         return "fell over"
     return None

@@ -84,7 +84,7 @@ class Poltergeist:
         body = self._bodies[fault.thing]
         if body in self._hardware.touched():
             return f"the robot has the {fault.thing}: it stays"
-        pose = self._home.with_placement({fault.thing: fault.place}).object_pose(fault.thing)
+        pose = fault.pose(self._home)
         offset = self._client.getDynamicsInfo(body, -1)[3]
         middle = Rotation.from_quat(pose.orientation).apply(offset) + pose.position
         self._client.resetBasePositionAndOrientation(body, middle, pose.orientation)
