@@ -108,17 +108,17 @@ def _rim(pose: Floats, velocity: Floats) -> Floats:
 
 
 class _Progress:
-    """Notices when neither the way nor the turn that is left gets shorter."""
+    """Notices when the way that is left gets no shorter and the robot does not turn either."""
 
     def __init__(self) -> None:
-        self._way, self._turn, self._since = np.inf, np.inf, 0.0
+        self._way, self._turn, self._since = np.inf, 0.0, 0.0
 
     def stuck(self, way: float, turn: float) -> bool:
         """Whether there was no progress for a while; called once per control period."""
         self._since += CONTROL_S
         if way < self._way - _STUCK_DISTANCE:
             self._way, self._since = way, 0.0
-        if turn < self._turn - _STUCK_ANGLE:
+        if abs(turn - self._turn) > _STUCK_ANGLE:
             self._turn, self._since = turn, 0.0
         return self._since > _STUCK_S
 

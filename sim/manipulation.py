@@ -171,7 +171,9 @@ class Manipulator:
         yield from look_at(self._hardware, (x, y, z))
         seen = self._scan()
         near = np.hypot(seen[:, 0] - x, seen[:, 1] - y) < max(model.size)
-        closely = seen[near & (seen[:, 2] > FLAT_M)]
+        rises = (seen[:, 2] > FLAT_M) & (seen[:, 2] < max(model.size) + FLAT_M)
+        mine = np.hypot(*(seen[:, :2] - self._hardware.base_pose[:2]).T) < RADIUS_M + FLAT_M
+        closely = seen[near & rises & ~mine]
         return closely if len(closely) > len(points) else points
 
     def _choose_grasp(

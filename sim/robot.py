@@ -26,10 +26,12 @@ from sim.looking import look_at
 from sim.manipulation import Manipulator
 from sim.navigation import Unreachable
 from sim.navigator import Navigator
-from sim.skill import CannotError, Skill
+from sim.skill import CannotError, Skill, pause
 
 FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
 """Where the robot looks for what fell to the floor: to the left of where it faces (radians)."""
+ROLLING_S = 1.5
+"""How long the robot waits for what fell to come to rest before it says so."""
 FLOOR_AHEAD_M = 0.9
 """How far from its middle."""
 
@@ -144,6 +146,7 @@ class SimulatedRobot:
                 yield
         except LostError:
             yield from brake(self._hardware)
+            yield from pause(ROLLING_S)
             raise
         except Unreachable as reason:
             raise CannotError(reason.clause(place)) from reason
