@@ -40,6 +40,10 @@ _NEXT_BIT = np.arange(0.0, 0.3, 0.01)
 """Lengths of path ahead (metres) among which the nearest point to the robot is looked for."""
 _FACE_TRAVEL_BEYOND = 0.9
 """Farther than this from the end (metres), the robot faces where it goes."""
+_OFF_THE_WAY_M = 0.03
+"""How far it may swing out in a corner (metres)."""
+_CORNER_M = 0.12
+"""So far before and after a corner it is taken slowly (metres)."""
 _CHECKED_M = 0.1
 _STUCK_S = 1.5
 _STUCK_DISTANCE, _STUCK_ANGLE = 0.02, 0.03
@@ -132,6 +136,7 @@ class _Follower:
         self._limits = limits
         self._lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
         self._ends = np.concatenate(([0.0], np.cumsum(self._lengths)))
+        self._corner_speeds = _corner_speeds(points, limits.acceleration)
         self._done = 0.0
         self._command = np.zeros(3)
 
@@ -162,13 +167,22 @@ class _Follower:
             left = distance
         limits, wanted = self._limits, np.zeros(3)
         if distance > 1e-6:
-            wanted[:2] = toward / distance * _slowing(left, limits.speed, limits.acceleration)
+            fastest = min(limits.speed, self._before_corners())
+            wanted[:2] = toward / distance * _slowing(left, fastest, limits.acceleration)
         turn = _turn(pose[2], self._heading(toward, left))
         wanted[2] = np.sign(turn) * _slowing(abs(turn), limits.turn_rate, limits.turn_acceleration)
         self._command = _toward(
             self._command, wanted, limits.acceleration, limits.turn_acceleration
         )
         return self._command
+
+    def _before_corners(self) -> float:
+        """The speed (m/s) from which one can still slow down for the corners that are ahead."""
+        ways = self._ends[1:-1] - self._done
+        near = ways > -_CORNER_M
+        ways = (ways[near] - _CORNER_M).clip(min=0.0)
+        squares = self._corner_speeds[near] ** 2 + 1.6 * self._limits.acceleration * ways
+        return float(np.sqrt(squares.min(initial=np.inf)))
 
     def _heading(self, toward: Floats, left: float) -> float:
         if left > _FACE_TRAVEL_BEYOND:
@@ -183,6 +197,16 @@ class _Follower:
 
     def _at(self, length: float) -> Floats:
         return np.array([np.interp(length, self._ends, axis) for axis in self._points.T])
+
+
+def _corner_speeds(points: Floats, acceleration: float) -> Floats:
+    """How fast (m/s) each corner between the ends can be taken without leaving the way too far."""
+    ways = np.diff(points, axis=0)
+    headings = np.arctan2(ways[:, 1], ways[:, 0])
+    turns = np.abs(np.remainder(np.diff(headings) + np.pi, 2 * np.pi) - np.pi)
+    sharpness = np.sin(turns / 2).clip(min=1e-3)
+    speeds: Floats = np.sqrt(2 * acceleration * _OFF_THE_WAY_M) / sharpness
+    return speeds
 
 
 def _slowing(distance: float, fastest: float, deceleration: float) -> float:

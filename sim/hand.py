@@ -29,19 +29,30 @@ class LostError(CannotError):
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """What is in the hand: its pose in the hand's frame, and how far the hand opens for it."""
+    """What is in the hand.
+
+    Attributes:
+        model: the thing, as it lay.
+        position: of its frame in the hand's frame (metres).
+        rotation: of its frame in the hand's frame.
+        gap: how far the hand opens for it (metres).
+        turn: how it was turned, seen by one who faced the robot that took it (radians).
+    """
 
     model: ObjectModel
     position: Floats
     rotation: Rotation
     gap: float
+    turn: float
 
     @staticmethod
-    def taken(model: ObjectModel, pose: Pose, grasp: Grasp) -> "Held":
-        """The thing at `pose` in `map`, taken by this grasp."""
+    def taken(model: ObjectModel, pose: Pose, grasp: Grasp, facing: float) -> "Held":
+        """The thing at `pose` in `map`, taken by this grasp of a robot that faced this yaw."""
         to_hand = grasp.hand.rotation.inv()
         offset = to_hand.apply(np.asarray(pose.position) - grasp.hand.position)
-        return Held(model, offset, to_hand * Rotation.from_quat(pose.orientation), grasp.gap)
+        rotation = Rotation.from_quat(pose.orientation)
+        turn = float(rotation.as_euler("ZYX")[0]) - facing + np.pi
+        return Held(model, offset, to_hand * rotation, grasp.gap, turn)
 
     def hand_for(self, pose: Pose) -> HandPose:
         """Where the hand must be for the thing to be at `pose` in `map`."""

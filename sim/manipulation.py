@@ -53,6 +53,8 @@ _CLOSING_S = 2.0
 _ALIKE = np.radians(30.0)
 """Grasps whose hands are turned by less are the same approach."""
 _SETTLING_S = 0.3
+_UPRIGHT = 0.99
+"""Cosine of the tilt up to which a hand points down."""
 _DOWN = np.array([0.0, 0.0, -1.0])
 _CARRY_TURNS = (FOLDED[7] + np.pi / 2, FOLDED[7] - np.pi / 2)
 """Values of the last joint that put the long side of a held thing across the robot (radians)."""
@@ -103,7 +105,8 @@ class Manipulator:
         grasp, way, stance = self._choose_grasp(model, pose, points, piece)
         yield from self._creep(stance)
         tare = yield from self.hand.weigh()
-        failure = yield from attempt(self._grasp(Held.taken(model, pose, grasp), grasp, way))
+        taken = Held.taken(model, pose, grasp, float(stance[-1][2]))
+        failure = yield from attempt(self._grasp(taken, grasp, way))
         self._planning.forget_target()
         yield from self.stow()
         failure = failure or (yield from attempt(self._check_lifted(model, tare)))
@@ -123,9 +126,9 @@ class Manipulator:
             self.hand.take(None)
             raise CannotError("my hand is empty")
         piece = self._home.furniture_named(place)
-        target, stance = yield from self._choose_spot(held, piece)
+        target, way, stance = yield from self._choose_spot(held, piece)
         yield from self._creep(stance)
-        failure = yield from attempt(self._release(held.hand_for(target), held.gap))
+        failure = yield from attempt(self._release(held.hand_for(target), way, held.gap))
         yield from self.stow()
         if failure:
             raise failure
@@ -230,24 +233,28 @@ class Manipulator:
 
     def _choose_spot(
         self, held: Held, piece: Furniture
-    ) -> Generator[None, None, tuple[Pose, list[Floats]]]:
-        """Look, then choose where to put the thing, and the way to where to stand for it."""
+    ) -> Generator[None, None, tuple[Pose, Floats, list[Floats]]]:
+        """Look, then choose where to put the thing.
+
+        Returns:
+            The spot, the last straight way of the hand to it, and the way to where to stand.
+        """
         yield from look_at(self._hardware, self._home.view_targets(piece.name)[0])
-        way = APPROACH_M[0] * _DOWN
         carrying = self._hardware.arm_positions
         self._mind_clutter(piece, np.empty((0, 3)))
-        spots = list(free_spots(piece, held.model, self._scan()))
+        spots = list(free_spots(piece, held.model, self._scan(), held.turn))
         for spot in spots[:_SPOTS_TRIED]:
-            for stance in self._stances(piece, np.asarray(spot.position)):
-                hand = held.hand_for(spot)
+            hand = held.hand_for(spot)
+            stances = self._stances(piece, np.asarray(spot.position))
+            for stance, way in product(stances, _ways_to_put(hand)):
                 if plan_reach(self._planning, stance[-1], carrying, hand, way):
-                    return spot, stance
+                    return spot, way, stance
         clause = "I cannot reach a free spot on" if spots else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
 
-    def _release(self, hand: HandPose, gap: float) -> Skill:
+    def _release(self, hand: HandPose, way: Floats, gap: float) -> Skill:
         hardware = self._hardware
-        reach = self._reach(hand, APPROACH_M[0] * _DOWN, "I cannot reach a free spot")
+        reach = self._reach(hand, way, "I cannot reach a free spot")
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
         hardware.open_fingers(gap)
@@ -320,6 +327,12 @@ class Manipulator:
             name == model.name and (rotation.inv() * grasp.hand.rotation).magnitude() < _ALIKE
             for name, rotation in self._missed
         )
+
+
+def _ways_to_put(hand: HandPose) -> list[Floats]:
+    """Last straight ways of the hand with a thing: from above, or the way a tilted hand points."""
+    directions = [_DOWN] if hand.approach @ _DOWN > _UPRIGHT else [hand.approach, _DOWN]
+    return [length * direction for direction, length in product(directions, APPROACH_M)]
 
 
 def _support(piece: Furniture | None, points: Floats) -> float:

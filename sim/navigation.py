@@ -20,11 +20,11 @@ Slices = tuple[slice, slice]
 
 FOOTPRINT_M = 0.33
 """Radius of the robot, seen from above."""
-COMFORT_M = 0.55
+COMFORT_M = 0.5
 """With this much room around its middle the robot is at ease; less costs extra."""
 FAR_M = 1.0
 """What is farther away than this does not matter."""
-DISCOMFORT = 6.0
+DISCOMFORT = 4.0
 """How much dearer a metre is where the robot just fits."""
 PERSON_RADIUS_M = 0.25
 SLACK = 1.02

@@ -1,7 +1,8 @@
-"""Random drives in physics: `python tests/benchmarks/bench_driving.py`. Ctrl-C stops, and it goes on.
+"""Random drives in physics: `python tests/benchmarks/bench_driving.py`; Ctrl-C stops it.
 
-From a random free spot of a home to another. Counts contacts of the robot with anything but the floor
-(every control period), and compares the way driven with the shortest on the grid.
+From a random free spot of a home to another. Counts contacts of the robot with anything but the
+floor (every control period), and compares the way driven with the shortest on the grid. The same
+command goes on where it was stopped.
 """
 
 import argparse
@@ -132,9 +133,10 @@ def main() -> None:
         done = [row for row in rows if not row["failure"]]
         ratios = np.array([row["driven_m"] / row["shortest_m"] for row in done])
         touched = sum(bool(row["touched"]) for row in rows)
+        print(f"{name}: {len(done)} of {len(rows)} drives arrived, {touched} touched something")
         print(
-            f"{name}: {len(done)} of {len(rows)} drives arrived, {touched} touched something; way driven / shortest on the grid: mean {ratios.mean():.3f}, "
-            f"95 % below {np.quantile(ratios, 0.95):.3f}, most {ratios.max():.3f}; "
+            f"  way driven / shortest on the grid: mean {ratios.mean():.3f}, 95 % below "
+            f"{np.quantile(ratios, 0.95):.3f}, most {ratios.max():.3f}; "
             f"{sum(ratios > LONGEST)} above {LONGEST}"
         )
         for row in rows:
