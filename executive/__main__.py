@@ -153,6 +153,7 @@ def parser() -> argparse.ArgumentParser:
     )
     option("--world", choices=["physics", "fake"])
     option("--fault", action="append", metavar="FAULT[=VALUE][@FROM[-TO]]")
+    option("--ycb", type=Path, metavar="DIR")
     option("--seed", type=int, metavar="N")
     option("--memory", type=Path, metavar="FILE")
     p.add_argument(

@@ -50,6 +50,7 @@ from sim.faulty_fake import FaultyFakeRobot
 from sim.home import Home, home_text, load_home
 from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
 from sim.objects import load_objects
+from sim.ycb import with_scans
 from trees.mission import mission
 from trees.team import Team
 from trees.tree import MissionTree
@@ -279,9 +280,10 @@ def build_simulation(
     else:
         from sim.world import PhysicsWorld
 
+        models = load_objects()
         world = physics = PhysicsWorld(
             home,
-            load_objects(),
+            with_scans(models, settings.ycb) if settings.ycb else models,
             inbox,
             recorder,
             seed=settings.seed,

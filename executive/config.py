@@ -46,6 +46,9 @@ class Settings(BaseSettings):
     )
     world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
     fault: tuple[str, ...] = Field((), description="what goes wrong in the simulated world")
+    ycb: Path | None = Field(
+        None, description="folder of YCB models to see instead of the packaged meshes"
+    )
     seed: int = Field(0, ge=0, description="of the world, the model and the simulated person")
     memory: Path | None = Field(
         None, description="SQLite file of what was seen and said; without, this session only"

@@ -121,12 +121,14 @@ class PhysicsWorld:
         self._client.disconnect()
 
     def describe(self) -> None:
-        """Record the whole scene and where everything is."""
+        """Record the whole scene, where everything is, and what the camera sees from the start."""
         extra = self._poltergeist.entities() if self._poltergeist else ()
         robot = robot_entities(describe_robot())
         entities = (*home_entities(self._home, self._models), *extra, *robot)
         self._recorder.record(Scene(entities))
         self._recorder.record(Transforms(self._frames.all()))
+        if self._picture_every:
+            self._recorder.record(Picture(self.camera.capture()))
 
     def resting_place(self, name: str) -> str | None:
         """The furniture that an object rests on, by the simulator's truth; None if on none."""

@@ -41,8 +41,8 @@ CASES = [
     Case(
         "a thing moved while the robot reaches for it is searched again",
         "Bring a hammer.",
-        ("moved=hammer:desk@8",),
-        location="desk",
+        ("moved=hammer:sideboard@8",),
+        location="sideboard",
         source=Source.USER,
         inquiries=1,
         ends_at="delivery",
@@ -50,7 +50,7 @@ CASES = [
     Case(
         "a thing that the robot has is not moved",
         "Bring a hammer.",
-        ("moved=hammer:desk@20",),
+        ("moved=hammer:sideboard@20",),
         ends_at="delivery",
     ),
     Case(
