@@ -197,10 +197,17 @@ def _visits(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
     for lost, why_not in (now.get("unreached") or {}).items():
         if lost not in (was.get("unreached") or {}):
             yield Decision(at.time_s, f"look at {lost}", f"not reached: {why_not}", "", tip)
-    if now.get("found") and not was.get("found"):
-        yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
-    elif not now.get("found") and place in (was.get("visited") or ()) and _is_left(was, now, at):
+    if now.get("found"):
+        if not was.get("found"):
+            yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
+    elif _was_looking(before) and place in (was.get("visited") or ()) and _is_left(was, now, at):
         yield Decision(at.time_s, f"look at {place}", "not seen there", "eyes", tip)
+
+
+def _was_looking(at: At[Tick]) -> bool:
+    """Whether the robot was at a place to look for the thing, or to look for it once more."""
+    looks = ("/go and look", "/another approach")
+    return any(node.status == "RUNNING" and node.path.endswith(looks) for node in at.value.nodes)
 
 
 def _is_left(was: dict[str, object], now: dict[str, object], at: At[Tick]) -> bool:

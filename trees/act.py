@@ -55,11 +55,25 @@ def act(team: Team) -> Behaviour:
 
 
 def grasp(team: Team) -> Behaviour:
-    """Pick it up; after a miss look again and try another approach; if it is gone, search again."""
-    situation = team.situation
-    more_tries = [f"try {number}" for number in range(2, team.rules.grasps + 1)]
+    """Get hold of it; if it is gone, search it again."""
     return fallback(
         "grasp",
+        get_hold(team),
+        sequence(
+            "search again",
+            Check("it is gone", team, lambda: team.situation.gone),
+            ForgetSighting("begin anew", team),
+            search(team),
+            get_hold(team),
+        ),
+    )
+
+
+def get_hold(team: Team) -> Behaviour:
+    """Pick it up; after a miss look again and try another approach, as long as it is there."""
+    more_tries = [f"try {number}" for number in range(2, team.rules.grasps + 1)]
+    return fallback(
+        "get hold",
         PickUp("pick", team),
         FirstOf(
             "try again",
@@ -67,18 +81,11 @@ def grasp(team: Team) -> Behaviour:
             lambda _: None,
             sequence(
                 "another approach",
-                Check("it was there", team, lambda: not situation.gone),
+                Check("it was there", team, lambda: not team.situation.gone),
                 DriveToCandidate("return", team),
                 look_over(team),
                 PickUp("pick", team),
             ),
-        ),
-        sequence(
-            "search again",
-            Check("it is gone", team, lambda: situation.gone),
-            ForgetSighting("begin anew", team),
-            search(team),
-            PickUp("pick", team),
         ),
     )
 
