@@ -5,6 +5,7 @@ from math import dist
 from typing import Any
 
 import numpy as np
+import pybullet
 import pytest
 from conftest import Notebook, four_rooms
 from contracts.robot import Bench
@@ -151,15 +152,20 @@ def test_what_falls_on_the_way_is_noticed_at_once(haunt: Callable[..., Haunted])
     assert not robot.robot.holding
 
 
-def test_what_lies_on_the_floor_is_seen_and_picked_up(haunt: Callable[..., Haunted]):
+@pytest.mark.parametrize("name", ["apple", "mustard_bottle"])
+def test_what_lies_on_the_floor_is_seen_and_picked_up(haunt: Callable[..., Haunted], name: str):
     robot = haunt("noise=0.0001")
-    x, y, yaw = four_rooms().stand(WAGON)
-    body, client = robot.world._body("apple"), robot.world._client
-    client.resetBasePositionAndOrientation(body, (x - 0.9 * np.cos(yaw), y, 0.06), (0, 0, 0, 1))
+    x, y, _ = four_rooms().stand(WAGON)
+    body, client = robot.world._body(name), robot.world._client
+    lying = pybullet.getQuaternionFromEuler((np.pi / 2, 0.0, 0.0))
+    client.resetBasePositionAndOrientation(body, (x + 0.9, y, 0.05), lying)
+    client.changeDynamics(body, -1, activationState=pybullet.ACTIVATION_STATE_WAKE_UP)
+    for _ in range(240):
+        client.stepSimulation()
     for view in range(robot.robot.views("floor")):
         assert robot.do(LookAt("floor", view)) == Succeeded()
         frame = robot.world.camera.capture()
-        found = [d for d in robot.world.detector.detect(frame) if d.label == "apple"]
+        found = [d for d in robot.world.detector.detect(frame) if d.label == name]
         if found:
             break
     assert robot.do(Pick(locate(found[0], frame))) == Succeeded()
