@@ -4,7 +4,7 @@ What the hand does follows from what the camera saw, the known shapes of things 
 home. What comes of it is up to physics.
 """
 
-from collections.abc import Callable, Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from functools import cache
 from itertools import product
 
@@ -13,27 +13,24 @@ from scipy.spatial.transform import Rotation
 
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
-from sim.clutter import CELL_M, Column, columns
-from sim.driving import CREEPING, RADIUS_M, drive
+from sim.driving import CREEPING, drive
 from sim.grasps import TILTS, Grasp, HandPose, find_grasps
 from sim.hand import Hand, Held, LostError
 from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
 from sim.home import Furniture, Home
 from sim.looking import look_at
 from sim.objects import ObjectModel
-from sim.placing import FLAT_M, free_spots, stands
+from sim.placing import free_spots, stands
 from sim.planning import PlanningWorld
 from sim.reaching import (
     Reach,
     clear_path,
-    floor_poses,
     plan_reach,
     plan_retreat,
-    plan_stance,
-    standing_poses,
 )
 from sim.registration import locate_fallen
 from sim.skill import CannotError, Skill, attempt, pause, wait_until
+from sim.surroundings import Surroundings, support
 
 APPROACH_M = (0.12, 0.05)
 """Lengths of the last straight part of a reach, in order of preference."""
@@ -43,10 +40,6 @@ LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 FEWEST_POINTS = 30
 _GRASPS_TRIED = 8
 _SPOTS_TRIED = 12
-_BEFORE_M = 0.6
-"""Farther than this from where one stands to use a piece of furniture, nothing on it is tried."""
-_ON_FLOOR_M, _NEAR_M = 0.3, 2.5
-"""What is lower than this and as near as this may be picked up from the floor."""
 _FOLDED_WITHIN = 0.05
 """Farther than this from the folded pose (any joint but the last), the arm is out."""
 _CLOSING_S = 2.0
@@ -76,7 +69,7 @@ class Manipulator:
         self._planning = planning
         self._home = home
         self._models = models
-        self._scan = scan
+        self._around = Surroundings(hardware, planning, home, scan)
         self.hand = Hand(hardware, planning)
         self._missed: list[tuple[str, Rotation]] = []
 
@@ -98,10 +91,11 @@ class Manipulator:
         """
         model = self._model_of(detection)
         points = np.asarray(detection.points, dtype=np.float64)
-        piece = self._furniture_below(points)
+        piece = self._around.furniture_below(points)
         if piece is None:
-            points = yield from self._look_closely(model, points)
-        model, pose = locate_fallen(model, points, _support(piece, points))
+            yield from self._face(np.median(points, axis=0))
+            points = self._around.rising_near(model, points)
+        model, pose = locate_fallen(model, points, support(piece, points))
         grasp, way, stance = self._choose_grasp(model, pose, points, piece)
         yield from self._creep(stance)
         tare = yield from self.hand.weigh()
@@ -166,18 +160,12 @@ class Manipulator:
             raise CannotError(f"I could not see the {name} well enough")
         return self._models[name]
 
-    def _look_closely(self, model: ObjectModel, points: Floats) -> Generator[None, None, Floats]:
-        """Turn to what lies on the floor and look; return all that rises there, if it is more."""
-        x, y, z = (float(value) for value in np.median(points, axis=0))
+    def _face(self, point: Floats) -> Skill:
+        """Turn to a point on the floor, and look at it."""
+        x, y, z = (float(value) for value in point)
         here = self._hardware.base_pose
         yield from self._creep([np.append(here[:2], np.arctan2(y - here[1], x - here[0]))])
         yield from look_at(self._hardware, (x, y, z))
-        seen = self._scan()
-        near = np.hypot(seen[:, 0] - x, seen[:, 1] - y) < max(model.size)
-        rises = (seen[:, 2] > FLAT_M) & (seen[:, 2] < max(model.size) + FLAT_M)
-        mine = np.hypot(*(seen[:, :2] - self._hardware.base_pose[:2]).T) < RADIUS_M + FLAT_M
-        closely = seen[near & rises & ~mine]
-        return closely if len(closely) > len(points) else points
 
     def _choose_grasp(
         self, model: ObjectModel, pose: Pose, points: Floats, piece: Furniture | None
@@ -186,8 +174,8 @@ class Manipulator:
 
         Approaches that missed before come last.
         """
-        self._mind_clutter(piece, points)
-        stances = list(self._stances(piece, np.asarray(pose.position)))
+        self._around.mind_clutter(piece, points)
+        stances = list(self._around.stances(piece, np.asarray(pose.position)))
 
         @cache
         def grasps(facing: float, tilt: float) -> list[Grasp]:
@@ -241,11 +229,11 @@ class Manipulator:
         """
         yield from look_at(self._hardware, self._home.view_targets(piece.name)[0])
         carrying = self._hardware.arm_positions
-        self._mind_clutter(piece, np.empty((0, 3)))
-        spots = list(free_spots(piece, held.model, self._scan(), held.turn))
+        self._around.mind_clutter(piece, np.empty((0, 3)))
+        spots = list(free_spots(piece, held.model, self._around.scan(), held.turn))
         for spot in spots[:_SPOTS_TRIED]:
             hand = held.hand_for(spot)
-            stances = self._stances(piece, np.asarray(spot.position))
+            stances = self._around.stances(piece, np.asarray(spot.position))
             for stance, way in product(stances, _ways_to_put(hand)):
                 if plan_reach(self._planning, stance[-1], carrying, hand, way):
                     return spot, way, stance
@@ -266,7 +254,7 @@ class Manipulator:
     def _check_stands(self, model: ObjectModel, spot: Pose, piece: Furniture) -> Skill:
         """Look whether what was put down stands where it was put."""
         yield from look_at(self._hardware, spot.position)
-        fault = stands(model, spot, self._scan())
+        fault = stands(model, spot, self._around.scan())
         if fault:
             raise LostError(f"the {model.name} {fault} on the {piece.name}")
 
@@ -280,46 +268,10 @@ class Manipulator:
             raise CannotError(otherwise)
         return reach
 
-    def _mind_clutter(self, piece: Furniture | None, target: Floats) -> None:
-        """Plan around what stands on the furniture; the points (n, 3) are those of the target."""
-        near: list[Column] = []
-        others: list[Column] = []
-        for column in columns(piece, self._scan()) if piece else ():
-            off = np.abs(target[:, :2] - (column.x, column.y)).max(axis=1)
-            (near if (off < CELL_M).any() else others).append(column)
-        self._planning.assume_clutter(near, others)
-
-    def _stances(self, piece: Furniture | None, target: Floats) -> Iterator[list[Floats]]:
-        """Ways of the base to where a point on the furniture or the floor may be reached from."""
-        here = self._hardware.base_pose
-        for base in standing_poses(piece, target) if piece else floor_poses(here, target):
-            way = plan_stance(self._planning, here, base)
-            if way is not None:
-                yield way
-
     def _creep(self, way: list[Floats]) -> Skill:
         """Drive slowly, straight from pose to pose."""
         for x, y, yaw in way:
             yield from drive(self._hardware, [(x, y)], yaw, CREEPING)
-
-    def _furniture_below(self, points: Floats) -> Furniture | None:
-        """The piece of furniture that something seen is on; None if it lies on the floor here.
-
-        Raises:
-            CannotError: if it is neither on furniture that the robot stands before, nor near.
-        """
-        middle = np.median(points, axis=0)
-        x, y, _ = self._hardware.base_pose
-        for piece in (*self._home.furniture, self._home.delivery):
-            stand = self._home.stand(piece.name)
-            if np.hypot(stand[0] - x, stand[1] - y) < _BEFORE_M and piece.is_below(tuple(middle)):
-                return piece
-        away = np.hypot(middle[0] - x, middle[1] - y)
-        if away < RADIUS_M:
-            raise CannotError("it lies on my own base")
-        if middle[2] > _ON_FLOOR_M or away > _NEAR_M:
-            raise CannotError("it is out of my reach")
-        return None
 
     def _has_missed(self, model: ObjectModel, grasp: Grasp) -> bool:
         """Whether the thing was missed with the hand turned like this."""
@@ -333,10 +285,3 @@ def _ways_to_put(hand: HandPose) -> list[Floats]:
     """Last straight ways of the hand with a thing: from above, or the way a tilted hand points."""
     directions = [_DOWN] if hand.approach @ _DOWN > _UPRIGHT else [hand.approach, _DOWN]
     return [length * direction for direction, length in product(directions, APPROACH_M)]
-
-
-def _support(piece: Furniture | None, points: Floats) -> float:
-    """How high the surface is that something seen rests on (metres)."""
-    middle = float(np.median(points[:, 2]))
-    heights = [0.0, *(surface.center[2] for surface in piece.surfaces())] if piece else [0.0]
-    return max(height for height in heights if height <= middle + CELL_M)
