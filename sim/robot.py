@@ -26,10 +26,12 @@ from sim.looking import look_at
 from sim.manipulation import Manipulator
 from sim.navigation import Unreachable
 from sim.navigator import Navigator
-from sim.skill import CannotError, Skill, pause
+from sim.skill import CannotError, Skill, pause, wait_until
 
 FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
 """Where the robot looks for what fell to the floor: to the left of where it faces (radians)."""
+FINGERS_STOP_S = 1.0
+"""The longest that fingers move on when the robot comes to rest."""
 ROLLING_S = 1.5
 """How long the robot waits for what fell to come to rest before it says so."""
 FLOOR_AHEAD_M = 0.9
@@ -178,6 +180,7 @@ class SimulatedRobot:
     def _rest(self) -> Skill:
         hold(self._hardware)
         yield from brake(self._hardware)
+        yield from wait_until(lambda: self._hardware.fingers_still, FINGERS_STOP_S)
 
     # --- helpers ---
 
