@@ -6,9 +6,11 @@ from typing import Any
 
 from executive.events import DeadlinePassed, Ended, Event, Started, StopRequested
 from executive.types import (
+    DELIVERY,
     Candidate,
     Command,
     Detection,
+    Kind,
     Outcome,
     Replied,
     Result,
@@ -68,6 +70,8 @@ class Situation:
     """The thing, as last seen."""
     found: Candidate | None = None
     """Where the thing was seen."""
+    in_hand: str | None = None
+    """The thing that the robot holds, from this mission or one before it."""
     gone: bool = False
     """Whether the thing was seen, and then was there no more."""
     lost: str = ""
@@ -106,6 +110,20 @@ class Situation:
             case DeadlinePassed():
                 pass
 
+    def asks_to(self, kind: Kind) -> bool:
+        """Whether this kind of deed was asked for."""
+        return self.command is not None and self.command.kind == kind
+
+    @property
+    def has_it(self) -> bool:
+        """Whether what was asked for is in the hand."""
+        return self.in_hand is not None and self.in_hand == self.object
+
+    @property
+    def is_delivered(self) -> bool:
+        """Whether the thing was found at the delivery place."""
+        return self.found is not None and self.found.place == DELIVERY
+
     @property
     def next_deadline(self) -> float | None:
         """The earliest time (mission time, s) at which a tick is due without an event."""
@@ -141,6 +159,7 @@ class Situation:
             "unseen": dict(self.unseen),
             "sighting": list(self.detection.position or ()) if self.detection else None,
             "found": asdict(self.found) if self.found else None,
+            "in_hand": self.in_hand,
             "gone": self.gone,
             "lost": self.lost,
             "inquiries": self.inquiries,

@@ -8,86 +8,76 @@ from py_trees.common import Status
 from executive.types import DELIVERY, FLOOR, Kind
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Report
-from trees.robot import (
-    DriveBack,
-    DriveToCandidate,
-    LookForLost,
-    PickUp,
-    PutDownAt,
-    SeeLost,
-)
-from trees.search import look_over, search
+from trees.robot import DriveBack, LookForLost, PickUp, PutDownAt, SeeLost
 from trees.team import Team
 
 
 def act(team: Team) -> Behaviour:
-    """A found thing -> reported, held or delivered."""
+    """A thing that was found, and is in the hand if it has to be -> reported or delivered."""
+    situation = team.situation
 
-    def asked_to(kind: Kind) -> Check:
-        return Check(
-            f"asked to {kind}",
-            team,
-            lambda: team.situation.command is not None and team.situation.command.kind == kind,
-        )
+    def from_a_place() -> Check:
+        return Check("found at a place", team, lambda: situation.found is not None)
 
     return fallback(
         "act",
         sequence(
+            "is there already",
+            asked_to(team, Kind.BRING),
+            Check("at the delivery place", team, lambda: situation.is_delivered),
+            Report("report", team, "The {object} is here already, on the delivery table."),
+        ),
+        sequence(
+            "bring",
+            asked_to(team, Kind.BRING),
+            deliver(team),
+            fallback(
+                "say so",
+                sequence(
+                    "from there",
+                    from_a_place(),
+                    Report("report", team, "Here is the {object} from {place}."),
+                ),
+                Report("report", team, "Here is the {object}."),
+            ),
+        ),
+        sequence(
             "find",
-            asked_to(Kind.FIND),
+            asked_to(team, Kind.FIND),
+            from_a_place(),
             DriveBack("come back", team, "person"),
             Report("report", team, "The {object} is at {place}."),
         ),
         sequence(
             "take",
-            asked_to(Kind.TAKE),
-            grasp(team),
+            asked_to(team, Kind.TAKE),
+            from_a_place(),
             Report("report", team, "I took the {object} from {place} and hold it."),
         ),
         sequence(
-            "bring",
-            asked_to(Kind.BRING),
-            grasp(team),
-            deliver(team),
-            Report("report", team, "Here is the {object} from {place}."),
+            "have it",
+            Check("had it before", team, lambda: situation.has_it and not situation.found),
+            Check("not asked to bring", team, lambda: not situation.asks_to(Kind.BRING)),
+            Report("report", team, "I hold the {object}."),
         ),
     )
 
 
-def grasp(team: Team) -> Behaviour:
-    """Get hold of it; if it is gone, search it again."""
-    return fallback(
-        "grasp",
-        get_hold(team),
-        sequence(
-            "search again",
-            Check("it is gone", team, lambda: team.situation.gone),
-            ForgetSighting("begin anew", team),
-            search(team),
-            get_hold(team),
-        ),
-    )
+def asked_to(team: Team, kind: Kind) -> Check:
+    """Whether this kind of deed was asked for."""
+    return Check(f"asked to {kind}", team, lambda: team.situation.asks_to(kind))
 
 
-def get_hold(team: Team) -> Behaviour:
-    """Pick it up; after a miss look again and try another approach, as long as it is there."""
-    more_tries = [f"try {number}" for number in range(2, team.rules.grasps + 1)]
-    return fallback(
-        "get hold",
-        PickUp("pick", team),
-        FirstOf(
-            "try again",
-            lambda: more_tries,
-            lambda _: None,
-            sequence(
-                "another approach",
-                Check("it was there", team, lambda: not team.situation.gone),
-                DriveToCandidate("return", team),
-                look_over(team),
-                PickUp("pick", team),
-            ),
-        ),
-    )
+class HandIsFree(Step):
+    """Succeeds if the hand is free for what is asked: it holds one thing at a time."""
+
+    def update(self) -> Status:
+        """Fail if another thing than the one that is asked for is in it."""
+        assert self.situation.command
+        held = self.situation.in_hand
+        if held in (None, self.situation.object) or self.situation.command.kind == Kind.FIND:
+            return Status.SUCCESS
+        return self.fail(f"my hand holds the {held}; ask me first to bring that")
 
 
 def deliver(team: Team) -> Behaviour:
@@ -138,16 +128,6 @@ def pick_up_again(team: Team, *spots: str) -> Behaviour:
         ),
         PickUp("pick", team),
     )
-
-
-class ForgetSighting(Step):
-    """The thing is no longer where it was seen."""
-
-    def update(self) -> Status:
-        """Begin the search anew."""
-        self.situation.detection = self.situation.found = None
-        self.situation.gone = False
-        return Status.SUCCESS
 
 
 class SayItFell(Step):

@@ -42,7 +42,7 @@ class RobotAction(Action):
     def ended(self, result: Result) -> Status:
         """Succeed as the robot did; note if it lost what it held."""
         if isinstance(result, Failed) and result.lost:
-            self.situation.lost = result.reason
+            self.situation.lost, self.situation.in_hand = result.reason, None
         return Status.SUCCESS if isinstance(result, Succeeded) else self.failed(result)
 
     def cancel(self, request: int) -> None:
@@ -124,7 +124,8 @@ class PickUp(RobotAction):
         if isinstance(result, Succeeded):
             assert self.situation.detection
             assert self.situation.found
-            self.team.facts.took(self.situation.detection.label, self.situation.found.place)
+            self.situation.in_hand = self.situation.detection.label
+            self.team.facts.took(self.situation.in_hand, self.situation.found.place)
             self.situation.lost = ""
         return super().ended(result)
 
@@ -145,6 +146,7 @@ class PutDownAt(RobotAction):
         """Remember that it is here now."""
         if isinstance(result, Succeeded):
             assert self.situation.object
+            self.situation.in_hand = None
             self.team.facts.put(self.situation.object, self._place)
         return super().ended(result)
 
