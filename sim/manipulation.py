@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
 from sim.driving import CREEPING, drive
-from sim.grasps import TILTS, Grasp, HandPose, find_grasps
+from sim.grasps import TILTS, Grasp, HandPose, find_grasps, varied
 from sim.hand import Hand, Held, LostError
 from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
 from sim.home import Furniture, Home
@@ -30,6 +30,7 @@ from sim.reaching import (
 )
 from sim.registration import locate_fallen
 from sim.skill import CannotError, Skill, attempt, pause, wait_until
+from sim.solids import sample_surface
 from sim.surroundings import Surroundings, support
 
 APPROACH_M = (0.12, 0.05)
@@ -174,13 +175,14 @@ class Manipulator:
 
         Approaches that missed before come last.
         """
-        self._around.mind_clutter(piece, points)
+        self._around.mind_clutter(piece, np.concatenate((points, _surface(model, pose))))
         stances = list(self._around.stances(piece, np.asarray(pose.position)))
 
         @cache
         def grasps(facing: float, tilt: float) -> list[Grasp]:
             found = find_grasps(model, pose, facing, tilt)
-            return sorted(found, key=lambda grasp: self._has_missed(model, grasp))[:_GRASPS_TRIED]
+            new_first = sorted(found, key=lambda grasp: self._has_missed(model, grasp))
+            return varied(new_first, _GRASPS_TRIED)
 
         for tilt, stance in product(TILTS, stances):
             found = grasps(float(stance[-1][2]), tilt)
@@ -279,6 +281,13 @@ class Manipulator:
             name == model.name and (rotation.inv() * grasp.hand.rotation).magnitude() < _ALIKE
             for name, rotation in self._missed
         )
+
+
+def _surface(model: ObjectModel, pose: Pose) -> Floats:
+    """Points (n, 3) all over a thing at `pose` in `map`: more of it is there than was seen."""
+    points, _ = sample_surface(model.shapes)
+    surface: Floats = Rotation.from_quat(pose.orientation).apply(points[::5]) + pose.position
+    return surface
 
 
 def _ways_to_put(hand: HandPose) -> list[Floats]:
