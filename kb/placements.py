@@ -87,7 +87,5 @@ def _read(file: Path) -> _Folds:
     except ValidationError as error:
         fault = error.errors()[0]
         where = ".".join(map(str, fault["loc"]))
-        right = (
-            'should be {"train": {"mug": {"category": "kitchenware", "locations": ["shelf"]}}, ...}'
-        )
+        right = 'should be {"train": {"mug": {"category": "dishes", "locations": ["shelf"]}}, ...}'
         raise InputError(f"{path}: {where}" if where else str(path), fault["msg"], right) from None

@@ -7,8 +7,8 @@ scored, and a thing that is known costs a handful of tokens, once. From them ker
 has. The further a thing is from all that is known, the nearer the answer is to how often each place
 is used at all; and with little known, to all places alike.
 
-The constants were chosen on the train and valid folds that `python -m kb.benchmark` knows, for the
-embedded model; `--ablation` there shows what each part brings.
+The constants were chosen for the embedded model on the train and valid folds of the placements that
+`python -m kb.benchmark` asks for; its table shows what each means brings.
 """
 
 from collections.abc import Sequence
@@ -31,7 +31,7 @@ Floats = NDArray[np.float64]
 
 
 def shares(places: Sequence[Sequence[str]], options: Sequence[str]) -> Floats:
-    """(things, options): how much of each thing is at each option; a row of 0 if it is elsewhere."""
+    """(things, options): how much of each thing is at each option; 0 if it is elsewhere."""
     at = np.array([[option in there for option in options] for there in places], dtype=float)
     at = at.reshape(len(places), len(options))
     return np.asarray(at / np.maximum(at.sum(axis=1, keepdims=True), 1))

@@ -1,4 +1,4 @@
-"""What the benchmark of common sense asks: objects, the places they may be at, and where they are."""
+"""What the benchmark of common sense asks: things, where they may be, and where they are."""
 
 from dataclasses import dataclass
 
