@@ -8,7 +8,7 @@ import argparse
 import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import closing
 from dataclasses import asdict, astuple, dataclass, replace
 from pathlib import Path
 from statistics import fmean
@@ -136,24 +136,27 @@ def run(given: argparse.Namespace) -> None:
     """
     draw = _plotter(given.plot) if given.plot else None
     sets = [_data_set(name, given) for name in given.data or DATA]
-    prompts = Prompts.load(given.prompts)
-    inbox = Inbox()
+    journal = Journal(given.journal, _described(given))
     tables: Tables = {}
-    with ExitStack() as stack:
-        model = _model(given, inbox)
-        ways = ranking if _ranks(given, model) else writing
-        if model:
-            stack.callback(model.close)
-        journal = Journal(given.journal, _described(given))
-        for data in sets:
-            ask = ways(data, model, inbox, prompts) if model else None
-            tables[data.name] = table(data, ask, journal)
-            if not given.json:
-                print(text(data, tables[data.name]), flush=True)
+    for data in sets:
+        tables[data.name] = _asked(data, given, journal)
+        if not given.json:
+            print(text(data, tables[data.name]), flush=True)
     if given.json:
         print(json.dumps(_report(given, sets, tables)))
     if draw:
         draw(sets, tables)
+
+
+def _asked(data: DataSet, given: argparse.Namespace, journal: Journal) -> list[Row]:
+    """The table of one data set, by a model that remembers nothing of another one."""
+    inbox = Inbox()
+    model = _model(given, inbox)
+    if model is None:
+        return table(data, None, journal)
+    with closing(model):
+        ways = ranking if _ranks(given, model) else writing
+        return table(data, ways(data, model, inbox, Prompts.load(given.prompts)), journal)
 
 
 def _plotter(path: Path) -> Callable[[Sequence[DataSet], Tables], None]:
@@ -174,11 +177,10 @@ def _plotter(path: Path) -> Callable[[Sequence[DataSet], Tables], None]:
     return draw
 
 
-def _ranks(given: argparse.Namespace, model: LanguageModel | None) -> bool:
-    can_rank = model is not None and model.can_rank
-    if given.elicit == "rank" and model and not can_rank:
+def _ranks(given: argparse.Namespace, model: LanguageModel) -> bool:
+    if given.elicit == "rank" and not model.can_rank:
         raise InputError("--elicit rank", "a server cannot rank places", "use --elicit generate")
-    return can_rank and given.elicit != "generate"
+    return model.can_rank and given.elicit != "generate"
 
 
 def _data_set(name: str, given: argparse.Namespace) -> DataSet:
