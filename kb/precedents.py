@@ -27,6 +27,9 @@ SAME_KIND = 0.2
 LEAST = 0.005
 """No place is ruled out."""
 
+NO_LENGTH = 1e-6
+"""States differ by ones and tens; those that differ by less than this are the same."""
+
 Floats = NDArray[np.float64]
 
 
@@ -60,7 +63,7 @@ def log_expected(states: Floats, kinds: Sequence[str], at: Floats) -> Floats:
 
 def _cosines(vectors: Floats) -> Floats:
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    directions = vectors / np.maximum(lengths, np.finfo(float).tiny)
+    directions = vectors / np.maximum(lengths, NO_LENGTH)
     return np.asarray(directions @ directions.T)
 
 
