@@ -4,7 +4,6 @@ import importlib.util
 import json
 import threading
 import time
-from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
@@ -53,10 +52,12 @@ class Cancelled(Exception):  # noqa: N818 - it is no error
 
 @dataclass(frozen=True, slots=True)
 class _Grasp:
-    """What the model makes of a chat: its state, and how likely each option comes next."""
+    """What the model makes of a chat: its state, how likely each option is next, and the cost."""
 
     state: NDArray[np.float64]
     likelihoods: NDArray[np.float64]
+    read: int
+    evaluated: int
 
 
 @dataclass(slots=True)
@@ -222,10 +223,17 @@ class LlamaCpp:
 
     def _score(self, request: RankRequest, checkpoint: Checkpoint) -> Result:
         began = time.monotonic()
-        count = Counter[str]()
+        read = evaluated = 0
 
         def grasp(messages: tuple[Message, ...], options: tuple[str, ...] = ()) -> _Grasp:
-            return self._grasp(messages, options, count, checkpoint)
+            nonlocal read, evaluated
+            fresh = (messages, options) not in self._grasped
+            if fresh:
+                self._grasped[messages, options] = self._grasp(messages, options, checkpoint)
+            grasped = self._grasped[messages, options]
+            read += grasped.read
+            evaluated += fresh * grasped.evaluated
+            return grasped
 
         asked = grasp(request.messages, request.options)
         scores = LIKELIHOOD_WEIGHT * asked.likelihoods
@@ -237,17 +245,13 @@ class LlamaCpp:
             kinds = [request.kind, *(precedent.kind for precedent in known)]
             at = shares([precedent.places for precedent in known], request.places)
             scores += log_expected(np.stack(states), kinds, at)
-        usage = self._usage(count["read"], count["evaluated"], 0, 0.0, began)
+        usage = self._usage(read, evaluated, 0, 0.0, began)
         return Scored(request, tuple(scores.tolist()), usage)
 
     def _grasp(
-        self,
-        messages: tuple[Message, ...],
-        options: tuple[str, ...],
-        count: Counter[str],
-        checkpoint: Checkpoint,
+        self, messages: tuple[Message, ...], options: tuple[str, ...], checkpoint: Checkpoint
     ) -> _Grasp:
-        """Read a chat, unless it was read before; all but its last turn is shared with others."""
+        """Read a chat; all but its last turn is shared with others."""
         loaded = self._loading.result()
         if loaded.ranking is None:
             loaded.ranking = Context(
@@ -255,15 +259,12 @@ class LlamaCpp:
             )
         prompt, head = loaded.model.prompt(messages, constant=len(messages) - 1)
         self._check_length(prompt, BATCH_TOKENS)
+        evaluated = loaded.ranking.read(prompt, head, checkpoint)
+        state = loaded.ranking.state()
         answers = [loaded.model.tokenize(option) for option in options]
-        count["read"] += len(prompt) + sum(map(len, answers))
-        if (messages, options) not in self._grasped:
-            count["evaluated"] += loaded.ranking.read(prompt, head, checkpoint)
-            state = loaded.ranking.state()
-            likelihoods, evaluated = loaded.ranking.continuations(answers, checkpoint)
-            count["evaluated"] += evaluated
-            self._grasped[messages, options] = _Grasp(state, np.array(likelihoods))
-        return self._grasped[messages, options]
+        likelihoods, branches = loaded.ranking.continuations(answers, checkpoint)
+        read = len(prompt) + sum(map(len, answers))
+        return _Grasp(state, np.array(likelihoods), read, evaluated + branches)
 
     def _check_length(self, prompt: Tokens, reserve: int) -> None:
         if len(prompt) + reserve > self._n_ctx:

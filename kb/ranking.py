@@ -1,8 +1,9 @@
 """Scoring the known places instead of asking for a list: a model cannot invent what it only scores.
 
-The score of a place is the model's log-likelihood of the answer that names it, less that of the
+What counts for a place is the model's log-likelihood of the answer that names it, less that of the
 same answer about nothing in particular, so that a place does not win for being a common phrase
-(Holtzman et al., "Surface Form Competition", EMNLP 2021).
+(Holtzman et al., "Surface Form Competition", EMNLP 2021); and where other things are known to be,
+as far as they are like this one (`precedents.py`).
 """
 
 import math
