@@ -11,10 +11,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import rerun as rr
+from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Path, Seen, Shape, Transform
 from executive.types import Color, Frame, Intrinsics, Pose
 from logs.images import jpeg
+
+MISSION_TIME, WALL_TIME, TICK = "mission_time", "wall_time", "tick"
+"""The timelines."""
 
 FRAMES = "frames"
 SCENE = "scene"
@@ -26,15 +30,18 @@ PICTURE_FRAME = "picture"
 """Where the camera was when it took the latest picture."""
 IMAGE_FRAME = "picture_plane"
 
+_GLTF_TURN = Rotation.from_quat((0.5, 0.5, 0.5, 0.5))
+"""glTF has y up and looks along z; the viewer takes its coordinates as they are."""
 _CAMERA = (255, 255, 255, 160)
 _FOUND = (60, 220, 90)
 _PLANNED = (30, 130, 255)
 
 
 class Moved(NamedTuple):
-    """Where a frame was at a mission time (s), after this many ticks."""
+    """Where a frame was at a mission time (s), wall time (ns since 1970) and tick."""
 
     mission_s: float
+    wall_ns: int
     tick: int
     transform: Transform
 
@@ -87,13 +94,16 @@ def _log_shapes(stream: rr.RecordingStream, entity: Entity, kind: str, shapes: l
 def _log_mesh(
     stream: rr.RecordingStream, path: str, frame: rr.CoordinateFrame, shape: Shape
 ) -> None:
+    turn = Rotation.from_quat(shape.pose.orientation)
+    if shape.mesh.endswith(".glb"):
+        turn *= _GLTF_TURN
     stream.log(
         path,
         frame,
         rr.Asset3D(path=FilePath(shape.mesh), albedo_factor=_rgba(shape.color)),
         rr.InstancePoses3D(
             translations=[shape.pose.position],
-            quaternions=[shape.pose.orientation],
+            quaternions=[turn.as_quat()],
             scales=[shape.size],
         ),
         static=True,
@@ -103,8 +113,9 @@ def _log_mesh(
 def log_transforms(stream: rr.RecordingStream, moved: Sequence[Moved]) -> None:
     """Log where frames are in their parents, all in one call."""
     times = (
-        rr.TimeColumn("mission_time", duration=[m.mission_s for m in moved]),
-        rr.TimeColumn("tick", sequence=[m.tick for m in moved]),
+        rr.TimeColumn(MISSION_TIME, duration=[m.mission_s for m in moved]),
+        rr.TimeColumn(WALL_TIME, timestamp=[m.wall_ns * 1e-9 for m in moved]),
+        rr.TimeColumn(TICK, sequence=[m.tick for m in moved]),
     )
     transforms = [m.transform for m in moved]
     stream.send_columns(
