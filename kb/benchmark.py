@@ -29,7 +29,7 @@ from kb.ranking import Known
 from kb.server import Server
 from kb.trials import Answer, Journal, order, ranking, writing
 
-DATA = ("survey", "survey-rest", "placements")
+DATA = ("survey", "survey-rest", "placements", "placements-new")
 CHANCE = "chance"
 POPULARITY = "how often places are used"
 HINDSIGHT = "how often the answers use places"
@@ -185,8 +185,8 @@ def _ranks(given: argparse.Namespace, model: LanguageModel) -> bool:
 
 def _data_set(name: str, given: argparse.Namespace) -> DataSet:
     match name:
-        case "placements":
-            data = placements(Placements(given.placements), given.fold)
+        case "placements" | "placements-new":
+            data = placements(Placements(given.placements), given.fold, name == "placements-new")
         case _:
             data = survey(rest=name == "survey-rest")
     return replace(data, questions=data.questions[: given.objects])

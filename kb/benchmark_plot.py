@@ -21,7 +21,7 @@ def draw(path: Path, tables: Mapping[str, Sequence[tuple[str, Measures]]]) -> No
     Raises:
         OSError: if the file cannot be written.
     """
-    mpl.rcParams["svg.hashsalt"] = "robot-executive"
+    mpl.rcParams.update({"svg.hashsalt": "robot-executive", "svg.fonttype": "none"})
     heights = [TITLE + BAR * len(rows) for rows in tables.values()]
     figure = Figure(figsize=(WIDTH, sum(heights)), layout="constrained")
     panels = figure.subplots(len(tables), squeeze=False, height_ratios=heights)[:, 0]

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from executive.types import Place
-from kb.names import spoken
+from kb.names import spoken, words_of
 from kb.ontology import Ontology
 from kb.placements import Placements, preposition
 from kb.ranking import Known, answer
@@ -70,17 +70,27 @@ def survey(rest: bool = False) -> DataSet:
     )
 
 
-def placements(data: Placements, fold: str) -> DataSet:
-    """One fold of the placements; those of the train fold are known."""
+def placements(data: Placements, fold: str, new: bool = False) -> DataSet:
+    """One fold of the placements; those of the train fold are known.
+
+    The folds share many nouns: "white shirt", "blue shirt". `new` leaves only things whose noun
+    (last word) no known thing has.
+    """
     known = data.folds["train"]
+    nouns = {words_of(thing.name)[-1] for thing in known} if new else set()
     return DataSet(
-        f"placements-{fold}",
-        f"placements of TextWorld Commonsense, {fold} fold, {len(known)} others are recorded",
+        f"placements-{fold}" + ("-new" if new else ""),
+        f"placements of TextWorld Commonsense, {fold} fold, {len(known)} others are recorded"
+        + (", of other nouns" if new else ""),
         tuple(
             (Place(name, "Furniture", *HOME), f"{preposition(name)} the {spoken(name)}")
             for name in data.places()
         ),
-        tuple(Question(thing, known) for thing in data.folds[fold]),
+        tuple(
+            Question(thing, known)
+            for thing in data.folds[fold]
+            if words_of(thing.name)[-1] not in nouns
+        ),
     )
 
 

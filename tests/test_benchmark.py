@@ -114,6 +114,11 @@ def test_placements_are_asked_for_with_only_the_train_fold_known(data):
     }
 
 
+def test_new_placements_are_of_nouns_that_nothing_known_has(file):
+    (question,) = placements(Placements(file), "test", new=True).questions
+    assert question.thing.name == "top hat"
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
