@@ -11,8 +11,8 @@ from kb.measures import Measures
 KINDS = (".svg", ".png", ".pdf")
 PRECISION, FIRST = "#0072B2", "#E69F00"
 """Blue and orange of Okabe and Ito, "Color Universal Design", 2008."""
-WIDTH, TITLE, BAR = 8.0, 0.9, 0.36
-"""Of the picture, of a title with its axis, of a pair of bars (inches)."""
+WIDTH, LEGEND, TITLE, BAR = 8.0, 0.3, 0.7, 0.33
+"""Of the picture, of the legend, of a title with its axis, of a pair of bars (inches)."""
 
 
 def draw(path: Path, tables: Mapping[str, Sequence[tuple[str, Measures]]]) -> None:
@@ -23,7 +23,7 @@ def draw(path: Path, tables: Mapping[str, Sequence[tuple[str, Measures]]]) -> No
     """
     mpl.rcParams.update({"svg.hashsalt": "robot-executive", "svg.fonttype": "none"})
     heights = [TITLE + BAR * len(rows) for rows in tables.values()]
-    figure = Figure(figsize=(WIDTH, sum(heights)), layout="constrained")
+    figure = Figure(figsize=(WIDTH, LEGEND + sum(heights)), layout="constrained")
     panels = figure.subplots(len(tables), squeeze=False, height_ratios=heights)[:, 0]
     for axes, (title, rows) in zip(panels, tables.items(), strict=True):
         ways = [way for way, _ in rows]
@@ -39,5 +39,6 @@ def draw(path: Path, tables: Mapping[str, Sequence[tuple[str, Measures]]]) -> No
         axes.set_xlim(0, 1.05)
         axes.set_title(title, loc="left", fontsize=10)
         axes.spines[["top", "right"]].set_visible(False)
-    panels[0].legend(loc="lower right", fontsize=8)
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper right", ncols=2, fontsize=8)
     figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)

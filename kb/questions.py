@@ -80,7 +80,7 @@ def placements(data: Placements, fold: str, new: bool = False) -> DataSet:
     nouns = {words_of(thing.name)[-1] for thing in known} if new else set()
     return DataSet(
         f"placements-{fold}" + ("-new" if new else ""),
-        f"placements of TextWorld Commonsense, {fold} fold, {len(known)} others are recorded"
+        f"TextWorld Commonsense, {fold} fold, {len(known)} other things recorded"
         + (", of other nouns" if new else ""),
         tuple(
             (Place(name, "Furniture", *HOME), f"{preposition(name)} the {spoken(name)}")
