@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -85,9 +86,9 @@ def writing(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts)
         replied = _end(inbox)
         assert isinstance(replied, Replied)
         names = adviser.read(replied.text) or ()
-        order = list(adviser.verify(names, ()).furniture)
+        found = list(adviser.verify(names, ()).furniture)
         tokens = replied.usage.evaluated_tokens + replied.usage.output_tokens
-        return Answer(question.thing.name, {WRITTEN: order}, replied.usage.total_s, tokens)
+        return Answer(question.thing.name, {WRITTEN: found}, replied.usage.total_s, tokens)
 
     return ask
 
@@ -111,15 +112,17 @@ class Journal:
         if file is None:
             return
         try:
-            lines = file.read_text().splitlines() if file.exists() else []
-            head, *rest = map(json.loads, lines or [json.dumps(run)])
+            head, *rest = _lines(file) or [run]
             self._kept = {(line.pop("data"), line["object"]): Answer(**line) for line in rest}
+            if head == run:
+                whole = [run, *({"data": data, **asdict(a)} for (data, _), a in self._kept.items())]
+                fresh = file.with_name(file.name + ".new")
+                fresh.write_text("".join(json.dumps(line) + "\n" for line in whole))
+                fresh.replace(file)
         except (OSError, ValueError, TypeError, KeyError) as error:
             raise InputError(str(file), f"is no journal: {error}", "name another file") from None
         if head != run:
             raise InputError(str(file), f"is the journal of another run: {head}", "name another")
-        if not lines:
-            self._write(run)
 
     def answers(self, data: DataSet, ask: Ask) -> Iterator[Answer]:
         """All answers, kept or new, in the order of the questions; progress goes to stderr."""
@@ -137,6 +140,14 @@ class Journal:
         if self._file:
             with self._file.open("a") as file:
                 file.write(json.dumps(line) + "\n")
+
+
+def _lines(file: Path) -> list[Any]:
+    """The objects in the lines of a file; a last line that was broken off does not count."""
+    lines = file.read_text().splitlines(keepends=True) if file.exists() else []
+    if len(lines) > 1 and not lines[-1].endswith("\n"):
+        lines.pop()
+    return [json.loads(line) for line in lines]
 
 
 def _end(inbox: Inbox) -> Scored | Replied:

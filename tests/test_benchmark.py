@@ -204,6 +204,18 @@ def test_a_run_that_was_stopped_goes_on_where_it_was(data, tmp_path):
     assert len(model.requests) == 1
 
 
+def test_an_answer_that_was_broken_off_is_asked_for_again(data, tmp_path):
+    file, run = tmp_path / "journal", {"llm": "scripted"}
+    for reply in ('{"places": ["fridge"]}', '{"places": ["hat rack"]}'):
+        model, inbox = scripted([reply] * len(data.questions))
+        table(data, writing(data, model, inbox, Prompts.load()), Journal(file, run))
+        file.write_text(file.read_text()[:-5])
+    assert len(model.requests) == 1
+    assert [line["orders"] for line in map(json.loads, file.read_text().splitlines()[1:2])] == [
+        {WRITTEN: ["fridge"]}
+    ]
+
+
 @pytest.mark.parametrize("text", ['{"llm": "another"}', "no journal", "[]\n[]"])
 def test_the_journal_of_another_run_is_refused(tmp_path, text):
     file = tmp_path / "journal"
@@ -236,6 +248,7 @@ def test_the_command_prints_a_table_or_json_and_draws_it(file, tmp_path, capsys)
         (["--plot", "nowhere/table.svg"], "name a file in a folder that exists"),
         (["--llm", "http://127.0.0.1:9/v1", "--elicit", "rank"], "use --elicit generate"),
         (["--llm", "nothing.gguf"], "cannot be read"),
+        (["--llm", "none", "--journal", "nowhere/journal"], "name another file"),
         (["--llm", "http://127.0.0.1:9/v1", "--objects", "1"], "cannot be reached"),
     ],
 )
