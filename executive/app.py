@@ -116,6 +116,7 @@ class Session:
                 remembers=settings.remembers,
                 top=settings.top,
                 prompts=prompts,
+                facts=self.facts,
             )
             if self.model
             else None
