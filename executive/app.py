@@ -45,7 +45,10 @@ from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
 from logs.rerun_sink import RerunSink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
+from sim.faults import parse_faults, refuse_physical
+from sim.faulty_fake import FaultyFakeRobot
 from sim.home import Home, home_text, load_home
+from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
 from sim.objects import load_objects
 from sim.ycb import with_scans
 from trees.mission import mission
@@ -97,8 +100,9 @@ class Session:
         self.facts = FactStore(settings.memory, learns=settings.learn)
         self.model = model or build_model(settings, self.inbox)
         self.recorder = FanOut(lambda: self.clock.now())
+        self.mishaps = build_mishaps(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
-            settings, self.home, self.inbox, self.recorder, gui
+            settings, self.home, self.inbox, self.recorder, gui, self.mishaps
         )
         self.clock = SimulatedClock(self.inbox, self.world)
         self.eyes = Eyes(camera, detector, self.inbox, self.recorder)
@@ -130,6 +134,8 @@ class Session:
         self.clock.restart()
         logs = self._logs(folder, started) if folder else []
         self.recorder.open([*logs, *self._sinks], started)
+        if self.mishaps:
+            self.mishaps.begin()
         self.world.describe()
         situation = Situation(words=words, in_hand=self._in_hand)
         tree = MissionTree(mission(self._team(situation)))
@@ -244,26 +250,56 @@ def working(*makers: Callable[[], Sink]) -> list[Sink]:
     return sinks
 
 
+def build_mishaps(
+    settings: Settings, home: Home, recorder: Recorder, now: Callable[[], float]
+) -> Mishaps | None:
+    """The faults that the settings order; None if there are none.
+
+    Raises:
+        InputError: if one of them is none, or not of this home and world.
+    """
+    faults = parse_faults(settings.fault, home)
+    if settings.world == "fake":
+        refuse_physical(faults)
+    return Mishaps(faults, recorder, now, settings.seed) if faults else None
+
+
 def build_simulation(
-    settings: Settings, home: Home, inbox: Inbox, recorder: Recorder, gui: bool = False
+    settings: Settings,
+    home: Home,
+    inbox: Inbox,
+    recorder: Recorder,
+    gui: bool = False,
+    mishaps: Mishaps | None = None,
 ) -> tuple[SimulatedHome, Robot, Camera, Detector]:
     """The world that the settings name, with its robot and the robot's senses."""
+    world: SimulatedHome
+    robot: Robot
+    camera: Camera
+    detector: Detector
     if settings.world == "fake":
-        instant = FakeWorld(home, inbox, recorder)
-        return instant, FakeRobot(instant), FakeCamera(instant), FakeDetector(instant)
-    from sim.world import PhysicsWorld
+        world = instant = FakeWorld(home, inbox, recorder)
+        robot = FaultyFakeRobot(instant, mishaps) if mishaps else FakeRobot(instant)
+        camera, detector = FakeCamera(instant), FakeDetector(instant)
+        camera = FaultyCamera(camera, mishaps) if mishaps else camera
+    else:
+        from sim.world import PhysicsWorld
 
-    models = load_objects()
-    physics = PhysicsWorld(
-        home,
-        with_scans(models, settings.ycb) if settings.ycb else models,
-        inbox,
-        recorder,
-        seed=settings.seed,
-        gui=gui,
-        camera_hz=settings.camera_hz,
-    )
-    return physics, physics.robot, physics.camera, physics.detector
+        models = load_objects()
+        world = physics = PhysicsWorld(
+            home,
+            with_scans(models, settings.ycb) if settings.ycb else models,
+            inbox,
+            recorder,
+            seed=settings.seed,
+            gui=gui,
+            camera_hz=settings.camera_hz,
+            mishaps=mishaps,
+        )
+        robot, camera, detector = physics.robot, physics.camera, physics.detector
+    if mishaps:
+        detector = FaultyDetector(detector, mishaps, tuple(home.objects))
+    return world, robot, camera, detector
 
 
 def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:

@@ -47,6 +47,7 @@ class Settings(BaseSettings):
         default_factory=dict, description="where things truly are, beside the home file"
     )
     world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
+    fault: tuple[str, ...] = Field((), description="what goes wrong in the simulated world")
     ycb: Path | None = Field(
         None, description="folder of YCB models to see instead of the packaged meshes"
     )

@@ -39,7 +39,7 @@ class Robot(Protocol):
         ...
 
     def views(self, place: str) -> int:
-        """How many head poses it takes to see all of a place (at least 1)."""
+        """How many head poses it takes to see all of a place or of the `floor` (at least 1)."""
         ...
 
     @property

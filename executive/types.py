@@ -120,6 +120,8 @@ class Place:
 
 DELIVERY = "delivery"
 """The place by the person where brought things are put down; it is no furniture to search."""
+FLOOR = "floor"
+"""The floor around the robot, wherever it is: a place to look at, for what fell from the hand."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +133,10 @@ class DriveTo:
 
 @dataclass(frozen=True, slots=True)
 class LookAt:
-    """Point the head at a place or `delivery`; `view` counts from 0 to `Robot.views(place) - 1`."""
+    """Point the head at a place, `delivery` or the `floor`.
+
+    `view` counts from 0 to `Robot.views(place) - 1`.
+    """
 
     place: str
     view: int = 0
@@ -335,9 +340,13 @@ class Succeeded:
 
 @dataclass(frozen=True, slots=True)
 class Failed:
-    """It could not be done, and why, as a clause for the person: "the way is blocked"."""
+    """It could not be done, and why, as a clause for the person: "the way is blocked".
+
+    `lost` tells that what was in the hand fell out of it on the way, and lies about.
+    """
 
     reason: str
+    lost: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,6 +5,7 @@ from typing import Any
 
 from executive.records import (
     LlmCall,
+    Mishap,
     NodeShape,
     NodeState,
     Tick,
@@ -218,6 +219,19 @@ def utterance_to_message(utterance: Utterance) -> Any:
 def utterance_from_message(message: Any) -> Utterance:
     """The utterance of a `/dialog` message."""
     return Utterance(message.speaker, message.text)
+
+
+# --- what went wrong by order ---
+
+
+def mishap_to_message(mishap: Mishap) -> Any:
+    """`/mishap`."""
+    return MESSAGES["Mishap"](fault=mishap.fault, text=mishap.text)
+
+
+def mishap_from_message(message: Any) -> Mishap:
+    """The mishap of a `/mishap` message."""
+    return Mishap(message.fault, message.text)
 
 
 # --- the end ---

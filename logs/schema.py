@@ -105,7 +105,9 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "frame_number": "optional int64",
         "detections": "repeated Detection",
         "llm_call": "LlmCall",
+        "lost": "bool",
     },
+    "Mishap": {**_STAMPED, "fault": "string", "text": "string"},
     "Candidate": {"place": "string", "source": "string", "probability": "optional double"},
     "Outcome": {
         **_STAMPED,

@@ -22,7 +22,10 @@ from kb.advisor import PlaceAdvisor
 from kb.ontology import Ontology
 from kb.scripted import Scripted as ScriptedModel
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
+from sim.faults import parse_faults
+from sim.faulty_fake import FaultyFakeRobot
 from sim.home import Home, load_home
+from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
 from trees.mission import mission
 from trees.team import NoFacts, Rules, Team
 from trees.tree import MissionTree
@@ -87,6 +90,8 @@ def run_mission(
     elicit: str = "rank",
     place: dict[str, str] | None = None,
     fault: Callable[[Goal], str | None] = lambda goal: None,
+    mishaps: Iterable[str] = (),
+    seed: int = 0,
     during: Callable[[Goal, Inbox], None] = lambda goal, inbox: None,
     rules: dict[str, Any] | None = None,
     person: Callable[[Inbox], User] | None = None,
@@ -97,14 +102,20 @@ def run_mission(
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
-    `during` is called at the start of every goal of the robot, and may post events; `first` are
-    posted before the mission starts.
+    `mishaps` are ordered as with `--fault`. `during` is called at the start of every goal of the
+    robot, and may post events; `first` are posted before the mission starts.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
     home = four_rooms().with_placement(place or {})
     world = FakeWorld(home, inbox, notebook, fault)
     clock = SimulatedClock(inbox, world)
-    robot, goals = FakeRobot(world), []
+    camera, detector, goals = FakeCamera(world), FakeDetector(world), []
+    robot = FakeRobot(world)
+    if mishaps:
+        faults = Mishaps(parse_faults(mishaps, home), notebook, clock.now, seed)
+        robot = FaultyFakeRobot(world, faults)
+        camera = FaultyCamera(camera, faults)  # type: ignore[assignment]
+        detector = FaultyDetector(detector, faults, tuple(home.objects))  # type: ignore[assignment]
     start = robot.start
 
     def start_and_note(goal: Goal) -> int:
@@ -132,7 +143,7 @@ def run_mission(
         interpreter=EnglishInterpreter(),
         knowledge=knowledge,
         robot=robot,
-        eyes=Eyes(FakeCamera(world), FakeDetector(world), inbox, notebook),
+        eyes=Eyes(camera, detector, inbox, notebook),
         user=user,
         model=thinker,
         advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,

@@ -11,6 +11,7 @@ from executive.records import (
     EventTaken,
     Finished,
     LlmCall,
+    Mishap,
     NodeShape,
     NodeState,
     Note,
@@ -223,6 +224,7 @@ def mission() -> Iterator[tuple[float, Record]]:
     yield 6.0, Picture(frame())
     yield 6.0, Seen(0, (detection(),))
     yield 6.0, tick(2, "mission/see", done, done, done, done, done, candidates=CANDIDATES)
+    yield 6.2, Mishap("moved=sugar_box:desk@6", "the sugar_box is taken to desk")
     yield 6.5, Utterance("robot", "Here is the sugar_box.")
     yield 6.5, Note("info", "the sugar_box was in the cupboard")
     yield 6.5, Finished(outcome())

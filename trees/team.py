@@ -29,6 +29,7 @@ class Rules:
         answer_s: how long to wait for the person (mission time, s).
         model_s: how long to wait for one call of the model (mission time, s).
         action_s: how long one action of the robot may take (mission time, s).
+        grasps: how often the robot tries to grasp a thing, each time after another look.
         questions: how often an answer that makes no sense is followed by the question again.
     """
 
@@ -37,6 +38,7 @@ class Rules:
     answer_s: float = 120.0
     model_s: float = 60.0
     action_s: float = 120.0
+    grasps: int = 3
     questions: int = 3
 
 
