@@ -72,7 +72,7 @@ class Cluster:
 
     def _connect(self) -> Client:
         try:
-            return Client(self._address, timeout=CONNECTING_S, set_as_default=False)
+            return Client(self._address, timeout=CONNECTING_S)
         except (OSError, ValueError) as error:
             right = "start one with `dask scheduler`, and workers with `dask worker ADDRESS`"
             raise InputError(f"--cluster {self._address}", str(error), right) from None

@@ -74,8 +74,9 @@ def report(rows: Sequence[Row], about: Mapping[str, str], folder: Path = Path())
 
 COMPARED = (
     "Stars: the difference from the first variant in the same condition, by command, Holm-"
-    "corrected over the variants. Failed visits: places that the robot set out for and could not get to. "
-    "Invented names: of those that the model wrote, how many no room and no furniture goes by."
+    "corrected over the variants. Failed visits: places that the robot set out for and could not "
+    "get to. Invented names: of those that the model wrote, how many no room and no furniture "
+    "goes by."
 )
 
 

@@ -26,11 +26,11 @@ from executive.variants import Variant, of, summary_of
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7",
 )  # fmt: skip
-OF_SYSTEM = dict(zip(paper.SYSTEMS, ((ORANGE, ""), (SKY, "///"), (GREEN, "...")), strict=True))
+OF_SYSTEM = dict(zip(paper.SYSTEMS, ((ORANGE, ""), (SKY, "///"), (GREEN, "xxx")), strict=True))
 OF_ACTIVITY = dict(
     zip(
         ACTIVITIES,
-        ((PURPLE, "xx"), (SKY, "///"), (ORANGE, ""), (GREEN, "..."), ("#DDDDDD", "\\\\")),
+        ((PURPLE, "+++"), (SKY, "///"), (ORANGE, ""), (GREEN, "xxx"), ("#DDDDDD", "\\\\")),
         strict=True,
     )
 )
@@ -193,6 +193,7 @@ def _time(drawing: Drawing, rows: Sequence[Row]) -> None:
         lefts = [left + width for left, width in zip(lefts, widths, strict=True)]
     axes.set_yticks(range(len(shown)), [name(condition) for condition, _ in shown])
     axes.invert_yaxis()
+    axes.set_xlim(0, 1.03 * max(lefts))
     axes.set_xlabel("mission time [s]")
     drawing.legend(loc="outside lower center", ncols=len(ACTIVITIES), frameon=False)
 

@@ -36,11 +36,13 @@ ACTIVITIES: Mapping[str, Column] = {
     "driving": lambda row: row.driving_s,
     "looking": lambda row: row.looking_s,
     "handling": lambda row: row.handling_s,
-    "other": lambda row: (
-        row.mission_time_s - row.thinking_time_s - row.driving_s - row.looking_s - row.handling_s
-    ),
+    "other": lambda row: max(0.0, row.mission_time_s - sum(_known_s(row))),
 }
 """What a mission's time (s) goes into."""
+
+
+def _known_s(row: Row) -> tuple[float, ...]:
+    return row.thinking_time_s, row.driving_s, row.looking_s, row.handling_s
 
 
 def overview(found: Sequence[Variant]) -> Table:
