@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from executive.records import Entity
 from executive.types import Vector3
+from logs import rerun_candidates as candidates
 from logs import rerun_scene as scene
 from logs import rerun_tree as tree
 
-MISSION_TIME = "mission_time"
 BELIEF = "belief"
 LLM = "llm"
 DIALOG = "dialog"
@@ -32,19 +32,23 @@ def mission_blueprint(entities: Iterable[Entity] = ()) -> rrb.Blueprint:
                 _words(),
                 column_shares=[5, 3, 4],
             ),
-            rrb.StateTimelineView(origin=tree.LANES, name="What ran when"),
+            rrb.Tabs(
+                rrb.StateTimelineView(origin=tree.LANES, name="What ran when"),
+                rrb.StateTimelineView(origin=tree.EVERY, name="Every behaviour"),
+            ),
             row_shares=[5, 2],
         ),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
-        rrb.TimePanel(timeline=MISSION_TIME, state="collapsed"),
+        rrb.TimePanel(timeline=scene.MISSION_TIME, state="collapsed"),
         auto_views=False,
         auto_layout=False,
     )
 
 
 def _world(entities: Iterable[Entity]) -> rrb.Spatial3DView:
-    drawn = (scene.SCENE, scene.FRAMES, scene.PLAN, scene.CAMERA)
+    robot = (scene.FRAMES, scene.PLAN, scene.CAMERA)
+    drawn = (scene.SCENE, *robot, candidates.CANDIDATES, candidates.TARGET)
     return rrb.Spatial3DView(
         origin="/",
         contents=[f"/{path}/**" for path in drawn],
@@ -64,7 +68,7 @@ def _birds_eye(entities: Iterable[Entity]) -> rrb.EyeControls3D | None:
     sizes = np.array([shape.size for shape in shapes])
     low, high = (centers - sizes / 2).min(axis=0), (centers + sizes / 2).max(axis=0)
     middle = (low + high) / 2
-    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.4, 0.62])
+    away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.39, 0.58])
     return rrb.EyeControls3D(position=_vector(middle + away), look_target=_vector(middle))
 
 
@@ -85,7 +89,7 @@ def _behaviours() -> rrb.Tabs:
 
 def _words() -> rrb.Vertical:
     columns = rrb.TextLogColumns(
-        timeline_columns=[MISSION_TIME], text_log_columns=["loglevel", "body"]
+        timeline_columns=[scene.MISSION_TIME], text_log_columns=["loglevel", "body"]
     )
     return rrb.Vertical(
         rrb.TextDocumentView(origin=BELIEF, name="Where it may be"),

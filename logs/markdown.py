@@ -6,9 +6,18 @@ from typing import Any
 
 from executive.records import LlmCall, Verified
 from executive.types import Candidate, Message, Outcome, Replied, Scored
+from logs.candidates import State, states
 
 DOTS = 10
 GIST_LENGTH = 300
+
+_MARKS = {
+    State.OPEN: "",
+    State.CURRENT: "▶",
+    State.EMPTY: "✗",
+    State.UNREACHED: "✗",
+    State.FOUND: "✓",
+}
 
 
 def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
@@ -50,10 +59,7 @@ def belief(situation: dict[str, Any]) -> str:
     ]
     if not candidates:
         return heading + "No place is known yet."
-    marks = dict.fromkeys(situation.get("visited") or (), "✗")
-    for key, mark in (("candidate", "▶"), ("found", "✓")):
-        if situation.get(key):
-            marks[situation[key]["place"]] = mark
+    marks = {place: _MARKS[state] for place, state in states(situation).items()}
     return heading + _candidates(candidates, marks)
 
 
@@ -68,9 +74,9 @@ def outcome(outcome: Outcome) -> str:
         f"{outcome.mission_time_s:.1f} s, of them {outcome.thinking_time_s:.1f} s thinking · "
         f"{outcome.llm_calls} calls of the model · {outcome.inquiries} questions"
     )
-    marks = dict.fromkeys(outcome.visited, "✗")
+    marks = dict.fromkeys(outcome.visited, _MARKS[State.EMPTY])
     if outcome.location:
-        marks[outcome.location] = "✓"
+        marks[outcome.location] = _MARKS[State.FOUND]
     if outcome.candidates:
         parts.append(_candidates(outcome.candidates, marks))
     return "\n\n".join(parts)

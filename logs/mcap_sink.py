@@ -35,7 +35,7 @@ from executive.records import (
 )
 from executive.types import Frame
 from logs import foxglove, messages
-from logs.event_messages import event_to_message
+from logs.event_messages import event_to_message, in_words
 from logs.recorder import Stamp
 from logs.schema import MESSAGES
 from logs.times import nanoseconds
@@ -123,12 +123,15 @@ class McapSink:
                 self._add_own("/llm/call", messages.llm_call_to_message(record), ns, stamp)
             case Verified():
                 self._add_own("/llm/verification", messages.verified_to_message(record), ns, stamp)
-            case Utterance():
+            case Utterance(speaker, text):
                 self._add_own("/dialog", messages.utterance_to_message(record), ns, stamp)
+                self._add_line(Note("info", f"{speaker}: {text}"), ns)
             case EventTaken(event):
                 message = event_to_message(event, stamp.mission_s)
                 self._add_own("/event", message, ns, stamp)
+                self._add_line(Note("debug", in_words(event)), ns)
             case Finished(outcome):
+                self._add_line(Note("info", f"{outcome.status}: {outcome.reason}"), ns)
                 self._add_own("/outcome", messages.outcome_to_message(outcome), ns, stamp)
             case Picture(frame):
                 self._add_picture(frame, ns)
@@ -145,7 +148,7 @@ class McapSink:
                     t.child == foxglove.CAMERA_FRAME for t in transforms
                 )
             case Note():
-                self._add("/log", foxglove.log_line(record, ns), ns)
+                self._add_line(record, ns)
 
     def flush(self) -> None:
         """Finish the chunk and have it written to the disk: it survives process and power."""
@@ -166,6 +169,9 @@ class McapSink:
             self._add("/tf", foxglove.frame_transforms([pose], ns), ns)
         self._add("/camera/camera_info", foxglove.camera_calibration(frame, ns), ns)
         self._add("/camera/image/compressed", foxglove.compressed_image(frame, ns), ns)
+
+    def _add_line(self, note: Note, ns: int) -> None:
+        self._add("/log", foxglove.log_line(note, ns), ns)
 
     def _add_own(self, topic: str, message: Any, ns: int, stamp: Stamp) -> None:
         message.timestamp.FromNanoseconds(ns)

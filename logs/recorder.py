@@ -19,9 +19,9 @@ PATIENCE_S = 0.5
 """How long the ticking thread waits for room in a full queue before a record is given up."""
 POLL_S = 0.005
 """How often it looks for room."""
-FLUSH_S = 0.8
-"""So long after a record all is flushed, also while nothing more happens; less than a second, so
-that with the time that flushing takes no more than a second is lost."""
+FLUSH_S = 0.5
+"""So long after a record all is flushed, also while nothing more happens; short enough that with
+the time that flushing takes, on a busy machine too, no more than a second is lost."""
 CLOSE_S = 30.0
 """How long `close` waits for what is queued to be written."""
 

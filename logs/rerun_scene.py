@@ -16,6 +16,9 @@ from executive.records import Entity, Path, Seen, Shape, Transform
 from executive.types import Color, Frame, Intrinsics, Pose
 from logs.images import jpeg
 
+MISSION_TIME, WALL_TIME, TICK = "mission_time", "wall_time", "tick"
+"""The timelines."""
+
 FRAMES = "frames"
 SCENE = "scene"
 PLAN = "plan"
@@ -32,9 +35,10 @@ _PLANNED = (30, 130, 255)
 
 
 class Moved(NamedTuple):
-    """Where a frame was at a mission time (s), after this many ticks."""
+    """Where a frame was at a mission time (s), wall time (ns since 1970) and tick."""
 
     mission_s: float
+    wall_ns: int
     tick: int
     transform: Transform
 
@@ -103,8 +107,9 @@ def _log_mesh(
 def log_transforms(stream: rr.RecordingStream, moved: Sequence[Moved]) -> None:
     """Log where frames are in their parents, all in one call."""
     times = (
-        rr.TimeColumn("mission_time", duration=[m.mission_s for m in moved]),
-        rr.TimeColumn("tick", sequence=[m.tick for m in moved]),
+        rr.TimeColumn(MISSION_TIME, duration=[m.mission_s for m in moved]),
+        rr.TimeColumn(WALL_TIME, timestamp=[m.wall_ns * 1e-9 for m in moved]),
+        rr.TimeColumn(TICK, sequence=[m.tick for m in moved]),
     )
     transforms = [m.transform for m in moved]
     stream.send_columns(

@@ -24,6 +24,7 @@ from executive.types import Frame
 from logs import blueprint, markdown, rerun_scene, viewer
 from logs.event_messages import in_words
 from logs.recorder import Stamp
+from logs.rerun_candidates import CandidatesView
 from logs.rerun_tree import TreeView
 
 APPLICATION = "robot-executive"
@@ -40,7 +41,8 @@ _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 class RerunSink:
     """Writes an .rrd file, shows the mission in a viewer, or both.
 
-    Timelines: `mission_time` (to the millisecond) and `tick`. The file carries its own blueprint.
+    Timelines: `mission_time` (to the millisecond), `wall_time` and `tick`. The file carries its own
+    blueprint.
     """
 
     def __init__(self, path: FilePath | None, *, view: bool = False) -> None:
@@ -62,9 +64,10 @@ class RerunSink:
         if self._viewer is not None:
             sinks.append(rr.GrpcSink(self._viewer.address))
         self._stream.set_sinks(*sinks, default_blueprint=blueprint.mission_blueprint())
-        self._stream.set_time(blueprint.MISSION_TIME, duration=0.0)
-        self._stream.set_time("tick", sequence=0)
+        self._stream.set_time(rerun_scene.MISSION_TIME, duration=0.0)
+        self._stream.set_time(rerun_scene.TICK, sequence=0)
         rerun_scene.log_frames(self._stream)
+        self._candidates = CandidatesView(self._stream)
         self._moved: list[rerun_scene.Moved] = []
         self._kept = 0
         self._picture: Frame | None = None
@@ -77,11 +80,12 @@ class RerunSink:
         """Log a record where the blueprint looks for it."""
         mission_s = round(stamp.mission_s, 3)
         if isinstance(record, Transforms):
-            self._keep(mission_s, record)
+            self._keep(mission_s, stamp.wall_ns, record)
             return
         self._send_moved()
-        self._stream.set_time(blueprint.MISSION_TIME, duration=mission_s)
-        self._stream.set_time("tick", sequence=self._tick)
+        self._stream.set_time(rerun_scene.MISSION_TIME, duration=mission_s)
+        self._stream.set_time(rerun_scene.WALL_TIME, timestamp=stamp.wall_ns * 1e-9)
+        self._stream.set_time(rerun_scene.TICK, sequence=self._tick)
         match record:
             case TreeShape():
                 self._tree = TreeView(self._stream, record)
@@ -105,6 +109,7 @@ class RerunSink:
                 self._detections_shown = True
             case Scene(entities):
                 rerun_scene.log_scene(self._stream, entities)
+                self._candidates.place(entities)
                 self._stream.send_blueprint(blueprint.mission_blueprint(entities))
             case Path():
                 rerun_scene.log_path(self._stream, record)
@@ -128,9 +133,10 @@ class RerunSink:
 
     def _write_tick(self, tick: Tick) -> None:
         self._tick = tick.number
-        self._stream.set_time("tick", sequence=tick.number)
+        self._stream.set_time(rerun_scene.TICK, sequence=tick.number)
         if self._tree is not None:
             self._tree.show(tick)
+        self._candidates.show(tick.situation)
         self._stream.log(blueprint.BELIEF, _document(markdown.belief(tick.situation)))
 
     def _write_picture(self, frame: Frame) -> None:
@@ -154,9 +160,10 @@ class RerunSink:
         text = in_words(taken.event)
         self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
 
-    def _keep(self, mission_s: float, record: Transforms) -> None:
+    def _keep(self, mission_s: float, wall_ns: int, record: Transforms) -> None:
         """Keep what moved until there is more to send: a call of rerun takes a millisecond."""
-        self._moved += [rerun_scene.Moved(mission_s, self._tick, t) for t in record.transforms]
+        at = mission_s, wall_ns, self._tick
+        self._moved += [rerun_scene.Moved(*at, transform) for transform in record.transforms]
         self._kept += 1
         if self._kept >= MOST_KEPT:
             self._send_moved()

@@ -10,6 +10,7 @@ from executive.records import NodeShape, Tick, TreeShape
 BRANCH = "behaviour_tree/branch"
 WHOLE = "behaviour_tree/whole"
 LANES = "mission"
+EVERY = "behaviours"
 
 COLORS = {
     "INVALID": 0x8B949EFF,
@@ -39,8 +40,10 @@ class TreeView:
         """Draw nothing yet."""
         self._stream = stream
         self._tree = tree
-        self._stages = [node for node in tree.nodes if node.path.count("/") == 2]
+        stages = [node for node in tree.nodes if node.path.count("/") == 2]
+        self._lanes = {node.path: _lane(LANES, i, node) for i, node in enumerate(stages, start=1)}
         """The parts of the mission: the second level below the root."""
+        self._every = {node.path: _lane(EVERY, i, node) for i, node in enumerate(tree.nodes)}
         self._shown: dict[str, object] = {}
 
     def show(self, tick: Tick) -> None:
@@ -51,8 +54,9 @@ class TreeView:
         place = (tick.situation.get("candidate") or {}).get("place", "")
         self._lane(f"{LANES}/0_doing", tick.tip.rpartition("/")[2])
         self._lane(f"{LANES}/0_place", place)
-        for number, stage in enumerate(self._stages, start=1):
-            self._stage(number, stage, statuses[stage.path])
+        for lanes in (self._lanes, self._every):
+            for node, lane in lanes.items():
+                self._status(lane, statuses[node])
 
     def _graph(
         self, path: str, nodes: Sequence[NodeShape], statuses: dict[str, str], layout: Layout
@@ -74,9 +78,8 @@ class TreeView:
             rr.GraphEdges([(node.parent, node.path) for node in nodes if node.parent]),
         )
 
-    def _stage(self, number: int, stage: NodeShape, status: str) -> None:
-        """A lane for each stage, from when it first does something."""
-        path = rr.new_entity_path([LANES, f"{number}_{stage.name.replace(' ', '_')}"])
+    def _status(self, path: str, status: str) -> None:
+        """A lane for a behaviour, from when it first does something."""
         if path not in self._shown:
             if status == "INVALID":
                 return
@@ -87,6 +90,11 @@ class TreeView:
         if state and self._shown.get(path) != state:
             self._shown[path] = state
             self._stream.log(path, rr.StateChange(state=state))
+
+
+def _lane(folder: str, number: int, node: NodeShape) -> str:
+    """Where a behaviour's lane is logged; lanes are drawn in the order of their names."""
+    return f"{folder}/{number}_{node.name.replace(' ', '_')}"
 
 
 def _branch(tree: TreeShape, tip: str) -> list[NodeShape]:

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.errors import ExecutiveError
+from logs.rerun_scene import MISSION_TIME
 
 COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
 START_S = 20.0
 """How long a viewer may take to start."""
 SETTLE_S = 30.0
 """How long its picture may take to come to rest."""
-MISSION_TIME = "mission_time"
 _NO_VIEWER = "the rerun viewer does not start; it needs a display"
 
 

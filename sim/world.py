@@ -108,10 +108,12 @@ class PhysicsWorld:
         self._client.disconnect()
 
     def describe(self) -> None:
-        """Record the whole scene and where everything is."""
+        """Record the whole scene, where everything is, and what the camera sees from the start."""
         entities = (*home_entities(self._home, self._models), *robot_entities(describe_robot()))
         self._recorder.record(Scene(entities))
         self._recorder.record(Transforms(self._frames.all()))
+        if self._picture_every:
+            self._recorder.record(Picture(self.camera.capture()))
 
     def resting_place(self, name: str) -> str | None:
         """The furniture that an object rests on, by the simulator's truth; None if on none."""

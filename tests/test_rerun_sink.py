@@ -76,14 +76,14 @@ def test_a_mission_fills_every_view(recording: Path) -> None:
         assert logged[entity], entity
 
 
-def test_the_recording_is_on_the_mission_time_and_the_tick_timeline(recording: Path) -> None:
+def test_the_recording_is_on_mission_time_wall_time_and_tick(recording: Path) -> None:
     names = {
         name
         for chunk in RrdReader(recording).stream()
         if str(chunk.entity_path) == "/belief"
         for name in chunk.to_record_batch().schema.names
     }
-    assert {"mission_time", "tick"} <= names
+    assert {"mission_time", "wall_time", "tick"} <= names
 
 
 def test_a_call_reads_as_asked_answered_accepted_and_dropped(recording: Path) -> None:
@@ -120,6 +120,15 @@ def test_a_tree_that_did_not_change_is_not_drawn_again(tmp_path: Path) -> None:
     ticks = [tick(number, "mission/which places/ask", *same) for number in range(5)]
     path = write(tmp_path / "a.rrd", (0.0, tree), *((1.0, t) for t in ticks))
     assert rows(path)["/behaviour_tree/branch"] == 1
+
+
+def test_every_behaviour_has_a_lane_from_when_it_first_does_something(recording: Path) -> None:
+    logged = rows(recording)
+    assert logged["/behaviours/2_ask"] == 1 + 2  # its colours, running, success
+    assert logged["/behaviours/3_drive"] == 1 + 2
+    early = [record for time, record in mission() if time < 2]
+    half = write(recording.parent / "half.rrd", *((0.0, record) for record in early))
+    assert "/behaviours/3_drive" not in rows(half)
 
 
 def test_the_scene_is_logged_once_and_only_frames_move(tmp_path: Path) -> None:

@@ -6,6 +6,8 @@ With `SCREENSHOTS=DIR` in the environment the pictures are kept there, to be loo
 import os
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -13,12 +15,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from rerun.experimental import ViewerClient
-from sample_mission import mission
+from sample_mission import STARTED, frame, mission
 
+from executive.records import Picture
 from logs import viewer
 from logs.__main__ import main
-from logs.blueprint import MISSION_TIME
+from logs.mcap_sink import McapSink
 from logs.recorder import Stamp
+from logs.rerun_scene import MISSION_TIME
 from logs.rerun_sink import RerunSink
 
 pytestmark = [
@@ -35,24 +39,43 @@ NOTICES_PX = 80
 
 
 @pytest.fixture(scope="module")
-def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ViewerClient]:
-    path = tmp_path_factory.mktemp("run") / "mission.rrd"
-    sink = RerunSink(path)
-    for mission_s, record in mission():
-        sink.write(Stamp(mission_s, 0), record)
-    sink.close()
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("run")
+    sinks = (RerunSink(folder / "mission.rrd"), McapSink(folder / "mission.mcap", STARTED, {}, {}))
+    at_the_start = replace(frame(), color=np.zeros_like(frame().color))
+    for sink in sinks:
+        for mission_s, record in ((0.0, Picture(at_the_start)), *mission()):
+            sink.write(Stamp(mission_s, 0), record)
+        sink.close()
+    return folder
+
+
+@pytest.fixture(scope="module")
+def client(run: Path) -> Iterator[ViewerClient]:
+    with opened(run / "mission.rrd") as client:
+        yield client
+
+
+@contextmanager
+def opened(recording: Path) -> Iterator[ViewerClient]:
+    """A viewer without a window that shows the recording."""
     live = viewer.start("--headless")
-    client = ViewerClient.connect(live.address)
     try:
-        client.open(str(path))
+        client = ViewerClient.connect(live.address)
+        client.open(str(recording))
         yield client
     finally:
         live.close()
 
 
 def screenshot(client: ViewerClient, mission_s: float) -> NDArray[np.uint8]:
-    """What the viewer shows at this mission time, once three pictures in a row agree."""
+    """What the viewer shows at this mission time."""
     client.set_time(MISSION_TIME, duration=mission_s, play_state="paused")
+    return settled(client, f"mission-{mission_s:g}s")
+
+
+def settled(client: ViewerClient, name: str) -> NDArray[np.uint8]:
+    """What the viewer shows once three pictures in a row agree."""
     latest = time.monotonic() + SETTLE_S
     pictures = [b"", client.take_screenshot()]
     while client.get_state().loading or len(set(pictures[-3:])) > 1:
@@ -62,7 +85,7 @@ def screenshot(client: ViewerClient, mission_s: float) -> NDArray[np.uint8]:
     picture = pictures[-1]
     if folder := os.environ.get("SCREENSHOTS"):
         Path(folder).mkdir(parents=True, exist_ok=True)
-        (Path(folder) / f"mission-{mission_s:g}s.png").write_bytes(picture)
+        (Path(folder) / f"{name}.png").write_bytes(picture)
     decoded = cv2.imdecode(np.frombuffer(picture, np.uint8), cv2.IMREAD_COLOR)
     assert decoded is not None
     return decoded[NOTICES_PX:].astype(np.uint8)
@@ -95,13 +118,22 @@ def test_the_picture_and_its_detection_are_on_screen(client: ViewerClient) -> No
     assert green(screenshot(client, 6.2)) > green(screenshot(client, 5.0)) + 100
 
 
-def test_a_picture_of_the_viewer_is_taken_from_the_command_line(tmp_path: Path) -> None:
-    sink = RerunSink(tmp_path / "mission.rrd")
-    for mission_s, record in mission():
-        sink.write(Stamp(mission_s, 0), record)
-    sink.close()
+def test_rerun_draws_the_mcap_too_without_complaint(run: Path) -> None:
+    began = STARTED.timestamp()
+    with opened(run / "mission.mcap") as client:
+        pictures = []
+        for mission_s in (0.5, 4.0, 6.2):
+            client.set_time("message_log_time", timestamp=began + mission_s, play_state="paused")
+            pictures.append(settled(client, f"mcap-{mission_s:g}s"))
+            assert_healthy(client)
+        kinds = {view.view_class for view in client.get_state().views}
+    assert {"2D", "3D", "TextLog"} <= kinds
+    assert (pictures[1] != pictures[2]).mean() > 0.01
+
+
+def test_a_picture_of_the_viewer_is_taken_from_the_command_line(run: Path, tmp_path: Path) -> None:
     file = tmp_path / "picture.png"
-    assert main(["view", str(tmp_path), "--at", "6.2", "--png", str(file)]) == 0
+    assert main(["view", str(run), "--at", "6.2", "--png", str(file)]) == 0
     taken = cv2.imread(str(file))
     assert taken is not None
     assert green(taken.astype(np.uint8)) > 100

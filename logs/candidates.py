@@ -1,0 +1,32 @@
+"""What became of each place where the thing may be, as the mission knows it after a tick."""
+
+from collections.abc import Mapping
+from enum import StrEnum
+from typing import Any
+
+
+class State(StrEnum):
+    """How far the search is with a place."""
+
+    OPEN = "open"
+    CURRENT = "current"
+    """The robot is on its way there or looks there."""
+    EMPTY = "empty"
+    """The thing was looked for there, in vain."""
+    UNREACHED = "unreached"
+    FOUND = "found"
+
+
+def states(situation: Mapping[str, Any]) -> dict[str, State]:
+    """The candidates in their order, each with its state.
+
+    Args:
+        situation: the snapshot that each tick carries.
+    """
+    found = dict.fromkeys((c["place"] for c in situation.get("candidates") or ()), State.OPEN)
+    found |= dict.fromkeys(situation.get("visited") or (), State.EMPTY)
+    found |= dict.fromkeys(situation.get("unreached") or (), State.UNREACHED)
+    for key, state in (("candidate", State.CURRENT), ("found", State.FOUND)):
+        if situation.get(key):
+            found[situation[key]["place"]] = state
+    return found

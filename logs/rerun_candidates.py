@@ -1,0 +1,88 @@
+"""In rerun: a ball above each place where the thing may be, and one where it was seen."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import rerun as rr
+from scipy.spatial.transform import Rotation
+
+from executive.records import Entity, Shape
+from executive.types import Vector3
+from logs.candidates import State, states
+
+CANDIDATES = "candidates"
+TARGET = "target"
+
+COLORS = {
+    State.OPEN: (90, 150, 255),
+    State.CURRENT: (242, 169, 59),
+    State.EMPTY: (229, 83, 75),
+    State.UNREACHED: (139, 148, 158),
+    State.FOUND: (63, 185, 80),
+}
+_RADIUS_M, _ABOVE_M = 0.16, 0.35
+_TARGET_RADIUS_M = 0.10
+
+
+class CandidatesView:
+    """Draws the places of each tick; what did not change is not logged again."""
+
+    def __init__(self, stream: rr.RecordingStream) -> None:
+        """Draw nothing yet."""
+        self._stream = stream
+        self._above: dict[str, Vector3] = {}
+        self._shown: Mapping[str, State] = {}
+        self._sighting: list[float] = []
+        for path in (CANDIDATES, TARGET):
+            stream.log(path, rr.CoordinateFrame("map"), static=True)
+
+    def place(self, entities: Iterable[Entity]) -> None:
+        """Take note of where the furniture is: everything that stands in `map`."""
+        for entity in entities:
+            shapes = [shape for shape in entity.shapes if shape.kind != "mesh"]
+            if entity.frame_id == "map" and shapes:
+                self._above[entity.name] = _above(shapes)
+
+    def show(self, situation: Mapping[str, Any]) -> None:
+        """Log the state of each candidate, and where the thing was seen."""
+        drawn = {place: s for place, s in states(situation).items() if place in self._above}
+        if drawn != self._shown:
+            self._shown = drawn
+            self._stream.log(CANDIDATES, _balls([self._above[p] for p in drawn], drawn))
+        sighting = list(situation.get("sighting") or ())
+        if sighting != self._sighting:
+            self._sighting = sighting
+            color = COLORS[State.FOUND]
+            seen = [sighting] if sighting else []
+            name = [str(situation.get("object"))] if sighting else []
+            balls = rr.Points3D(seen, radii=_TARGET_RADIUS_M, colors=color, labels=name)
+            self._stream.log(TARGET, balls)
+
+
+def _balls(middles: list[Vector3], drawn: Mapping[str, State]) -> rr.Points3D:
+    """Points, those named that the robot is about or that ended the search."""
+    named = (State.CURRENT, State.FOUND)
+    return rr.Points3D(
+        middles,
+        radii=_RADIUS_M,
+        colors=[COLORS[state] for state in drawn.values()],
+        labels=[place if state in named else "" for place, state in drawn.items()],
+        show_labels=True,
+    )
+
+
+def _above(shapes: Iterable[Shape]) -> Vector3:
+    """A point over the middle of shapes that stand in `map`."""
+    corners = np.concatenate([_corners(shape) for shape in shapes])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    x, y, _ = ((low + high) / 2).tolist()
+    return x, y, float(high[2]) + _ABOVE_M
+
+
+def _corners(shape: Shape) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    """The corners (8, 3) of the box around a shape."""
+    signs = np.array(np.meshgrid((-0.5, 0.5), (-0.5, 0.5), (-0.5, 0.5))).reshape(3, -1).T
+    turned = Rotation.from_quat(shape.pose.orientation).apply(signs * shape.size)
+    corners: np.ndarray[tuple[int, int], np.dtype[np.float64]] = turned + shape.pose.position
+    return corners

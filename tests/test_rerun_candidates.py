@@ -1,0 +1,75 @@
+"""What became of each place, and how rerun draws it."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rerun as rr
+from rerun.chunk import RrdReader
+
+from executive.records import Entity, Shape
+from executive.types import Pose
+from logs.candidates import State, states
+from logs.rerun_candidates import COLORS, CandidatesView
+
+GREY = (0.5, 0.5, 0.5, 1.0)
+FURNITURE = (
+    Entity("desk", "map", (Shape("box", (1.0, 0.5, 0.7), GREY, Pose((2.0, 1.0, 0.35))),)),
+    Entity("shelf", "map", (Shape("box", (0.4, 0.4, 1.8), GREY, Pose((0.0, 3.0, 0.9))),)),
+    Entity("mug", "mug", (Shape("box", (0.1, 0.1, 0.1), GREY),)),
+)
+
+
+def situation(*candidates: str, **known: Any) -> dict[str, Any]:
+    return {"candidates": [{"place": place} for place in candidates], **known}
+
+
+def test_a_place_is_open_then_current_then_empty_or_found() -> None:
+    assert states(situation("desk", "shelf")) == {"desk": State.OPEN, "shelf": State.OPEN}
+    looking = situation("desk", "shelf", visited=["desk"], candidate={"place": "shelf"})
+    assert states(looking) == {"desk": State.EMPTY, "shelf": State.CURRENT}
+    assert states(looking | {"found": {"place": "shelf"}})["shelf"] is State.FOUND
+    blocked = situation("desk", unreached={"desk": "a closed door"})
+    assert states(blocked) == {"desk": State.UNREACHED}
+
+
+def drawn(path: Path, entity: str) -> list[dict[str, Any]]:
+    """The points of an entity, component by component, without what is static."""
+    rows: list[dict[str, Any]] = []
+    for chunk in RrdReader(path).stream():
+        if str(chunk.entity_path) == f"/{entity}" and not chunk.is_static:
+            batch = chunk.to_record_batch()
+            names = [name for name in batch.schema.names if name.startswith("Points3D")]
+            rows += batch.select(names).to_pylist()
+    return rows
+
+
+def test_balls_hang_over_the_furniture_in_the_colour_of_their_state(tmp_path: Path) -> None:
+    stream = rr.RecordingStream("test")
+    stream.save(tmp_path / "it.rrd")
+    view = CandidatesView(stream)
+    view.place(FURNITURE)
+    for known in ({}, {}, {"visited": ["desk"]}):
+        view.show(situation("desk", "shelf", "moon", **known))
+    stream.disconnect()
+    first, second = drawn(tmp_path / "it.rrd", "candidates")
+    positions = np.array(first["Points3D:positions"])
+    np.testing.assert_allclose(positions, [(2.0, 1.0, 1.05), (0.0, 3.0, 2.15)], atol=1e-6)
+    assert first["Points3D:colors"] == [rgba(State.OPEN)] * 2
+    assert second["Points3D:colors"] == [rgba(State.EMPTY), rgba(State.OPEN)]
+
+
+def test_where_the_thing_was_seen_is_marked(tmp_path: Path) -> None:
+    stream = rr.RecordingStream("test")
+    stream.save(tmp_path / "it.rrd")
+    view = CandidatesView(stream)
+    view.show(situation("desk", object="mug", sighting=[1.0, 2.0, 0.8]))
+    stream.disconnect()
+    (row,) = drawn(tmp_path / "it.rrd", "target")
+    np.testing.assert_allclose(row["Points3D:positions"], [(1.0, 2.0, 0.8)], atol=1e-6)
+    assert row["Points3D:labels"] == ["mug"]
+
+
+def rgba(state: State) -> int:
+    red, green, blue = COLORS[state]
+    return red << 24 | green << 16 | blue << 8 | 0xFF
