@@ -24,7 +24,7 @@ from executive.observed import Observed
 from executive.policies import POLICIES
 from executive.routes import routes_in
 from executive.truth import completed, shortest_m, whereabouts
-from executive.types import ChatRequest, Message, Outcome, Replied
+from executive.types import ChatRequest, Message, Outcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +85,7 @@ def run(household: Household, before: Iterable[Entry] = ()) -> Generator[Entry, 
 
 
 class _Rest:
-    """What outlives the missions of a household: model, and adviser with its memory."""
+    """What outlives the missions of a household: the model, and what was said to it."""
 
     def __init__(self, household: Household) -> None:
         self._recorded = household.recorded
@@ -93,12 +93,11 @@ class _Rest:
         self._policy = POLICIES[household.policy]
         self._inbox = Inbox()
         self._model = self._policy.model(self._settings, self._inbox)
-        self._advisor: Advisor | None = None
-        self._to_recall: list[tuple[str, str]] = []
+        self._dialogue: list[tuple[str, str]] = []
 
     def recall(self, entry: Entry) -> None:
-        """Bring the dialogue of a mission that was run earlier back to memory."""
-        self._to_recall += entry.exchanges
+        """Take in what was said in a mission that has ended."""
+        self._dialogue += entry.exchanges
 
     def mission(self, turn: int, key: Key) -> Entry:
         observed = Observed()
@@ -110,7 +109,7 @@ class _Rest:
             recorded=self._recorded,
             sinks=[observed],
         )
-        self._share_memory(session)
+        session.advisor = self._advisor(session)
         try:
             row = _row(turn, key, session.run(key.command), session, observed)
         except Exception as error:
@@ -119,15 +118,17 @@ class _Rest:
         finally:
             session.facts.close()
             session.world.close()
-        written = [call for call in observed.calls if isinstance(call, Replied)]
-        return Entry(row, tuple((call.request.messages[-1].content, call.text) for call in written))
+        entry = Entry(row, observed.exchanges())
+        self.recall(entry)
+        return entry
 
-    def _share_memory(self, session: Session) -> None:
-        self._advisor = session.advisor = self._advisor or self._policy.advisor(session)
-        for said, reply in self._to_recall:
-            assert self._advisor
-            self._advisor.remember(ChatRequest("recalled", (Message("user", said),)), reply)
-        self._to_recall.clear()
+    def _advisor(self, session: Session) -> Advisor | None:
+        """The policy's, told the dialogue so far, which it keeps if the system has a memory."""
+        advisor = self._policy.advisor(session)
+        if advisor:
+            for said, reply in self._dialogue:
+                advisor.remember(ChatRequest("recalled", (Message("user", said),)), reply)
+        return advisor
 
     def close(self) -> None:
         if self._model:

@@ -69,6 +69,14 @@ class Observed:
     def close(self) -> None:
         """Nothing to close."""
 
+    def exchanges(self) -> tuple[tuple[str, str], ...]:
+        """Inquiry and reply of each call about places in which the model wrote."""
+        return tuple(
+            (call.request.messages[-1].content, call.text)
+            for call in self.calls
+            if isinstance(call, Replied) and call.request.label != "command"
+        )
+
     def path_m(self, leg_m: Callable[[Point, Point], float]) -> float:
         """How far the robot drove (metres), with the length of each leg between two positions."""
         return sum(leg_m(a, b) for a, b in pairwise(self.positions))

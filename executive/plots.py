@@ -193,7 +193,7 @@ def _time(drawing: Drawing, rows: Sequence[Row]) -> None:
         lefts = [left + width for left, width in zip(lefts, widths, strict=True)]
     axes.set_yticks(range(len(shown)), [name(condition) for condition, _ in shown])
     axes.invert_yaxis()
-    axes.set_xlim(0, 1.03 * max(lefts))
+    axes.set_xlim(0, 1.03 * max([1.0, *lefts]))
     axes.set_xlabel("mission time [s]")
     drawing.legend(loc="outside lower center", ncols=len(ACTIVITIES), frameon=False)
 

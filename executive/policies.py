@@ -8,6 +8,7 @@ import random
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import chain
 from types import MappingProxyType
 from typing import Any
@@ -16,7 +17,7 @@ from executive.app import Session, build_model
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
 from executive.interfaces import Advisor, LanguageModel
-from executive.routes import Routes
+from executive.routes import routes_in
 from executive.types import (
     ChatRequest,
     Failed,
@@ -117,7 +118,7 @@ class Ordered(PlaceAdvisor):
 
 def nearest(session: Session) -> Order:
     """Always go to the place that is nearest to where the robot is, by the map."""
-    routes = Routes(session.home)
+    routes = routes_in(session.settings.home)
 
     def order(name: str, places: Sequence[str]) -> list[str]:
         here, left, tour = session.home.robot_start[:2], list(places), list[str]()
@@ -140,13 +141,19 @@ def by_chance(session: Session) -> Order:
     return order
 
 
+@cache
+def the_survey() -> Ontology:
+    """The ontology with the survey's default locations, whatever a mission's situation."""
+    return Ontology(defaults=True)
+
+
 def popular(session: Session) -> Order:
     """Where other things usually are, by the survey; equals in the home's order.
 
     The record that the asked object takes its own default locations from is left out, and with it
     all that share it. The survey is used in both situations.
     """
-    survey = Ontology(session.home.places())
+    survey = the_survey()
     recorded = survey.recorded_locations()
 
     def order(name: str, places: Sequence[str]) -> list[str]:

@@ -78,7 +78,7 @@ def test_only_those_who_asked_a_model_are_in_the_table_of_its_cost() -> None:
     asked = missions("okb+llm", [0], llm_calls=2, llm_s=3.0, thinking_time_s=4.0)
     stand_in = missions("okb+llm", [0], llm="none", llm_calls=1, policy="nearest")
     text = text_of([*asked, *stand_in])
-    assert "| ours, embedded | list generation [s] | - (35.27) | - (30.79) | 4.00" in text
+    assert "| ours | list generation [s] | - (35.27) | - (30.79) | 4.00 (10.81) |" in text
     assert "| nearest | list generation" not in text
 
 

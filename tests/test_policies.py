@@ -111,6 +111,13 @@ def test_a_model_alone_is_told_nothing_of_the_home(monkeypatch: pytest.MonkeyPat
     assert (row.failed_visits, row.invented, row.inquiries, row.completed) == (1, 1, 1, True)
 
 
+def test_all_time_of_a_mission_goes_into_something_that_has_a_name() -> None:
+    (row,) = missions("nearest", "Bring a sugar_box.")
+    known_s = row.thinking_time_s + row.driving_s + row.looking_s + row.handling_s
+    assert known_s == pytest.approx(row.mission_time_s)
+    assert min(row.driving_s, row.looking_s, row.handling_s) > 0
+
+
 def test_policies_of_a_writing_model_differ_in_what_it_is_held_to() -> None:
     used = {
         name: households.Household(load_settings(), (), name).settings_used
