@@ -41,6 +41,7 @@ STYLE: Any = {
     "font.family": "DejaVu Sans",
     "font.size": 9,
     "hatch.linewidth": 0.5,
+    "svg.fonttype": "none",
     "svg.hashsalt": "robot-executive",
     "axes.spines.top": False,
     "axes.spines.right": False,

@@ -60,7 +60,7 @@ def overview(found: Sequence[Variant]) -> Table:
                 )
                 table.append([f"{title}, {situation(defaults)}", *cells])
         figures_s = paper.COST["list generation [s]"]
-        for defaults in (False, True):
+        for defaults in (False, True) if asked(variant.rows) else ():
             thinking = [
                 _mean_cell(
                     asked(of(variant.rows, (system, defaults))),
