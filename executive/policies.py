@@ -147,7 +147,7 @@ def the_survey() -> Ontology:
     return Ontology(defaults=True)
 
 
-def popular(session: Session) -> Order:
+def popular(session: Session | None = None) -> Order:
     """Where other things usually are, by the survey; equals in the home's order.
 
     The record that the asked object takes its own default locations from is left out, and with it

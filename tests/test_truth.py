@@ -1,6 +1,7 @@
 """What truly came of a mission, and how far the robot had to drive for it."""
 
 from dataclasses import replace
+from itertools import pairwise
 from math import dist, inf
 
 import pytest
@@ -10,6 +11,7 @@ from executive.journal import Row
 from executive.routes import Routes
 from executive.truth import completed, shortest_m, whereabouts
 from executive.types import Kind, Pick, PutDown
+from sim.navigation import OccupancyGrid, plan
 
 
 @pytest.mark.parametrize(
@@ -45,6 +47,18 @@ def test_the_shortest_way_leads_through_doors_and_is_the_same_back() -> None:
     assert routes.length(bed, wagon) > dist(bed, wagon)
     assert routes.length(bed, wagon) == pytest.approx(routes.length(wagon, bed), rel=0.05)
     assert routes.length(bed, (-5.0, 0.0)) == inf
+
+
+def test_the_shortest_way_is_no_longer_than_the_comfortable_one() -> None:
+    routes, comfortable = Routes(four_rooms()), OccupancyGrid.from_home(four_rooms())
+    start = four_rooms().robot_start[:2]
+    saved = []
+    for place in four_rooms().places():
+        way = plan(comfortable, start, routes.stand(place.name))
+        length = sum(dist(a, b) for a, b in pairwise(way))
+        saved.append(length - routes.length(start, routes.stand(place.name)))
+    assert min(saved) > -0.02
+    assert max(saved) > 0.05
 
 
 def test_how_far_it_has_to_drive_depends_on_where_the_command_ends() -> None:
