@@ -26,6 +26,8 @@ from kb.scripted import Scripted
 from sim.generation import generate_home
 from sim.home import home_text
 
+pytestmark = pytest.mark.usefixtures("no_plots")
+
 COMMANDS = ("Find an apple.", "Find a power_drill.", "Take a mug.")
 
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from executive.campaign import main
-from executive.journal import Journal, Row
+from executive.journal import Entry, Journal, Row
 
 pytest.importorskip("distributed")
-pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning:distributed")
+pytestmark = pytest.mark.usefixtures("no_plots")
 
 COMMANDS = ("Find an apple.", "Find a power_drill.", "Take a mug.", "Bring a sugar_box.")
 
@@ -45,7 +45,7 @@ def rows_of(out: Path) -> list[Row]:
     return [entry.row for entry in Journal(out / "journal.jsonl").entries()]
 
 
-def test_a_killed_worker_of_a_cluster_costs_no_mission_and_counts_none_twice(
+def test_a_campaign_that_is_stopped_and_loses_a_worker_loses_no_mission_and_counts_none_twice(
     start: Callable[..., "subprocess.Popen[str]"], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file, out = tmp_path / "commands.txt", tmp_path / "out"
@@ -53,22 +53,25 @@ def test_a_killed_worker_of_a_cluster_costs_no_mission_and_counts_none_twice(
     address = address_of(start("scheduler", "--port", "0", "--host", "127.0.0.1"))
     worker = ("worker", address, "--nthreads", "1", "--no-nanny")
     workers = [start(*worker), start(*worker)]
-    append, killed_after = Journal.append, 0
+    append = Journal.append
 
-    def append_then_kill(journal: Journal, entry: object) -> None:
-        nonlocal killed_after
-        append(journal, entry)  # type: ignore[arg-type]
-        if len(rows_of(out)) > 5 and not killed_after:
-            killed_after = len(rows_of(out))
+    def append_and_act(journal: Journal, entry: Entry) -> None:
+        append(journal, entry)
+        ended = len(rows_of(out))
+        if ended == 5:
+            raise KeyboardInterrupt
+        if ended == 12:
             workers[0].kill()
 
-    monkeypatch.setattr(Journal, "append", append_then_kill)
+    monkeypatch.setattr(Journal, "append", append_and_act)
     options = ["--llm", "none", "--seeds", "2", "--commands", str(file), "--out", str(out)]
+    assert main([*options, "--cluster", address]) == 130
+    stopped = rows_of(out)
     assert main([*options, "--cluster", address]) == 0
     rows = rows_of(out)
+    assert rows[:5] == stopped
     assert len(rows) == len({row.key for row in rows}) == 3 * 2 * 4 * 2
     assert all(row.completed for row in rows)
-    assert 0 < killed_after < len(rows)
     assert workers[0].wait() != 0
     assert workers[1].poll() is None
 

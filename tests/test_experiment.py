@@ -37,6 +37,7 @@ def grid_of_nine() -> list[Row]:
     ]
 
 
+@pytest.mark.usefixtures("no_plots")
 def test_the_report_says_what_a_hand_computes() -> None:
     text = text_of([*missions("okb", [1, 1, 1, 1]), *missions("okb+llm", [0, 0, 0, 1])])
     assert "| okb, defaults | 1.00 (0.80) | 1.00 to 1.00 | 0.00 (0.40) | 4 |" in text
@@ -44,6 +45,7 @@ def test_the_report_says_what_a_hand_computes() -> None:
     assert "| defaults | okb - okb+llm | +0.75 | 1.000 (n = 1) | 0.250 (n = 4) |" in text
 
 
+@pytest.mark.usefixtures("no_plots")
 def test_a_system_that_always_asks_shows_in_the_tables() -> None:
     rows = []
     for number in range(9):
@@ -54,6 +56,7 @@ def test_a_system_that_always_asks_shows_in_the_tables() -> None:
     assert r"| defaults | okb+llm - okb+llm+mem | -1.00 | 0.004 \*\* (n = 9) |" in text
 
 
+@pytest.mark.usefixtures("no_plots")
 def test_a_policy_that_always_asks_stands_out_beside_the_first() -> None:
     rows = []
     for number in range(9):
@@ -65,6 +68,7 @@ def test_a_policy_that_always_asks_stands_out_beside_the_first() -> None:
     assert r"| okb+llm, defaults | always-asks | 1.00 \*\* |" in text
 
 
+@pytest.mark.usefixtures("no_plots")
 def test_what_is_only_said_to_be_done_is_a_failure_with_its_recording(tmp_path: Path) -> None:
     (row,) = missions("okb", [0])
     wrong = replace(row, completed=False, object="mug", truth="sofa", run_dir=f"{tmp_path}/runs/x")
@@ -74,6 +78,7 @@ def test_what_is_only_said_to_be_done_is_a_failure_with_its_recording(tmp_path: 
     assert "[Find a mug (seed 0)](<../runs/x>)" in text
 
 
+@pytest.mark.usefixtures("no_plots")
 def test_only_those_who_asked_a_model_are_in_the_table_of_its_cost() -> None:
     asked = missions("okb+llm", [0], llm_calls=2, llm_s=3.0, thinking_time_s=4.0)
     stand_in = missions("okb+llm", [0], llm="none", llm_calls=1, policy="nearest")
@@ -107,6 +112,7 @@ def test_the_same_rows_give_the_same_plots() -> None:
     assert sum(isinstance(part, Figure) for part in first) >= 5
 
 
+@pytest.mark.usefixtures("no_plots")
 def test_an_empty_campaign_has_a_report() -> None:
     assert "# Campaign: 0 missions" in text_of([])
 
@@ -124,6 +130,7 @@ def table_lines(text: str) -> list[str]:
     return [line for line in text.splitlines() if line.startswith("|") and "---" not in line]
 
 
+@pytest.mark.usefixtures("no_plots")
 @pytest.mark.parametrize("folder", sorted(DOCS.glob("experiment-*/")), ids=lambda path: path.name)
 def test_every_table_of_a_committed_report_comes_from_the_committed_results(folder: Path) -> None:
     committed = (folder / "report.md").read_text(encoding="utf-8").split("## Settings")[0]
