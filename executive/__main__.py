@@ -152,6 +152,7 @@ def parser() -> argparse.ArgumentParser:
         help="where a thing truly is; repeatable (default: as in the home file)",
     )
     option("--world", choices=["physics", "fake"])
+    option("--ycb", type=Path, metavar="DIR")
     option("--seed", type=int, metavar="N")
     option("--memory", type=Path, metavar="FILE")
     p.add_argument(

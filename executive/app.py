@@ -48,6 +48,7 @@ from logs.rerun_sink import RerunSink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.home import Home, home_text, load_home
 from sim.objects import load_objects
+from sim.ycb import with_scans
 from trees.mission import mission
 from trees.team import Team
 from trees.tree import MissionTree
@@ -251,9 +252,10 @@ def build_simulation(
         return instant, FakeRobot(instant), FakeCamera(instant), FakeDetector(instant)
     from sim.world import PhysicsWorld
 
+    models = load_objects()
     physics = PhysicsWorld(
         home,
-        load_objects(),
+        with_scans(models, settings.ycb) if settings.ycb else models,
         inbox,
         recorder,
         seed=settings.seed,

@@ -45,6 +45,9 @@ class Settings(BaseSettings):
         default_factory=dict, description="where things truly are, beside the home file"
     )
     world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
+    ycb: Path | None = Field(
+        None, description="folder of YCB models to see instead of the packaged meshes"
+    )
     seed: int = Field(0, ge=0, description="of the world, the model and the simulated person")
     memory: Path | None = Field(
         None, description="SQLite file of what was seen and said; without, this session only"

@@ -130,7 +130,9 @@ class Shape:
     """One rigid primitive of an entity, in the entity's frame.
 
     `kind` is `box` (size = full lengths x, y, z), `cylinder` (size = diameter, diameter, length
-    along z), `sphere` (size = thrice the diameter) or `mesh` (size = scale, `mesh` = OBJ file).
+    along z), `sphere` (size = thrice the diameter) or `mesh` (size = scale). The file of a `mesh`
+    is an OBJ, drawn in the colour, or a GLB, which has its own colours and, as all glTF, y up and
+    z to the front.
     """
 
     kind: str

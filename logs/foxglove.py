@@ -153,7 +153,7 @@ def _add_shape(message: SceneEntity, shape: Shape) -> None:
                 pose=pose,
                 scale=size,
                 color=color,
-                override_color=True,
+                override_color=not shape.mesh.endswith(".glb"),
                 media_type=guess_type(shape.mesh)[0] or "model/obj",
                 data=FilePath(shape.mesh).read_bytes(),
             )

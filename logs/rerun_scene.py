@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import rerun as rr
+from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Path, Seen, Shape, Transform
 from executive.types import Color, Frame, Intrinsics, Pose
@@ -29,6 +30,8 @@ PICTURE_FRAME = "picture"
 """Where the camera was when it took the latest picture."""
 IMAGE_FRAME = "picture_plane"
 
+_GLTF_TURN = Rotation.from_quat((0.5, 0.5, 0.5, 0.5))
+"""glTF has y up and looks along z; the viewer takes its coordinates as they are."""
 _CAMERA = (255, 255, 255, 160)
 _FOUND = (60, 220, 90)
 _PLANNED = (30, 130, 255)
@@ -91,13 +94,16 @@ def _log_shapes(stream: rr.RecordingStream, entity: Entity, kind: str, shapes: l
 def _log_mesh(
     stream: rr.RecordingStream, path: str, frame: rr.CoordinateFrame, shape: Shape
 ) -> None:
+    turn = Rotation.from_quat(shape.pose.orientation)
+    if shape.mesh.endswith(".glb"):
+        turn *= _GLTF_TURN
     stream.log(
         path,
         frame,
         rr.Asset3D(path=FilePath(shape.mesh), albedo_factor=_rgba(shape.color)),
         rr.InstancePoses3D(
             translations=[shape.pose.position],
-            quaternions=[shape.pose.orientation],
+            quaternions=[turn.as_quat()],
             scales=[shape.size],
         ),
         static=True,

@@ -1,25 +1,31 @@
-"""Homes on the command line: `view` draws one, `check` names its faults, `generate` makes one."""
+"""Homes on the command line: `view` draws one, `check` names its faults, `generate` makes one.
+
+`view objects` draws all objects.
+"""
 
 import argparse
+import io
 import json
-import struct
 import sys
-import zlib
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from executive.errors import ExecutiveError, InputError
 from executive.types import Intrinsics, Pose
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
+from sim.catalogue import contact_sheet
 from sim.checking import check_home
 from sim.client import connect
 from sim.generation import generate_home
 from sim.home import Home, load_home
-from sim.objects import load_objects
+from sim.objects import ObjectModel, load_objects
+from sim.ycb import with_scans
 
 WIDTH, HEIGHT = 1280, 1080
 DISTANCE = 4.35
@@ -33,9 +39,12 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command; returns its exit status (0 done, 1 the home has faults, 2 bad input)."""
     parser = argparse.ArgumentParser(prog="python -m sim", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
-    view = commands.add_parser("view", help="draw a home from above into a PNG file")
-    view.add_argument("home", nargs="?", default="four_rooms", help="name or FILE.toml")
-    view.add_argument("--out", type=Path, help="the picture; default HOME.png")
+    view = commands.add_parser("view", help="draw a home from above, or all objects, as a PNG file")
+    view.add_argument(
+        "home", nargs="?", default="four_rooms", help="name or FILE.toml; or: objects"
+    )
+    view.add_argument("--out", type=Path, help="the picture; default HOME.png or objects.png")
+    view.add_argument("--ycb", type=Path, metavar="DIR", help="YCB models to see instead of ours")
     view.set_defaults(run=_view)
     check = commands.add_parser("check", help="name all that is wrong with a home")
     check.add_argument("home", help="name or FILE.toml")
@@ -56,9 +65,15 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _view(options: argparse.Namespace) -> int:
+    models = load_objects()
+    if options.ycb:
+        models = with_scans(models, options.ycb)
+    if options.home == "objects":
+        _write(options.out or Path("objects.png"), _png(contact_sheet(models.values())))
+        return 0
     home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
-    _write(out, png(draw(home)))
+    _write(out, _png(Image.fromarray(draw(home, models))))
     return 0
 
 
@@ -89,7 +104,7 @@ def _write(path: Path, content: bytes) -> None:
     print(path)
 
 
-def draw(home: Home) -> NDArray[np.uint8]:
+def draw(home: Home, models: Mapping[str, ObjectModel]) -> NDArray[np.uint8]:
     """The home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
     edges = np.array([room.rectangle for room in home.rooms])
     lower, upper = edges[:, :2].min(axis=0), edges[:, 2:].max(axis=0)
@@ -103,22 +118,16 @@ def draw(home: Home) -> NDArray[np.uint8]:
     pose = Pose(tuple(eye.tolist()), tuple(turn.as_quat().tolist()))
     client = connect()
     build_home(client, home.model_copy(update={"wall_height": VIEWED_WALL_HEIGHT_M}))
-    place_objects(client, home, load_objects())
+    place_objects(client, home, models)
     color = render(client, pose, intrinsics, far=2 * distance).color
     client.disconnect()
     return color
 
 
-def png(color: NDArray[np.uint8]) -> bytes:
-    """An RGB picture (height, width, 3) as a PNG file (ISO/IEC 15948)."""
-    height, width, _ = color.shape
-    rows = np.concatenate((np.zeros((height, 1), np.uint8), color.reshape(height, -1)), axis=1)
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes())), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-        for kind, body in chunks
-    )
+def _png(picture: Image.Image) -> bytes:
+    content = io.BytesIO()
+    picture.save(content, "PNG", optimize=True)
+    return content.getvalue()
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Any, Literal
 
 import pybullet as p
 from pybullet_utils.bullet_client import BulletClient
@@ -11,7 +12,7 @@ from executive.records import Entity, Shape
 from executive.types import Color, Pose, Vector3
 from sim.furniture import box
 from sim.home import PERSON, Home
-from sim.objects import ObjectModel
+from sim.objects import ObjectModel, packaged_mesh
 
 MAP = "map"
 WALL_COLOR: Color = (0.93, 0.91, 0.86, 1.0)
@@ -45,6 +46,7 @@ def create_body(
     mass: float = 0.0,
     friction: float = FURNITURE_FRICTION,
     center_of_mass: Vector3 = (0.0, 0.0, 0.0),
+    look: Shape | None = None,
 ) -> int:
     """Build one rigid body out of shapes and return its id.
 
@@ -56,36 +58,17 @@ def create_body(
         friction: lateral friction coefficient.
         center_of_mass: in the body's frame. PyBullet reports this point as the body's position:
             `frame_pose` gives the frame.
+        look: the mesh that is drawn instead of the shapes.
     """
-    types = [_SHAPE_TYPES[shape.kind] for shape in shapes]
-    halves = [[length / 2 for length in shape.size] for shape in shapes]
-    radii = [shape.size[0] / 2 for shape in shapes]
-    lengths = [shape.size[2] for shape in shapes]
-    positions = [shape.pose.position for shape in shapes]
-    turns = [shape.pose.orientation for shape in shapes]
     body: int = client.createMultiBody(
         mass,
-        client.createCollisionShapeArray(
-            shapeTypes=types,
-            halfExtents=halves,
-            radii=radii,
-            lengths=lengths,
-            collisionFramePositions=positions,
-            collisionFrameOrientations=turns,
-        ),
-        client.createVisualShapeArray(
-            shapeTypes=types,
-            halfExtents=halves,
-            radii=radii,
-            lengths=lengths,
-            visualFramePositions=positions,
-            visualFrameOrientations=turns,
-        ),
+        client.createCollisionShapeArray(**_arrays(shapes, "collision")),
+        _mesh(client, look) if look else client.createVisualShapeArray(**_arrays(shapes, "visual")),
         pose.position,
         pose.orientation,
         baseInertialFramePosition=center_of_mass,
     )
-    for index, shape in enumerate(shapes):
+    for index, shape in enumerate((look,) if look else shapes):
         client.changeVisualShape(
             body, -1, shapeIndex=index, rgbaColor=shape.color, specularColor=(0.1, 0.1, 0.1)
         )
@@ -97,6 +80,30 @@ def create_body(
         spinningFriction=ROLLING_FRICTION,
     )
     return body
+
+
+def _arrays(shapes: Sequence[Shape], purpose: Literal["collision", "visual"]) -> dict[str, Any]:
+    """Primitives as PyBullet takes them."""
+    return {
+        "shapeTypes": [_SHAPE_TYPES[shape.kind] for shape in shapes],
+        "halfExtents": [[length / 2 for length in shape.size] for shape in shapes],
+        "radii": [shape.size[0] / 2 for shape in shapes],
+        "lengths": [shape.size[2] for shape in shapes],
+        f"{purpose}FramePositions": [shape.pose.position for shape in shapes],
+        f"{purpose}FrameOrientations": [shape.pose.orientation for shape in shapes],
+    }
+
+
+def _mesh(client: BulletClient, look: Shape) -> int:
+    """A visual shape with the texture that the OBJ file's material names."""
+    mesh: int = client.createVisualShape(
+        p.GEOM_MESH,
+        fileName=look.mesh,
+        meshScale=look.size,
+        visualFramePosition=look.pose.position,
+        visualFrameOrientation=look.pose.orientation,
+    )
+    return mesh
 
 
 def frame_pose(client: BulletClient, body: int) -> Pose:
@@ -130,6 +137,7 @@ def place_objects(
             model.mass_kg,
             model.friction,
             model.center_of_mass,
+            model.look,
         )
         names[body] = name
     for _ in range(SETTLING_STEPS):
@@ -144,7 +152,7 @@ def home_entities(home: Home, models: Mapping[str, ObjectModel]) -> tuple[Entity
         Entity(name, MAP, tuple(_moved(shape, pose) for shape in shapes))
         for name, shapes, pose in _fixtures(low)
     ]
-    movable = [Entity(name, name, models[name].shapes) for name in home.objects]
+    movable = [Entity(name, name, (packaged_mesh(name, "glb"),)) for name in home.objects]
     return (*fixed, *movable)
 
 

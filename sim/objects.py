@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import Annotated, Literal
+from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, BeforeValidator, ConfigDict, TypeAdapter
+from pydantic import BaseModel, ConfigDict, TypeAdapter
 from scipy.spatial.transform import Rotation
 
 from executive.records import Shape
@@ -18,6 +19,10 @@ from executive.types import Color, Pose, Vector3
 
 Grasp = Literal["top", "rim", "handle"]
 TUBE_WALLS = 12
+ASSETS = Path(__file__).parent / "assets" / "objects"
+"""A folder for each object, with its mesh as `textured.obj` and as `textured.glb`."""
+WHITE: Color = (1.0, 1.0, 1.0, 1.0)
+"""Leaves the colours of a texture as they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +35,9 @@ class ObjectModel:
         friction: lateral friction coefficient (the simulator multiplies those of both bodies).
         grasp: `top` (fingers straddle the narrow horizontal side from above), `rim` (one finger
             inside) or `handle`.
-        shapes: in the object frame, whose origin is the middle of the resting base.
+        shapes: what it collides with, in the object frame, whose origin is the middle of the
+            resting base.
+        look: the textured mesh that is drawn of it, in the object frame.
         lower: lowest corner of the bounding box in the object frame (metres).
         upper: highest corner of the bounding box.
         center_of_mass: in the object frame, all shapes taken as equally dense.
@@ -41,6 +48,7 @@ class ObjectModel:
     friction: float
     grasp: Grasp
     shapes: tuple[Shape, ...]
+    look: Shape
     lower: Vector3
     upper: Vector3
     center_of_mass: Vector3
@@ -60,9 +68,10 @@ def load_objects() -> dict[str, ObjectModel]:
     return {name: row.model(name) for name, row in rows.items()}
 
 
-def _color(text: str) -> Color:
-    red, green, blue = (int(text.removeprefix("#")[i : i + 2], 16) / 255 for i in (0, 2, 4))
-    return red, green, blue, 1.0
+def packaged_mesh(name: str, form: Literal["obj", "glb"]) -> Shape:
+    """The mesh of an object that `python -m sim.modelling` made, in the object frame."""
+    path = ASSETS / name / f"textured.{form}"
+    return Shape("mesh", (1.0, 1.0, 1.0), WHITE, mesh=str(path))
 
 
 class _Part(BaseModel):
@@ -74,13 +83,12 @@ class _Part(BaseModel):
     size: Vector3
     at: Vector3
     rpy: Vector3 = (0.0, 0.0, 0.0)
-    color: Annotated[Color, BeforeValidator(_color)]
 
     def shapes(self) -> tuple[Shape, ...]:
         if self.kind == "tube":
             return tuple(self._wall(i) for i in range(TUBE_WALLS))
         turn = Rotation.from_euler("xyz", self.rpy, degrees=True)
-        return (Shape(self.kind, self.size, self.color, _pose(self.at, turn)),)
+        return (Shape(self.kind, self.size, WHITE, _pose(self.at, turn)),)
 
     def _wall(self, index: int) -> Shape:
         """One of the boxes that stand in a ring for the tube's wall."""
@@ -90,7 +98,7 @@ class _Part(BaseModel):
         width = diameter * math.tan(math.pi / TUBE_WALLS)
         turn = Rotation.from_euler("z", angle)
         x, y, z = turn.apply((middle, 0.0, 0.0)) + np.asarray(self.at)
-        return Shape("box", (thickness, width, height), self.color, _pose((x, y, z), turn))
+        return Shape("box", (thickness, width, height), WHITE, _pose((x, y, z), turn))
 
 
 class _Row(BaseModel):
@@ -114,6 +122,7 @@ class _Row(BaseModel):
             self.friction,
             self.grasp,
             shapes,
+            packaged_mesh(name, "obj"),
             lower=_vector((middle - reach).min(axis=0)),
             upper=_vector((middle + reach).max(axis=0)),
             center_of_mass=_vector(volume @ middle / volume.sum()),

@@ -120,6 +120,17 @@ def test_the_scene_holds_every_shape_in_its_frame(path: Path, tmp_path: Path) ->
     assert messages["/tf"][0][1].transforms[0].translation.x == 1.5
 
 
+def test_only_a_mesh_without_colours_of_its_own_is_given_one(path: Path, tmp_path: Path) -> None:
+    files = tmp_path / "cup.obj", tmp_path / "apple.glb"
+    for file in files:
+        file.write_bytes(b"mesh")
+    shapes = tuple(Shape("mesh", (1, 1, 1), (1, 1, 1, 1), mesh=str(file)) for file in files)
+    messages = write(path, (0.0, Scene((Entity("things", "map", shapes),))))
+    cup, apple = messages["/scene"][0][1].entities[0].models
+    assert (cup.media_type, cup.override_color) == ("model/obj", True)
+    assert (apple.media_type, apple.override_color) == ("model/gltf-binary", False)
+
+
 def test_a_planned_path_is_drawn_until_it_is_given_up(path: Path) -> None:
     way = PlannedPath(((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)))
     (_, drawn), (_, gone) = write(path, (0.0, way), (1.0, PlannedPath(())))["/scene"]

@@ -1,0 +1,72 @@
+"""What a camera picture costs: `python tests/benchmarks/bench_rendering.py [YCB_DIR]`.
+
+Renders the packaged home with all its objects from three places, with our meshes or YCB's scans,
+and once more with the boxes, cylinders and spheres that things collide with.
+"""
+
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from pybullet_utils.bullet_client import BulletClient
+from scipy.spatial.transform import Rotation
+
+from executive.types import Pose
+from sim.bodies import build_home, create_body
+from sim.camera import pinhole, render
+from sim.client import connect
+from sim.home import load_home
+from sim.objects import ObjectModel, load_objects
+from sim.ycb import with_scans
+
+HOME = load_home("four_rooms")
+PLACES = "counter_wagon", "desk", "high_table"
+PICTURES = 10
+_OPTICAL = Rotation.from_matrix(np.array([[0, 0, 1], [-1, 0, 0], [0, -1, 0]]))
+
+
+def world(models: dict[str, ObjectModel], meshes: bool) -> BulletClient:
+    """The home with its things, drawn as meshes or as what they collide with."""
+    client = connect()
+    build_home(client, HOME)
+    for name in HOME.objects:
+        model = models[name]
+        look = model.look if meshes else None
+        create_body(client, model.shapes, HOME.object_pose(name), look=look)
+    return client
+
+
+def pictures(client: BulletClient, width: int, height: int) -> float:
+    """Median CPU seconds of a picture."""
+    took = []
+    for x, y, yaw in map(HOME.stand, PLACES):
+        ahead = Rotation.from_euler("ZY", (yaw, 0.5)) * _OPTICAL
+        pose = Pose((x, y, 1.3), tuple(ahead.as_quat().tolist()))
+        lens = pinhole(width, height)
+        took += [timed(lambda: render(client, pose, lens)) for _ in range(PICTURES)]  # noqa: B023
+    return float(np.median(took))
+
+
+def timed(do: Callable[[], object]) -> float:
+    """CPU seconds that it takes: the renderer has one thread."""
+    began = time.process_time()
+    do()
+    return time.process_time() - began
+
+
+def main(arguments: list[str]) -> None:
+    """Print the table."""
+    models = load_objects()
+    if arguments:
+        models = with_scans(models, Path(arguments[0]))
+    for label, meshes in (("meshes", True), ("shapes", False)):
+        client = world(models, meshes)
+        for width, height in ((320, 240), (640, 480)):
+            print(f"{label} {width}x{height}: {1000 * pictures(client, width, height):.0f} ms")
+        client.disconnect()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
