@@ -288,6 +288,7 @@ def parser() -> argparse.ArgumentParser:
         "--policy",
         action="append",
         choices=list(POLICIES),
+        metavar="NAME",
         help="who says where to look; may be repeated (default: ours)",
     )
     p.add_argument("--home", action="append", metavar="NAME or FILE.toml", help="may be repeated")
