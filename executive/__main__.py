@@ -13,6 +13,7 @@ from typing import Any
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.errors import ExecutiveError, InputError
 from executive.events import Inbox, StopRequested
+from executive.text import writable
 from executive.types import Outcome, Status
 
 EXIT = {
@@ -63,7 +64,7 @@ def serve(
     session = Session(settings, inbox=inbox, view=view, gui=gui)
     try:
         if words is not None:
-            return conclude(session.run(words), as_json)
+            return conclude(session.run(writable(words)), as_json)
         code = 0
         print("What can I do for you? (stop ends)", file=sys.stderr)
         while (line := session.next_command()) is not None:

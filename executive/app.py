@@ -117,6 +117,7 @@ class Session:
             if self.model
             else None
         )
+        self._in_hand: str | None = None
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
@@ -128,11 +129,12 @@ class Session:
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
         self.folder = folder
+        self._in_hand = self._in_hand if self.robot.holding else None
         self.clock.restart()
         logs = self._logs(folder, started) if folder else []
         self.recorder.open([*logs, *self._sinks], started)
         self.world.describe()
-        situation = Situation(words=words)
+        situation = Situation(words=words, in_hand=self._in_hand)
         tree = MissionTree(mission(self._team(situation)))
         executive = Executive(
             tree,
@@ -146,6 +148,7 @@ class Session:
         try:
             executive.run()
             self.ticks = executive.ticks
+            self._in_hand = situation.in_hand
             outcome = situation.outcome(
                 mission_time_s=self.clock.now(),
                 wall_time_s=time.monotonic() - began,
@@ -216,6 +219,7 @@ class Session:
         }
         metadata = {
             "requests_before": str(self.inbox.last),
+            "in_hand": self._in_hand or "",
             "seed": str(self.settings.seed),
             "model": self.model.name if self.model else "none",
             **{name: version(name) for name in PACKAGES},

@@ -14,12 +14,24 @@ _VERBS: dict[str, Kind] = {
     "take": Kind.TAKE,
     "grab": Kind.TAKE,
     "grasp": Kind.TAKE,
+    "pick": Kind.TAKE,
     "pick up": Kind.TAKE,
+    "hold": Kind.TAKE,
+    "hold on to": Kind.TAKE,
+    "hang on to": Kind.TAKE,
+    "get hold of": Kind.TAKE,
+    "lift": Kind.TAKE,
+    "lift up": Kind.TAKE,
     "bring": Kind.BRING,
     "fetch": Kind.BRING,
     "get": Kind.BRING,
     "give": Kind.BRING,
     "deliver": Kind.BRING,
+    "hand": Kind.BRING,
+    "hand over": Kind.BRING,
+    "pass": Kind.BRING,
+    "carry": Kind.BRING,
+    "let me have": Kind.BRING,
     "where's": Kind.FIND,
     "have you seen": Kind.FIND,
     "i'm looking for": Kind.FIND,
@@ -33,6 +45,13 @@ _VERBS: dict[str, Kind] = {
     "can i have": Kind.BRING,
     "could i have": Kind.BRING,
     "may i have": Kind.BRING,
+    "can i get": Kind.BRING,
+    "could i get": Kind.BRING,
+    "may i get": Kind.BRING,
+    "i lost": Kind.FIND,
+    "i have lost": Kind.FIND,
+    "i can't find": Kind.FIND,
+    "i cannot find": Kind.FIND,
 }
 _LONGEST_FIRST = "|".join(sorted(_VERBS, key=len, reverse=True))
 _COMMAND = re.compile(
@@ -40,8 +59,8 @@ _COMMAND = re.compile(
     r"|(?:i'd like|i would like|i want|i need) you to )*"
     rf"(?P<verb>{_LONGEST_FIRST}) "
     r"(?:(?:me|us|please) )*(?:(?:a|an|the|my|some|any|one) )*"
-    r"(?P<target>(?!(?:a|an|the|me|us|my|some|any|one)$).+?)"
-    r"(?: (?:to|for) me| here| please| now)*"
+    r"(?P<target>(?!(?:a|an|the|me|us|my|some|any|one|on|up)$).+?)"
+    r"(?: (?:to|for) me| up| over| here| please| now)*"
 )
 _DECLINES = re.compile(
     r"\b(?:don'?t|do not|dunno|no idea|not sure|nowhere|nothing|none|never ?mind|cannot|can'?t)\b"

@@ -35,7 +35,9 @@ class Settings(BaseSettings):
     )
     grammar: bool = Field(False, description="hold the model's replies to their JSON schema")
     prompts: Path | None = Field(None, description="TOML file of texts that replace ours")
-    kb: tuple[Path, ...] = Field((), description="a person's own OWL files, which add to ours")
+    kb: tuple[Path, ...] = Field(
+        (), description="a person's own OWL files, which add to ours or replace them"
+    )
     person: str | None = Field(None, description="who is at home, as an OWL file names them")
     elicit: Literal["generate", "rank"] | None = Field(
         None, description="let the model write a list (paper) or score each known place"

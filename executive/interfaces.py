@@ -138,6 +138,10 @@ class Knowledge(Protocol):
         """Every piece of furniture of the home, in the home file's order."""
         ...
 
+    def has_place(self, name: str) -> bool:
+        """Whether a piece of furniture of this name is in the home."""
+        ...
+
     def objects_named(self, words: str) -> tuple[str, ...]:
         """The objects that the words may mean: none, one, or all members of a class ("fruit")."""
         ...

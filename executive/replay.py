@@ -88,7 +88,7 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     """
     began = perf_counter()
     run = Run(folder)
-    inbox, situation = Inbox(), Situation()
+    inbox, situation = Inbox(), Situation(in_hand=run.metadata.get("in_hand") or None)
     clock = RecordedTime(run.turns(), inbox, int(_kept(run, run.metadata, "requests_before")))
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox)

@@ -66,6 +66,8 @@ class Situation:
     """The thing, as last seen."""
     found: Candidate | None = None
     """Where the thing was seen."""
+    in_hand: str | None = None
+    """The thing that the robot holds, from this mission or one before it."""
     away: bool = False
     """Whether the robot has left the person."""
     inquiries: int = 0
@@ -132,6 +134,7 @@ class Situation:
             "unreached": dict(self.unreached),
             "sighting": list(self.detection.position or ()) if self.detection else None,
             "found": asdict(self.found) if self.found else None,
+            "in_hand": self.in_hand,
             "inquiries": self.inquiries,
             "llm_calls": self.llm_calls,
             "status": self.status,

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from typing import TextIO
 
 from executive.events import Inbox, StopRequested
+from executive.text import writable
 from executive.types import Answered, Failed, Question, QuestionKind
 
 STOP_WORDS = frozenset({"stop", "halt"})
@@ -59,7 +60,7 @@ class Console:
 
     def _read(self) -> None:
         for line in self._source:
-            words = line.strip()
+            words = writable(line).strip()
             if words.lower() in STOP_WORDS:
                 self._inbox.post(StopRequested("the person"))
             elif words:

@@ -4,6 +4,7 @@ import argparse
 import json
 import sys
 import time
+from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
@@ -11,6 +12,7 @@ from pathlib import Path
 from executive.errors import ExecutiveError, InputError
 from kb.facts import FactStore
 from kb.ontology import Ontology
+from sim.home import load_home
 
 
 def show(ontology: Ontology, words: str) -> int:
@@ -85,6 +87,12 @@ def age(seconds: float) -> str:
     return f"{max(0.0, seconds):.0f} seconds"
 
 
+def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> Ontology:
+    """What a mission with the same options would know."""
+    places = load_home(given.home).places()
+    return Ontology(places, defaults=given.defaults, files=[*given.kb, *files])
+
+
 def _memory(file: Path) -> FactStore:
     if not file.exists():
         raise InputError(str(file), "there is no such file", "name the one of --memory")
@@ -97,11 +105,11 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         match given.command:
             case "show":
-                return show(Ontology(files=given.kb), " ".join(given.words))
+                return show(_ontology(given), " ".join(given.words))
             case "check":
-                return check(Ontology(files=[*given.kb, *given.files]))
+                return check(_ontology(given, given.files))
             case "query":
-                return query(Ontology(files=given.kb), given.sparql, given.json)
+                return query(_ontology(given), given.sparql, given.json)
             case "facts":
                 return facts(given.memory, given.json)
             case _:
@@ -122,8 +130,21 @@ def parser() -> argparse.ArgumentParser:
     asked = commands.add_parser("query", help="ask the ontology in SPARQL")
     asked.add_argument("sparql", help='"SELECT ?x WHERE { ?x rdfs:subClassOf household:Fruit }"')
     for command in (shown, checked, asked):
+        own = "own OWL file: adds to ours, or replaces the one with the same ontology IRI"
         command.add_argument(
-            "--kb", action="append", default=[], type=Path, metavar="FILE", help="own OWL file"
+            "--kb", action="append", default=[], type=Path, metavar="FILE", help=own
+        )
+        command.add_argument(
+            "--home",
+            default="four_rooms",
+            metavar="NAME or FILE.toml",
+            help="whose furniture (default: four_rooms)",
+        )
+        command.add_argument(
+            "--defaults",
+            action=argparse.BooleanOptionalAction,
+            default=True,
+            help="whether to load defaults.owl (default: yes)",
         )
     remembered = commands.add_parser("facts", help="what was seen, missed, said, taken and put")
     for command in (asked, remembered):

@@ -5,6 +5,9 @@ import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from rapidfuzz import process
+from rapidfuzz.distance import OSA
+
 from executive.types import Place
 
 Words = tuple[str, ...]
@@ -12,6 +15,10 @@ Words = tuple[str, ...]
 
 MOST_WORDS = 6
 """Longest name of a place that is looked for in a text."""
+
+SHORTEST_WITH_A_SLIP = 4
+SLIP_LIKENESS = 0.75
+"""One letter in four may be wrong, missing, or swapped with the next."""
 
 _DETERMINERS = frozenset(("a", "an", "any", "my", "our", "some", "that", "the", "this", "your"))
 _PREPOSITIONS = frozenset(("at", "by", "from", "in", "inside", "of", "on", "over", "top", "under"))
@@ -72,28 +79,62 @@ class PlaceNames:
         self, places: Sequence[Place], called: Mapping[str, Sequence[str]] | None = None
     ) -> None:
         """Index the home; `called` says what furniture and room classes are called."""
-        self._places = tuple(places)
+        self._room_of = {place.name: place.room for place in places}
+        self._pieces_in: dict[str, list[str]] = {}
+        for place in places:
+            self._pieces_in.setdefault(place.room, []).append(place.name)
         called = called or {}
 
         def names_of(kind: str) -> Iterable[str]:
             return (spoken(kind), *called.get(kind, ()))
 
-        self._rooms = index_by_words(
+        rooms = (
             [(_content(p.room), p.room) for p in places],
             [(_content(name), p.room) for p in places for name in names_of(p.room_kind)],
         )
-        self._furniture = index_by_words(
+        furniture = (
             [(words, p.name) for p in places for words in _orders(p)],
             [(_content(base_name(p)), p.name) for p in places],
             [(_content(name), p.name) for p in places for name in names_of(p.kind)],
         )
+        self._rooms, self._furniture = index_by_words(*rooms), index_by_words(*furniture)
+        self._vocabulary = {
+            word for tier in (*rooms, *furniture) for words, _ in tier for word in words
+        }
 
-    def read(self, phrase: str) -> Reading:
-        """The places that one phrase names: "in the cupboard of the kitchen".
+    def find(self, text: str) -> tuple[str, ...]:
+        """All furniture that a text names, in its order; a room stands for its furniture.
+
+        Clauses that deny ("not on the desk", "I don't know") name nothing. A slip of the finger
+        ("dinning table") is read as the word that it is near to.
+        """
+        found: list[str] = []
+        for clause in _CLAUSE_ENDS.split(text.casefold()):
+            if _NEGATION.search(clause):
+                continue
+            reading = self._read(map(self._without_slip, _content(clause)))
+            found.extend(reading.furniture)
+            for room in reading.rooms:
+                found.extend(self._pieces_in[room])
+        return unique(found)
+
+    def exactly(self, name: str) -> Reading:
+        """The one piece of furniture or the one room that all of a name fits, else nothing."""
+        reading = self._read(_content(_ENUMERATION.sub("", name)))
+        if reading.unknown or len(reading.furniture) + len(reading.rooms) != 1:
+            return Reading()
+        return reading
+
+    def rooms_of(self, furniture: Iterable[str]) -> tuple[str, ...]:
+        """The rooms that these pieces of furniture stand in."""
+        return unique(self._room_of[name] for name in furniture if name in self._room_of)
+
+    def _read(self, content: Iterable[str]) -> Reading:
+        """The places in the words of one phrase: "in the cupboard of the kitchen".
 
         A room beside furniture narrows it down; a room alone stands for itself.
         """
-        words = list(_content(phrase))
+        words = list(content)
         furniture: list[str] = []
         rooms: list[str] = []
         unknown: list[str] = []
@@ -105,36 +146,18 @@ class PlaceNames:
                 unknown.append(words[0])
             del words[:length]
         if furniture and rooms:
-            inside = {p.name for p in self._places if p.room in rooms}
-            furniture = [name for name in furniture if name in inside]
+            furniture = [name for name in furniture if self._room_of[name] in rooms]
             rooms = []
         return Reading(unique(furniture), unique(rooms), tuple(unknown))
 
-    def find(self, text: str) -> tuple[str, ...]:
-        """All furniture that a text names, in its order; a room stands for its furniture.
-
-        Clauses that deny ("not on the desk", "I don't know") name nothing.
-        """
-        found: list[str] = []
-        for clause in _CLAUSE_ENDS.split(text.casefold()):
-            if _NEGATION.search(clause):
-                continue
-            reading = self.read(clause)
-            found.extend(reading.furniture)
-            found.extend(p.name for p in self._places if p.room in reading.rooms)
-        return unique(found)
-
-    def exactly(self, name: str) -> Reading:
-        """The one piece of furniture or the one room that all of a name fits, else nothing."""
-        reading = self.read(_ENUMERATION.sub("", name))
-        if reading.unknown or len(reading.furniture) + len(reading.rooms) != 1:
-            return Reading()
-        return reading
-
-    def rooms_of(self, furniture: Iterable[str]) -> tuple[str, ...]:
-        """The rooms that these pieces of furniture stand in."""
-        wanted = set(furniture)
-        return unique(p.room for p in self._places if p.name in wanted)
+    def _without_slip(self, word: str) -> str:
+        """The word of a name that this one is a slip of, else the word itself."""
+        if word in self._vocabulary or len(word) < SHORTEST_WITH_A_SLIP:
+            return word
+        nearest = process.extract(
+            word, self._vocabulary, scorer=OSA.normalized_similarity, score_cutoff=SLIP_LIKENESS
+        )
+        return str(nearest[0][0]) if len(nearest) == 1 else word
 
     def _longest_match(
         self, words: list[str], furniture: list[str], rooms: list[str]

@@ -12,13 +12,19 @@ from executive.errors import InputError
 from executive.types import Place
 from kb.faults import faults
 from kb.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
-from kb.owl import downwards, label, leaves, load, upwards, values
+from kb.owl import downwards, label, leaves, load, read, upwards, values
 from kb.sparql import Table, select
 
 HOUSEHOLD = Path(__file__).with_name("household.owl")
 DEFAULTS = Path(__file__).with_name("defaults.owl")
 CLASSES = "http://robot-executive.org/household.owl#"
 INDIVIDUALS = "http://robot-executive.org/home.owl#"
+VOCABULARY = (
+    *("Object", "Furniture", "Room", "Person"),
+    *("isIn", "hasDefaultLocation", "preferredBy", "preposition"),
+)
+"""Classes and properties that household.owl, or what replaces it, has to declare."""
+ALSO_CALLED = "http://www.w3.org/2004/02/skos/core#altLabel"
 PREFIXES = {
     "household": CLASSES,
     "home": INDIVIDUALS,
@@ -50,26 +56,35 @@ class Ontology:
     ) -> None:
         """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
 
+        A file with the IRI of another ontology, such as one of ours, takes its place.
+
         Args:
             places: the furniture of the home.
             defaults: whether to load defaults.owl.
-            files: a person's own OWL files, which add to ours.
+            files: a person's own OWL files, which add to ours or replace them.
             person: the name of who is at home, as the files have it.
 
         Raises:
             InputError: if a file is no ontology, imports one that is not loaded or is called like
-                another, if a place is of a class that the ontology does not have, or if it does not
-                know the person.
+                another; if what replaces household.owl lacks a name that every home needs, a place
+                is of a class that the ontology does not have, or nobody knows the person.
         """
         self._world = owlready2.World()
         self._files: dict[str, bytes] = {}
-        for path in (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files):
-            if path.name in self._files:
-                raise InputError(str(path), "another file has the same name", "rename one")
-            load(self._world, path)
-            self._files[path.name] = path.read_bytes()
-        self._places = tuple(places)
+        read_files = map(read, (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files))
+        for file in {file.iri: file for file in read_files}.values():
+            if file.path.name in self._files:
+                raise InputError(str(file.path), "another file has the same name", "rename one")
+            load(self._world, file)
+            self._files[file.path.name] = file.content
+        self._expect_vocabulary()
+        self._places = {place.name: place for place in places}
+        self._order = {name: number for number, name in enumerate(self._places)}
         self._home = self._world.get_ontology(INDIVIDUALS)
+        self._kinds = {
+            root: {kind.name: kind for kind in downwards(self._class(root))}
+            for root in ("Furniture", "Room")
+        }
         with self._home:
             for place in places:
                 self._add(place)
@@ -87,14 +102,18 @@ class Ontology:
             )
         )
         self._person = self._person_named(person) if person else None
-        self.place_names = PlaceNames(self._places, self._called())
+        self.place_names = PlaceNames(self.places(), self._called())
         """What the furniture and the rooms of the home are called."""
 
     # --- the Knowledge protocol ---
 
     def places(self) -> tuple[Place, ...]:
         """Every piece of furniture of the home, in the home file's order."""
-        return self._places
+        return tuple(self._places.values())
+
+    def has_place(self, name: str) -> bool:
+        """Whether a piece of furniture of this name is in the home."""
+        return name in self._places
 
     def objects_named(self, words: str) -> tuple[str, ...]:
         """The objects that the words may mean: none, one, or all members of a class ("fruit").
@@ -126,8 +145,8 @@ class Ontology:
 
     def usual_places(self, name: str) -> tuple[str, ...]:
         """Default locations of the object or its nearest class; those in this home only."""
-        usual = self.default_locations(name)
-        return tuple(place.name for place in self._places if place.name in usual)
+        here = filter(self.has_place, self.default_locations(name))
+        return tuple(sorted(here, key=self._order.__getitem__))
 
     def places_named(self, words: str) -> tuple[str, ...]:
         """Furniture that the words name, in their order; a room stands for its furniture."""
@@ -205,6 +224,13 @@ class Ontology:
 
     # --- inside ---
 
+    def _expect_vocabulary(self) -> None:
+        """Refuse an ontology without the names that this class is about."""
+        for iri in (*(CLASSES + name for name in VOCABULARY), ALSO_CALLED):
+            if self._world[iri] is None:
+                right = f"keep {iri} as household.owl has it"
+                raise InputError("ontology", f"declares no {iri.rpartition('#')[2]}", right)
+
     def _similar(self, words: str) -> dict[str, float]:
         """Names that look like the words, most similar first, and how similar (of 100)."""
         names = [(spoken(name), label(thing)) for thing in self._things for name in _names(thing)]
@@ -247,9 +273,9 @@ class Ontology:
         self._individual(place.name, place.kind, "Furniture").isIn = room
 
     def _individual(self, name: str, kind: str, root: str) -> Any:
-        class_, root_class = self._class(kind), self._class(root)
-        if class_ is None or class_ not in downwards(root_class):
-            known = ", ".join(c.name for c in downwards(root_class))
+        class_ = self._kinds[root].get(kind)
+        if class_ is None:
+            known = ", ".join(self._kinds[root])
             raise InputError(name, f"is a {kind!r}, which the ontology lacks", f"known are {known}")
         individual = self._world[INDIVIDUALS + name]
         if individual is None:
@@ -274,11 +300,10 @@ class Ontology:
 
     def _called(self) -> dict[str, tuple[str, ...]]:
         """Furniture or room class -> what it and the classes above it are called."""
-        roots = (self._class("Furniture"), self._class("Room"))
         return {
-            kind.name: tuple(n for c in upwards(kind) if c not in roots for n in _names(c))
-            for root in roots
-            for kind in downwards(root)
+            name: tuple(n for c in upwards(kind) if c.name not in self._kinds for n in _names(c))
+            for kinds in self._kinds.values()
+            for name, kind in kinds.items()
         }
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
 from executive.errors import InputError
-from executive.types import Message, Place
+from executive.types import Kind, Message, Place
 from kb.names import unique
 from kb.verification import Reply
 
@@ -67,14 +67,23 @@ class Understanding(_Part):
     system: str
     question: str
     neutral: str
-    examples: tuple[tuple[str, str], ...]
+    answers: dict[Kind, str]
+    examples: tuple[tuple[str, Kind], ...]
     inquiry_system: str
+
+    @field_validator("answers")
+    @classmethod
+    def _answers_for_all(cls, answers: dict[Kind, str]) -> dict[Kind, str]:
+        if missing := [kind for kind in Kind if kind not in answers]:
+            raise ValueError(f"there has to be an answer for {', '.join(missing)}")
+        return answers
 
     def chat(self, words: str) -> tuple[Message, ...]:
         """For ranking: the examples as turns, then the question about these words."""
         turns = [Message("system", self.system)]
-        for example, said in self.examples:
-            turns += [Message("user", self._about(example)), Message("assistant", said)]
+        for example, kind in self.examples:
+            answer = self.answers[kind]
+            turns += [Message("user", self._about(example)), Message("assistant", answer)]
         return (*turns, Message("user", self._about(words)))
 
     def inquiry(

@@ -11,6 +11,7 @@ from typing import Any
 import httpx2
 
 from executive.events import Inbox
+from executive.text import writable
 from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, Usage
 
 BYTES_PER_TOKEN = 3
@@ -258,7 +259,7 @@ class Server:
             total_s=time.monotonic() - began,
             parameters={**self._sampling},
         )
-        return Replied(request, got.text, usage, got.finish_reason)
+        return Replied(request, writable(got.text), usage, got.finish_reason)
 
 
 async def _chunks(response: httpx2.Response) -> AsyncIterator[dict[str, Any]]:

@@ -51,7 +51,7 @@ def rank_request(words: str, texts: Understanding) -> RankRequest:
         label="command",
         messages=texts.chat(words),
         neutral=texts.chat(texts.neutral),
-        options=tuple(f"{kind} it" for kind in Kind),
+        options=tuple(texts.answers[kind] for kind in Kind),
         places=tuple(Kind),
     )
 

@@ -9,8 +9,12 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from executive.text import writable
 from executive.types import Verdict
 from kb.names import PlaceNames, unique
+
+MOST_CHARACTERS = 10_000
+"""Of a reply, counted from its end: looking through more could take seconds."""
 
 
 class Reply(BaseModel):
@@ -42,7 +46,7 @@ def read(reply: str) -> tuple[str, ...] | None:
     """
     for value in json_objects(reply):
         try:
-            return tuple(name.strip() for name in Reply.model_validate(value).places)
+            return tuple(writable(name).strip() for name in Reply.model_validate(value).places)
         except ValidationError:
             continue
     return None
@@ -71,13 +75,16 @@ def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -
 
 
 def json_objects(text: str) -> Iterator[object]:
-    """What can be read as JSON from each opening brace on. Never raises."""
+    """What can be read as JSON from each opening brace on. Never raises, and never takes long."""
+    text = text[-MOST_CHARACTERS:]
     decoder = json.JSONDecoder()
     start = text.find("{")
     while start >= 0:
         try:
             value, _ = decoder.raw_decode(text, start)
             yield value
-        except (ValueError, RecursionError):
+        except ValueError:
             pass
+        except RecursionError:
+            return
         start = text.find("{", start + 1)

@@ -28,6 +28,12 @@ read = EnglishInterpreter()
         ("Can I have a banana, please?", Kind.BRING, "banana"),
         ("I need the scissors.", Kind.BRING, "scissors"),
         ("Where's my mug?", Kind.FIND, "mug"),
+        ("I can't find the scissors!", Kind.FIND, "scissors"),
+        ("Pick the pear up", Kind.TAKE, "pear"),
+        ("Hold on to the mug", Kind.TAKE, "mug"),
+        ("Get hold of the mug", Kind.TAKE, "mug"),
+        ("Hand me the spatula, please", Kind.BRING, "spatula"),
+        ("Carry the mug over here", Kind.BRING, "mug"),
         ("Have you seen the drill?", Kind.FIND, "drill"),
     ],
 )
@@ -38,7 +44,7 @@ def test_reads_a_request(words: str, kind: Kind, target: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", ["", "   ", "apple", "bring", "Bring a.", "findings", "hello you"]
+    "words", ["", "   ", "apple", "bring", "Bring a.", "findings", "hello you", "Hold on!"]
 )
 def test_reads_no_request_where_there_is_none(words: str) -> None:
     command = read.command(words)

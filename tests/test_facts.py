@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 from conftest import Run, four_rooms, run_mission
+from hypothesis import given
+from hypothesis import strategies as st
 
 from executive.app import furniture_at
 from executive.errors import InputError
@@ -54,6 +56,43 @@ def test_a_taken_thing_is_nowhere_until_it_is_put_down(facts: FactStore) -> None
     assert facts.places_of("mug") == ()
     facts.put("mug", "delivery")
     assert facts.beliefs() == {"mug": ("delivery",)}
+
+
+def believed(facts: list[Fact]) -> tuple[str, ...]:
+    """What follows from the facts about one thing, read from the newest back."""
+    places: list[str] = []
+    missed: set[str] = set()
+    for fact in reversed(facts):
+        if fact.kind == FactKind.TAKEN:
+            break
+        if fact.kind == FactKind.MISSED:
+            missed.add(fact.place)
+        elif fact.place not in missed:
+            places.append(fact.place)
+            if fact.kind != FactKind.SAID:
+                break
+    return tuple(dict.fromkeys(places))
+
+
+a_fact = st.builds(
+    Fact,
+    st.sampled_from(FactKind),
+    st.sampled_from(["mug", "apple"]),
+    st.sampled_from(["desk", "sofa", "bed"]),
+    st.just(0.0),
+)
+
+
+@given(st.lists(a_fact))
+def test_what_is_believed_follows_from_the_facts_in_their_order(told: list[Fact]) -> None:
+    store = FactStore()
+    store.load(told)
+    for name in ("mug", "apple"):
+        assert store.places_of(name) == believed([fact for fact in told if fact.object == name])
+    store.forget("mug")
+    assert store.places_of("mug") == ()
+    assert set(store.beliefs()) <= {"apple"}
+    store.close()
 
 
 def test_the_clock_may_be_set_back(facts: FactStore) -> None:
@@ -109,6 +148,7 @@ facts = FactStore(Path({str(tmp_path / "facts")!r}))
 for number in range(10**9):
     facts.saw([f"thing_{{number}}"], "desk")
     print(number, flush=True)
+    facts.took(f"thing_{{number}}", "desk")
 """
     with subprocess.Popen(
         [sys.executable, "-c", code], stdout=subprocess.PIPE, text=True
@@ -117,9 +157,12 @@ for number in range(10**9):
         told = [next(writer.stdout) for _ in range(50)]
         os.kill(writer.pid, signal.SIGKILL)
         told += list(writer.stdout)
-    kept = [fact.object for fact in FactStore(tmp_path / "facts").all()]
-    assert kept[: len(told)] == [f"thing_{number}" for number in range(len(told))]
-    assert len(told) <= len(kept) <= len(told) + 1
+    kept = FactStore(tmp_path / "facts")
+    seen = [fact.object for fact in kept.all() if fact.kind == FactKind.SEEN]
+    taken = [fact.object for fact in kept.all() if fact.kind == FactKind.TAKEN]
+    assert seen[: len(told)] == [f"thing_{number}" for number in range(len(told))]
+    assert len(told) - 1 <= len(taken) <= len(seen) <= len(told) + 1
+    assert list(kept.beliefs()) == [name for name in seen if name not in taken]
 
 
 # --- in missions ---

@@ -17,6 +17,7 @@ from executive.types import ChatRequest, Failed, Message, RankRequest, Replied, 
 from kb.advisor import PlaceAdvisor
 from kb.gguf import Context, Gguf
 from kb.llama import LlamaCpp, embedded_model
+from kb.sampling import Sampler
 from kb.scripted import Scripted
 from kb.server import Server
 from kb.verification import Reply
@@ -160,6 +161,12 @@ def test_a_servers_streamed_words_become_the_reply():
     assert 0 < reply.usage.first_token_s <= reply.usage.total_s
     assert bodies[0]["model"] == "tiny-model"
     assert bodies[0]["messages"] == [{"role": "user", "content": "Where is the mug?"}]
+
+
+def test_a_character_that_a_server_cuts_in_two_is_whole_in_the_reply():
+    with asked(says("on \ud83d", "\ude00 and \ud83d"), model="m") as (model, inbox, _):
+        reply = end_of(inbox, model.chat(HELLO))
+    assert reply.text == "on \N{GRINNING FACE} and \N{REPLACEMENT CHARACTER}"
 
 
 def test_a_server_is_asked_to_keep_to_the_schema_if_so_set():
@@ -470,6 +477,25 @@ def test_a_cancelled_reply_stops_at_once_and_is_not_delivered():
     assert time.monotonic() - began < 1.0
     assert not inbox.awaits_anything
     model.close()
+
+
+@pytest.mark.llm
+def test_a_cancelled_reply_is_written_not_one_token_further(monkeypatch):
+    written = []
+    model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=512, max_tokens=100)
+
+    def sample_and_cancel(sampler: Sampler, context: Context) -> int:
+        written.append(sample(sampler, context))
+        if len(written) == 5:
+            model.cancel(request)
+        return written[-1]
+
+    sample = Sampler.sample
+    monkeypatch.setattr(Sampler, "sample", sample_and_cancel)
+    request = model.chat(HELLO)
+    assert isinstance(end_of(inbox, model.rank(RANK)), Scored)
+    model.close()
+    assert len(written) == 5
 
 
 @pytest.mark.llm

@@ -36,6 +36,14 @@ def test_a_done_mission_exits_0_with_one_json_outcome(capsys: pytest.CaptureFixt
     assert outcome["source"] == "user"
 
 
+def test_words_that_are_no_text_do_not_cost_the_log(
+    capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture
+) -> None:
+    assert main([*QUICK, "Bring \udcff the sugar_box"]) == 0
+    assert json.loads(capsys.readouterr().out)["object"] == "sugar_box"
+    assert "was dropped" not in caplog.text
+
+
 def test_a_run_leaves_its_folder(capsys: pytest.CaptureFixture[str]) -> None:
     main([*QUICK, "Bring a sugar_box"])
     outcome = json.loads(capsys.readouterr().out)

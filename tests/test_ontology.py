@@ -6,17 +6,21 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+import rdflib
 from conftest import four_rooms, ontology
 from hypothesis import given
 from hypothesis import strategies as st
 from owlready2 import World
+from rdflib import OWL as OWL_
+from rdflib import RDF, RDFS
 
 from executive.errors import InputError
 from executive.types import Place
 from kb.__main__ import main
 from kb.names import PlaceNames, stem, words_of
 from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
-from kb.owl import load
+from kb.owl import load, read
+from sim.home import home_text
 
 PAPERS_OBJECTS = [
     *("adjustable_wrench", "apple", "banana", "bleach_cleanser", "colored_wood_blocks"),
@@ -172,6 +176,9 @@ def test_names_are_found_in_a_text(words, names):
         ("the living room table", ("dining_table", "coffee_table")),
         ("the table in the bedroom", ()),
         ("on the roof", ()),
+        ("the dinning table", ("dining_table",)),
+        ("on the dsek", ("desk",)),
+        ("in the kichen cabinett", ("cabinet_kitchen",)),
         ("", ()),
     ],
 )
@@ -258,8 +265,10 @@ def test_a_missing_file_is_refused(tmp_path):
 def test_two_files_of_one_name_are_refused_because_one_would_be_lost_in_the_log(tmp_path):
     one = owl_file(tmp_path, "")
     (tmp_path / "other").mkdir()
+    other = owl_file(tmp_path / "other", "")
+    other.write_text(other.read_text().replace("example.org", "example.com"))
     with pytest.raises(InputError, match="more.owl: another file has the same name; rename one"):
-        Ontology(files=[one, owl_file(tmp_path / "other", "")])
+        Ontology(files=[one, other])
 
 
 def test_a_file_is_kept_as_it_was_loaded(tmp_path):
@@ -298,7 +307,7 @@ def test_what_the_home_adds_is_kept_as_an_ontology_and_has_the_last_word(tmp_pat
     (tmp_path / "home.owl").write_bytes(moved.files()["home.owl"])
     world = World()
     for path in (HOUSEHOLD, tmp_path / "home.owl"):
-        load(world, path)
+        load(world, read(path))
     desk = world["http://robot-executive.org/home.owl#desk"]
     assert (desk.is_a[0].name, desk.isIn.name) == ("Table", "den")
     assert world["http://robot-executive.org/home.owl#cot"].isIn is desk.isIn
@@ -343,8 +352,7 @@ def test_check_finds_no_fault_in_the_files_that_come_with_it(capsys):
               rdf:resource="http://robot-executive.org/household.owl#hasDefaultLocation"/>
             <owl:hasValue rdf:resource="http://robot-executive.org/home.owl#atlantis"/>
             </owl:Restriction></rdfs:subClassOf></owl:Class>""",
-            "Mug has a default location that no file declares: "
-            "declare it as furniture, or name another",
+            "Mug hasDefaultLocation atlantis, which no file declares: declare it",
         ),
         (
             """<owl:Class rdf:about="http://robot-executive.org/household.owl#Mug"><rdfs:subClassOf>
@@ -352,7 +360,22 @@ def test_check_finds_no_fault_in_the_files_that_come_with_it(capsys):
               rdf:resource="http://robot-executive.org/household.owl#preferredBy"/>
             <owl:hasValue rdf:resource="http://robot-executive.org/home.owl#nobody"/>
             </owl:Restriction></rdfs:subClassOf></owl:Class>""",
-            "Mug is preferred by someone whom no file declares: declare the Person",
+            "Mug preferredBy nobody, which no file declares: declare it",
+        ),
+        (
+            """<household:Desk rdf:about="#lost_desk"><household:isIn
+            rdf:resource="http://robot-executive.org/home.owl#sofa"/></household:Desk>""",
+            "lost_desk is in sofa, which is no room: name a room",
+        ),
+        (
+            """<owl:Class rdf:about="#Cup"><rdfs:subClassOf
+            rdf:resource="http://robot-executive.org/household.owl#Kitchenwear"/></owl:Class>""",
+            "Cup subClassOf Kitchenwear, which no file declares: write Kitchenware, or declare it",
+        ),
+        (
+            """<household:Person rdf:about="#anna"><household:lives
+            rdf:resource="http://robot-executive.org/home.owl#kitchen"/></household:Person>""",
+            "anna uses lives, which no file declares: declare it",
         ),
         (
             """<owl:Class rdf:about="#Lonely"/>""",
@@ -368,6 +391,74 @@ def test_check_finds_no_fault_in_the_files_that_come_with_it(capsys):
 def test_check_names_the_faults_of_a_file(tmp_path, capsys, content, fault):
     assert main(["check", str(owl_file(tmp_path, content))]) == 1
     assert capsys.readouterr().out.splitlines() == [fault]
+
+
+def test_check_names_every_cycle(tmp_path, capsys):
+    below = """<owl:Class rdf:about="http://robot-executive.org/household.owl#{}"><rdfs:subClassOf
+        rdf:resource="http://robot-executive.org/household.owl#{}"/></owl:Class>"""
+    content = below.format("Food", "Apple") + below.format("Tool", "Hammer")
+    main(["check", str(owl_file(tmp_path, content))])
+    assert capsys.readouterr().out.count("no class is below itself") == 2
+
+
+MUG_ON_THE_DESK = """<owl:Class rdf:about="http://robot-executive.org/household.owl#Mug"><rdfs:subClassOf>
+  <owl:Restriction><owl:onProperty
+    rdf:resource="http://robot-executive.org/household.owl#hasDefaultLocation"/>
+  <owl:hasValue rdf:resource="http://robot-executive.org/home.owl#desk"/>
+  </owl:Restriction></rdfs:subClassOf></owl:Class>"""
+
+
+def test_a_file_adds_to_ours(tmp_path):
+    known = Ontology(four_rooms().places(), files=[owl_file(tmp_path, MUG_ON_THE_DESK)])
+    assert set(known.usual_places("mug")) > {"desk", "dining_table"}
+
+
+def test_a_file_with_the_iri_of_one_of_ours_replaces_it(tmp_path):
+    file = owl_file(tmp_path, MUG_ON_THE_DESK)
+    file.write_text(file.read_text().replace("example.org/more", "robot-executive.org/defaults"))
+    known = Ontology(four_rooms().places(), files=[file])
+    assert known.usual_places("mug") == ("desk",)
+    assert known.usual_places("hammer") == ()
+    assert set(known.files()) == {"household.owl", "more.owl", "home.owl"}
+
+
+def test_what_replaces_household_owl_has_to_keep_the_names_that_every_home_needs(tmp_path):
+    mine = tmp_path / "mine.owl"
+    mine.write_text(HOUSEHOLD.read_text().replace("#isIn", "#standsIn"))
+    with pytest.raises(InputError, match=r"declares no isIn; keep http://.*#isIn as household.owl"):
+        Ontology(files=[mine])
+
+
+def test_the_knowledge_of_another_home_can_be_asked(tmp_path, capsys):
+    home = tmp_path / "mine.toml"
+    home.write_text(home_text("four_rooms").replace("sideboard", "dresser_of_gran"))
+    where = "SELECT ?room WHERE { home:dresser_of_gran household:isIn ?room }"
+    assert main(["query", "--home", str(home), where]) == 0
+    assert capsys.readouterr().out == "room\nlobby\n"
+    assert main(["show", "--no-defaults", "hammer"]) == 0
+    assert "usually at   -" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("path", [HOUSEHOLD, DEFAULTS])
+def test_other_tools_read_the_files(path):
+    graph = rdflib.Graph().parse(path, format="xml")
+    iri = rdflib.URIRef(f"http://robot-executive.org/{path.name}")
+    assert list(graph.subjects(RDF.type, OWL_.Ontology)) == [iri]
+    here = {
+        HOUSEHOLD.with_name(str(i).rpartition("/")[2]) for i in graph.objects(iri, OWL_.imports)
+    }
+    assert here <= {HOUSEHOLD}
+
+
+def test_other_tools_find_a_label_and_a_comment_on_everything():
+    graph = rdflib.Graph().parse(HOUSEHOLD)
+    apple = rdflib.URIRef("http://robot-executive.org/household.owl#Apple")
+    above = set(graph.transitive_objects(apple, RDFS.subClassOf))
+    assert {str(one).rpartition("#")[2] for one in above} == {"Apple", "Fruit", "Food", "Object"}
+    for thing in graph.subjects(RDF.type, OWL_.Class):
+        assert graph.value(thing, RDFS.label)
+    for thing in graph.subjects(RDF.type):
+        assert isinstance(thing, rdflib.BNode) or graph.value(thing, RDFS.comment), thing
 
 
 def test_show_says_what_is_known_about_a_thing(capsys):

@@ -5,17 +5,21 @@ import os
 import socket
 import subprocess
 import sys
+import threading
 import time
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Iterator
 from pathlib import Path
+from typing import Any
 
+import httpx2
 import pytest
 
 from executive.app import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, Replied, Result, Status
+from kb import server
 from kb.advisor import PlaceAdvisor
 from kb.llama import embedded_model
 from kb.ontology import Ontology
@@ -137,8 +141,17 @@ def test_a_mission_is_done_with_a_real_server(url: str, tmp_path: Path) -> None:
 
 
 def test_a_real_server_that_dies_in_the_middle_of_its_reply_fails_in_words(
-    tmp_path: Path,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    begun, chunks = threading.Event(), server._chunks
+
+    async def noted(response: httpx2.Response) -> AsyncIterator[dict[str, Any]]:
+        async for chunk in chunks(response):
+            yield chunk
+            if chunk["choices"][0]["delta"].get("content"):
+                begun.set()
+
+    monkeypatch.setattr(server, "_chunks", noted)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -148,7 +161,8 @@ def test_a_real_server_that_dies_in_the_middle_of_its_reply_fails_in_words(
         wait_for(address, process)
         model = Server(address, inbox, max_tokens=2000, temperature=0)
         model.chat(ChatRequest("count", (Message("user", "Count to 500, as 1, 2, 3, ..."),)))
-        assert not inbox.wait(1.0), "the reply was too short for this test"
+        assert begun.wait(60)
+        assert not inbox.has_events, "the reply was too short for this test"
     finally:
         process.kill()
         process.wait(20)

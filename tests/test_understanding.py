@@ -17,16 +17,17 @@ ADVISOR = PlaceAdvisor(ontology(True), Scripted([], Inbox()), remembers=False)
 
 
 def test_the_model_can_choose_among_the_kinds_and_the_known_objects_only() -> None:
-    request = ADVISOR.command_inquiry("Hand over the hammer!")
+    request = ADVISOR.command_inquiry("Come with the hammer!")
     assert request.schema
     assert request.schema["properties"]["kind"]["enum"] == ["find", "take", "bring"]
     assert request.schema["properties"]["object"]["enum"] == list(ontology(True).objects())
-    assert "Hand over the hammer!" in request.messages[-1].content
+    assert "Come with the hammer!" in request.messages[-1].content
 
 
 def test_the_likeliest_kind_is_taken() -> None:
-    request = ADVISOR.command_ranking("Hand over the hammer!")
-    assert request.options == ("find it", "take it", "bring it")
+    request = ADVISOR.command_ranking("Come with the hammer!")
+    assert request.options[1] == "I take it in my hand."
+    assert request.places == tuple(Kind)
     assert ADVISOR.command_ranked(Scored(request, (0.1, 0.3, 0.2), Usage())) == Kind.TAKE
 
 

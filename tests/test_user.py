@@ -35,6 +35,12 @@ def test_the_next_line_is_the_answer() -> None:
     assert result(asked(console("\n on the desk \nmore\n"), WHERE)) == Answered("on the desk")
 
 
+def test_bytes_that_are_no_text_can_be_written_down() -> None:
+    assert result(asked(console("\udcff desk\n"), WHERE)) == Answered(
+        "\N{REPLACEMENT CHARACTER} desk"
+    )
+
+
 def test_the_end_of_input_is_no_answer() -> None:
     assert result(asked(console(""), WHERE)) == Failed("the input has ended")
 

@@ -1,29 +1,16 @@
 """What is let through of a language model's reply."""
 
-import json
-
 import pytest
-from conftest import four_rooms, ontology
-from hypothesis import given
+from conftest import ontology, run_mission
+from hostile_replies import FURNITURE, ROOMS, names, near_misses, replies
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from executive.types import Verdict
+from executive.types import DriveTo, Verdict
 from kb.verification import read, verify
 
 KNOWN = ontology(True).place_names
-FURNITURE = {place.name for place in four_rooms().places()}
-ROOMS = {place.room for place in four_rooms().places()}
-
-PLACE_WORDS = ["desk", "table", "kitchen", "the", "in", "cabinet", "room", "dining", "magic", "1."]
-names = st.one_of(
-    st.text(),
-    st.sampled_from(sorted(FURNITURE | ROOMS)),
-    st.lists(st.sampled_from(PLACE_WORDS)).map(" ".join),
-)
-json_values = st.recursive(
-    st.none() | st.booleans() | st.floats() | st.text(),
-    lambda inner: st.lists(inner) | st.dictionaries(st.text() | st.just("places"), inner),
-)
+some_furniture = st.sets(st.sampled_from(FURNITURE))
 
 
 @pytest.mark.parametrize(
@@ -51,9 +38,15 @@ def test_a_reply_without_places_is_in_the_format():
     assert read('{"places": []}') == ()
 
 
-@given(st.text() | json_values.map(json.dumps) | st.text(alphabet='{}[]",:places'))
-def test_reading_never_raises(reply):
-    assert read(reply) is None or isinstance(read(reply), tuple)
+def test_of_a_reply_as_long_as_a_book_only_the_end_is_read():
+    desk, sofa = '{"places": ["desk"]}', '{"places": ["sofa"]}'
+    assert read(desk + "{" * 500_000 + sofa) == ("sofa",)
+    assert read(desk + '{"a":' * 500_000) is None
+
+
+def test_half_a_character_in_a_name_can_be_written_down():
+    names = read(r'{"places": ["\ud800", "a \ud83d\ude00"]}')
+    assert names == ("\N{REPLACEMENT CHARACTER}", "a \N{GRINNING FACE}")
 
 
 @given(st.text(), st.text())
@@ -94,12 +87,30 @@ def test_only_the_allowed_places_and_their_rooms_pass():
     assert verdict == Verdict(("desk",), ("bedroom",), ("sofa", "kitchen"))
 
 
-@given(st.lists(names), st.sets(st.sampled_from(sorted(FURNITURE))))
-def test_no_unknown_name_passes_whatever_the_model_writes(written, among):
+@given(replies, some_furniture)
+def test_of_whatever_is_written_only_places_that_exist_pass(reply, among):
+    written = read(reply) or ()
+    "".join(written).encode()
     verdict = verify(written, KNOWN, tuple(among))
-    assert set(verdict.furniture) <= (among or FURNITURE)
-    assert set(verdict.rooms) <= ROOMS
+    assert set(verdict.furniture) <= (among or set(FURNITURE))
+    assert set(verdict.rooms) <= set(ROOMS)
     assert set(verdict.dropped) <= set(written)
+
+
+@given(near_misses)
+def test_what_is_almost_a_place_is_none(name):
+    assert verify([name], KNOWN) == Verdict((), (), (name,))
+
+
+@settings(max_examples=30)
+@given(st.lists(replies, min_size=4, max_size=9))
+def test_whatever_the_model_writes_the_robot_drives_to_real_places_only(written):
+    run = run_mission(
+        "Find an apple.", elicit="generate", defaults=False, replies=written, answers=[]
+    )
+    driven = [goal.place for goal in run.goals if isinstance(goal, DriveTo)]
+    assert set(driven) <= {*FURNITURE, "person"}
+    assert run.model.requests
 
 
 @given(st.lists(names, unique=True))

@@ -88,8 +88,9 @@ class MemoryKnowsPlaces(Step):
     def update(self) -> Status:
         """Recall it."""
         assert self.situation.object
-        here = {DELIVERY, *(place.name for place in self.team.knowledge.places())}
-        places = [p for p in self.team.facts.places_of(self.situation.object) if p in here]
+        known = self.team.facts.places_of(self.situation.object)
+        here = self.team.knowledge.has_place
+        places = [place for place in known if place == DELIVERY or here(place)]
         if not places:
             return self.fail(f"I have not seen the {self.situation.object}")
         self.situation.candidates = candidates_from(places, Source.MEMORY)

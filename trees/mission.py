@@ -13,7 +13,7 @@ from py_trees.common import Status
 from py_trees.decorators import FailureIsSuccess
 
 from executive.types import Status as MissionStatus
-from trees.act import act
+from trees.act import HandIsFree, act
 from trees.nodes import Check, Step, fallback, sequence
 from trees.object import resolve_object
 from trees.person import Apologise
@@ -31,6 +31,7 @@ def mission(team: Team) -> Behaviour:
             "serve",
             understand(team),
             resolve_object(team),
+            HandIsFree("hand is free", team),
             search(team),
             act(team),
             Conclude("done", team),

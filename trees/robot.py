@@ -114,7 +114,8 @@ class PickUp(RobotAction):
         if isinstance(result, Succeeded):
             assert self.situation.detection
             assert self.situation.found
-            self.team.facts.took(self.situation.detection.label, self.situation.found.place)
+            self.situation.in_hand = self.situation.detection.label
+            self.team.facts.took(self.situation.in_hand, self.situation.found.place)
         return super().ended(result)
 
 
@@ -134,6 +135,7 @@ class PutDownAt(RobotAction):
         """Remember that it is here now."""
         if isinstance(result, Succeeded):
             assert self.situation.object
+            self.situation.in_hand = None
             self.team.facts.put(self.situation.object, self._place)
         return super().ended(result)
 

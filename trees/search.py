@@ -13,8 +13,10 @@ from trees.team import Team
 
 def search(team: Team) -> Behaviour:
     """An object -> `situation.detection` and `situation.found`."""
+    situation = team.situation
     return fallback(
         "search",
+        Check("in my hand", team, lambda: situation.in_hand == situation.object),
         sequence(
             "look where it was",
             MemoryKnowsPlaces("memory knows it", team),
