@@ -32,7 +32,7 @@ from executive.situation import Situation
 from executive.types import Place
 from kb.advisor import PlaceAdvisor
 from kb.facts import FactStore
-from kb.ontology import Ontology
+from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
 from logs.difference import (
     ENDED,
     Aspect,
@@ -60,7 +60,7 @@ class Replay:
         recorded_s: mission time of the last of them.
         took_s: wall time of the replay.
         parting: the first tick that was not as recorded (None: all were, and the outcome).
-        notes: what has changed since the recording; whether it ends early.
+        notes: how the tree has changed since the recording; whether it ends early.
     """
 
     run: str
@@ -92,14 +92,14 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     clock = RecordedTime(run.turns(), inbox, int(_kept(run, run.metadata, "requests_before")))
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox)
-    team, notes = _team(run, situation, clock, judge, absent)
+    team = _team(run, situation, clock, judge, absent)
     executive = Executive(
         build(team), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
     )
     clock.wait(None)
     executive.run()
     parting = judge.parting or _late_parting(run, clock, situation)
-    notes += judge.changes(run.tree())
+    notes = judge.changes(run.tree())
     if judge.ends_early:
         notes.append("the recording ends early")
     return Replay(run.name, judge.same, judge.time_s, perf_counter() - began, parting, tuple(notes))
@@ -157,22 +157,18 @@ class Judge:
 
 def _team(
     run: Run, situation: Situation, clock: RecordedTime, judge: Judge, absent: Absent
-) -> tuple[Team, list[str]]:
-    """The team of the recorded mission, and what of its knowledge has changed since."""
+) -> Team:
+    """The team of the recorded mission, which knows what was known then."""
     settings = _settings(run)
     home = _home(_kept(run, run.attachments, "home.toml"))
-    own = tuple((f.name, _kept(run, run.attachments, f.name)) for f in settings.kb)
-    knowledge = _ontology(home.places(), settings.defaults, own, settings.person)
+    names = (HOUSEHOLD.name, DEFAULTS.name, *(file.name for file in settings.kb))
+    files = tuple((name, run.attachments[name]) for name in names if name in run.attachments)
+    knowledge = _ontology(home.places(), settings.defaults, files, settings.person)
     if settings.world == "physics":
         absent.home = home
     thinks = _kept(run, run.metadata, "model") != "none"
     advisor = PlaceAdvisor(knowledge, absent, remembers=settings.remembers) if thinks else None
-    changed = [
-        f"changed since: {name}"
-        for name, data in knowledge.files().items()
-        if run.attachments.get(name) != data
-    ]
-    team = Team(
+    return Team(
         situation=situation,
         clock=clock,
         recorder=judge,
@@ -186,7 +182,6 @@ def _team(
         rules=rules(settings),
         facts=FactStore.believing(json.loads(_kept(run, run.attachments, "facts.json"))),
     )
-    return team, changed
 
 
 def _settings(run: Run) -> Settings:
@@ -219,14 +214,15 @@ def _home(text: bytes) -> Home:
 def _ontology(
     places: tuple[Place, ...],
     defaults: bool,
-    own: tuple[tuple[str, bytes], ...],
+    files: tuple[tuple[str, bytes], ...],
     person: str | None,
 ) -> Ontology:
+    """The recorded files, which take the place of those of today."""
     with TemporaryDirectory() as folder:
-        files = [Path(folder) / name for name, _ in own]
-        for file, (_, data) in zip(files, own, strict=True):
-            file.write_bytes(data)
-        return Ontology(places, defaults=defaults, files=files, person=person)
+        paths = [Path(folder) / name for name, _ in files]
+        for path, (_, data) in zip(paths, files, strict=True):
+            path.write_bytes(data)
+        return Ontology(places, defaults=defaults, files=paths, person=person)
 
 
 def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Parting | None:

@@ -12,6 +12,7 @@ from py_trees.common import Status as NodeStatus
 from sample_mission import STARTED, mission
 from test_outcomes import CASES, Case, favouring
 
+import executive.replay
 from executive.app import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
@@ -19,6 +20,7 @@ from executive.events import Inbox, StopRequested
 from executive.replay import replay
 from executive.types import DriveTo, Goal, Kind, LookAt, Pick, PutDown, Status
 from executive.user import Console, Scripted
+from kb import ontology
 from kb.scripted import Scripted as ScriptedModel
 from logs.__main__ import main
 from logs.mcap_sink import McapSink
@@ -213,10 +215,15 @@ def test_a_tree_that_ends_early_parts_where_the_recording_goes_on(
     assert (again.parting.tick, again.parting.aspects[0].other) == (2, "has ended")
 
 
-def test_a_changed_ontology_is_noted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_mission_replays_with_the_ontology_of_its_day(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     run = recorded(tmp_path, "Find a power_drill", llm=False)
-    monkeypatch.setattr("kb.ontology.Ontology.files", lambda self: {"household.owl": b"new"})
-    assert replay(run).notes == ("changed since: household.owl",)
+    today = tmp_path / "defaults.owl"
+    today.write_bytes(ontology.DEFAULTS.read_bytes().replace(b"shelf_lobby", b"desk"))
+    monkeypatch.setattr(ontology, "DEFAULTS", today)
+    executive.replay._ontology.cache_clear()
+    assert replay(run).parting is None
 
 
 def test_a_recording_without_its_home_is_refused(tmp_path: Path) -> None:
