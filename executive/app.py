@@ -113,6 +113,7 @@ class Session:
                 remembers=settings.remembers,
                 top=settings.top,
                 prompts=prompts,
+                facts=self.facts,
             )
             if self.model
             else None

@@ -259,12 +259,26 @@ class ChatRequest:
 
 
 @dataclass(frozen=True, slots=True)
+class Precedent:
+    """A thing whose places are known: the question about it, and the right answers to that.
+
+    `kind` is the class above it in the ontology; empty if there is none.
+    """
+
+    messages: tuple[Message, ...]
+    places: tuple[str, ...]
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class RankRequest:
     """Ask the language model how likely each of `options` is as its next words.
 
-    The score of an option is log P(option | messages) - log P(option | neutral): `neutral` is the
-    same chat with the thing left open, so that what is merely a common phrase does not win.
-    `places` are the places that the options stand for, in the same order.
+    What counts is log P(option | messages) - log P(option | neutral): `neutral` is the same chat
+    with the thing left open, so that what is merely a common phrase does not win; empty, it counts
+    for nothing. `places` are the places that the options stand for, in the same order. A model that
+    can tell which questions are alike takes the `precedents` into account; so are, a little, those
+    about things of the same `kind`.
     """
 
     label: str
@@ -272,6 +286,8 @@ class RankRequest:
     neutral: tuple[Message, ...]
     options: tuple[str, ...]
     places: tuple[str, ...]
+    precedents: tuple[Precedent, ...] = ()
+    kind: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -344,7 +360,7 @@ class Replied:
 
 @dataclass(frozen=True, slots=True)
 class Scored:
-    """The language model's calibrated log-likelihood of each option, in the request's order."""
+    """The logarithm of how likely each option is, up to a constant, in the request's order."""
 
     request: RankRequest
     scores: tuple[float, ...]

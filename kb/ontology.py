@@ -89,6 +89,7 @@ class Ontology:
             for place in places:
                 self._add(place)
         self._things = tuple(downwards(self._class("Object")))
+        self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
         self._objects = leaves(self._class("Object"))
         self._objects_by_words = self._index()
         self._names_by_words = index_by_words(
@@ -250,9 +251,8 @@ class Ontology:
         return self._world[CLASSES + name]
 
     def _thing(self, name: str) -> Any:
-        for thing in self._things:
-            if name == label(thing):
-                return thing
+        if name in self._things_by_name:
+            return self._things_by_name[name]
         right = f"known are {', '.join(label(thing) for thing in self._things)}"
         raise InputError("ontology", f"there is no {name!r}", right)
 

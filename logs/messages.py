@@ -18,6 +18,7 @@ from executive.types import (
     Kind,
     Message,
     Outcome,
+    Precedent,
     RankRequest,
     Replied,
     Scored,
@@ -118,6 +119,11 @@ def llm_call_to_message(call: LlmCall) -> Any:
         _add_turns(message.neutral_messages, request.neutral)
         for text, place, score in zip(request.options, request.places, result.scores, strict=True):
             message.options.add(text=text, place=place, score=score)
+        for known in request.precedents:
+            message.precedents.add(
+                question=known.messages[-1].content, places=known.places, kind=known.kind
+            )
+        message.kind = request.kind
     return message
 
 
@@ -141,6 +147,11 @@ def llm_call_from_message(message: Any) -> LlmCall:
             neutral=_turns(message.neutral_messages),
             options=tuple(o.text for o in message.options),
             places=tuple(o.place for o in message.options),
+            precedents=tuple(
+                Precedent((*asked[:-1], Message("user", p.question)), tuple(p.places), p.kind)
+                for p in message.precedents
+            ),
+            kind=message.kind,
         )
         return LlmCall(Scored(ranking, tuple(o.score for o in message.options), usage))
     schema = json.loads(message.output_schema) if message.output_schema else None

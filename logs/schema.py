@@ -51,6 +51,7 @@ _MESSAGES: dict[str, dict[str, str]] = {
     },
     "ChatMessage": {"role": "string", "content": "string"},
     "Option": {"text": "string", "place": "string", "score": "double"},
+    "Precedent": {"question": "string", "places": "repeated string", "kind": "string"},
     "LlmCall": {
         **_STAMPED,
         "label": "string",
@@ -73,6 +74,8 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "output_schema": "string",
         "neutral_messages": "repeated ChatMessage",
         "options": "repeated Option",
+        "precedents": "repeated Precedent",
+        "kind": "string",
     },
     "LlmVerification": {
         **_STAMPED,

@@ -38,6 +38,7 @@ from executive.types import (
     Message,
     Outcome,
     Pose,
+    Precedent,
     RankRequest,
     Replied,
     Scored,
@@ -123,6 +124,8 @@ def rank_call() -> LlmCall:
         (Message("user", "Where is the thing?"),),
         ("in the cupboard in the kitchen", "on the dining table", "on the desk in the study"),
         ("cupboard", "dining_table", "desk"),
+        (Precedent((Message("user", "Where is the flour?"),), ("cupboard", "desk"), "food"),),
+        "food",
     )
     return LlmCall(Scored(request, (2.5, 1.8, 0.7), usage()))
 
