@@ -19,6 +19,7 @@ from executive.config import Settings
 from executive.errors import InputError
 from executive.events import Ended, Inbox, Started, StopRequested
 from executive.interfaces import (
+    Advisor,
     Camera,
     Detector,
     LanguageModel,
@@ -109,7 +110,7 @@ class Session:
         self.user = user or build_user(
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
-        self.advisor = (
+        self.advisor: Advisor | None = (
             PlaceAdvisor(
                 self.knowledge,
                 self.model,
@@ -124,12 +125,15 @@ class Session:
         self._in_hand: str | None = None
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
+        self.folder: Path | None = None
+        """Where the last mission left its recording."""
 
     def run(self, words: str) -> Outcome:
         """One mission, from words to its outcome, with its own run folder if it is recorded."""
         began = time.monotonic()
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
+        self.folder = folder
         self._in_hand = self._in_hand if self.robot.holding else None
         self.clock.restart()
         logs = self._logs(folder, started) if folder else []

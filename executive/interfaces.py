@@ -336,6 +336,11 @@ class SimulatedHome(World, Protocol):
         """
         ...
 
+    @property
+    def held(self) -> str | None:
+        """The object that is in the robot's hand, by the simulator's truth; None for none."""
+        ...
+
 
 class Clock(Protocol):
     """Mission time (seconds since the mission began)."""

@@ -187,6 +187,15 @@ class Ontology:
                 return tuple(place.name for place in usual if place is not None)
         return ()
 
+    def recorded_locations(self) -> dict[str, tuple[str, ...]]:
+        """Default locations of each object and class for which a file has some of its own."""
+        usual = self._class("hasDefaultLocation")
+        recorded = {
+            label(thing): tuple(place.name for place in values(thing, usual) if place is not None)
+            for thing in self._things
+        }
+        return {name: places for name, places in recorded.items() if places}
+
     def preferred_by(self, name: str) -> tuple[str, ...]:
         """The people who prefer an object or a class, of others like it."""
         return tuple(label(person) for person in self._preferring(self._thing(name)))

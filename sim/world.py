@@ -142,6 +142,12 @@ class PhysicsWorld:
         pieces = {piece.name for piece in (*self._home.furniture, self._home.delivery)}
         return next((found for found in names if found in pieces), None)
 
+    @property
+    def held(self) -> str | None:
+        """The object that both fingers touch, by the simulator's truth; None for none."""
+        touched = self._hardware.touched()
+        return next((name for body, name in self._things.items() if body in touched), None)
+
     def truth(self, name: str) -> Pose:
         """Where an object is in `map`, by the simulator's truth: for tests, never for the robot."""
         body = self._body(name)

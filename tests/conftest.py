@@ -168,3 +168,9 @@ def run_mission(
 @pytest.fixture(scope="session")
 def places() -> tuple[str, ...]:
     return tuple(place.name for place in four_rooms().places())
+
+
+@pytest.fixture
+def no_plots(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Reports without their plots, which take seconds to draw."""
+    monkeypatch.setattr("executive.experiment._plots", lambda found: iter(()))
