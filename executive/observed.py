@@ -16,6 +16,8 @@ ACTIVITIES = {
     "DriveBack": "driving",
     "LookAtCandidate": "looking",
     "SeeTarget": "looking",
+    "LookForLost": "looking",
+    "SeeLost": "looking",
     "PickUp": "handling",
     "PutDownAt": "handling",
 }

@@ -1,5 +1,6 @@
 """What truly came of a mission, and how far the robot had to drive for it."""
 
+import inspect
 from dataclasses import replace
 from itertools import pairwise
 from math import dist, inf
@@ -7,11 +8,14 @@ from math import dist, inf
 import pytest
 from conftest import four_rooms, run_mission
 
+import trees.robot
 from executive.journal import Row
+from executive.observed import ACTIVITIES
 from executive.routes import Routes
 from executive.truth import completed, shortest_m, whereabouts
 from executive.types import Kind, Pick, PutDown
 from sim.navigation import OccupancyGrid, plan
+from trees.nodes import Action
 
 
 @pytest.mark.parametrize(
@@ -80,3 +84,12 @@ def test_how_far_it_has_to_drive_depends_on_where_the_command_ends() -> None:
 def test_spl_is_the_share_of_the_way_that_was_needed(done: bool, path_m: float, spl: float) -> None:
     row = Row("ours", "home", "none", "okb", True, 0, "", 0, completed=done)
     assert replace(row, path_m=path_m, shortest_m=4.0).spl == spl
+
+
+def test_the_time_of_every_deed_of_the_robot_is_counted() -> None:
+    deeds = {
+        name
+        for name, kind in vars(trees.robot).items()
+        if inspect.isclass(kind) and issubclass(kind, Action) and not inspect.isabstract(kind)
+    }
+    assert deeds == set(ACTIVITIES)
