@@ -118,7 +118,7 @@ def parser() -> argparse.ArgumentParser:
     )
 
     def option(name: str, help: str | None = None, **kwargs: Any) -> None:
-        field = Settings.model_fields[name.removeprefix("--")]
+        field = Settings.model_fields[name.removeprefix("--").replace("-", "_")]
         default = "" if field.default in (None, ()) else f" (default: {field.default})"
         p.add_argument(name, help=f"{help or field.description}{default}", **kwargs)
 
@@ -154,6 +154,8 @@ def parser() -> argparse.ArgumentParser:
     )
     option("--world", choices=["physics", "fake"])
     option("--detector", metavar="learned, simulated or FILE.onnx")
+    option("--camera-hz", type=float, metavar="RATE")
+    option("--fault", action="append", metavar="FAULT[=VALUE][@FROM[-TO]]")
     option("--ycb", type=Path, metavar="DIR")
     option("--seed", type=int, metavar="N")
     option("--memory", type=Path, metavar="FILE")

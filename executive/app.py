@@ -20,6 +20,7 @@ from executive.detector import LEARNED, OnnxDetector
 from executive.errors import InputError
 from executive.events import Ended, Inbox, Started, StopRequested
 from executive.interfaces import (
+    Advisor,
     Camera,
     Detector,
     Knowledge,
@@ -47,7 +48,10 @@ from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
 from logs.rerun_sink import RerunSink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
+from sim.faults import parse_faults, refuse_physical
+from sim.faulty_fake import FaultyFakeRobot
 from sim.home import Home, home_text, load_home
+from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
 from sim.objects import load_objects
 from sim.ycb import with_scans
 from trees.mission import mission
@@ -99,21 +103,23 @@ class Session:
         self.facts = FactStore(settings.memory, learns=settings.learn)
         self.model = model or build_model(settings, self.inbox)
         self.recorder = FanOut(lambda: self.clock.now())
+        self.mishaps = build_mishaps(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
-            settings, self.home, self.inbox, self.recorder, self.knowledge, gui
+            settings, self.home, self.inbox, self.recorder, self.knowledge, gui, self.mishaps
         )
         self.clock = SimulatedClock(self.inbox, self.world)
         self.eyes = Eyes(camera, detector, self.inbox, self.recorder)
         self.user = user or build_user(
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
-        self.advisor = (
+        self.advisor: Advisor | None = (
             PlaceAdvisor(
                 self.knowledge,
                 self.model,
                 remembers=settings.remembers,
                 top=settings.top,
                 prompts=prompts,
+                facts=self.facts,
             )
             if self.model
             else None
@@ -121,16 +127,21 @@ class Session:
         self._in_hand: str | None = None
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
+        self.folder: Path | None = None
+        """Where the last mission left its recording."""
 
     def run(self, words: str) -> Outcome:
         """One mission, from words to its outcome, with its own run folder if it is recorded."""
         began = time.monotonic()
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
+        self.folder = folder
         self._in_hand = self._in_hand if self.robot.holding else None
         self.clock.restart()
         logs = self._logs(folder, started) if folder else []
         self.recorder.open([*logs, *self._sinks], started)
+        if self.mishaps:
+            self.mishaps.begin()
         self.world.describe()
         situation = Situation(words=words, in_hand=self._in_hand)
         tree = MissionTree(mission(self._team(situation)))
@@ -245,6 +256,20 @@ def working(*makers: Callable[[], Sink]) -> list[Sink]:
     return sinks
 
 
+def build_mishaps(
+    settings: Settings, home: Home, recorder: Recorder, now: Callable[[], float]
+) -> Mishaps | None:
+    """The faults that the settings order; None if there are none.
+
+    Raises:
+        InputError: if one of them is none, or not of this home and world.
+    """
+    faults = parse_faults(settings.fault, home)
+    if settings.world == "fake":
+        refuse_physical(faults)
+    return Mishaps(faults, recorder, now, settings.seed) if faults else None
+
+
 def build_simulation(
     settings: Settings,
     home: Home,
@@ -252,28 +277,39 @@ def build_simulation(
     recorder: Recorder,
     knowledge: Knowledge,
     gui: bool = False,
+    mishaps: Mishaps | None = None,
 ) -> tuple[SimulatedHome, Robot, Camera, Detector]:
     """The world that the settings name, with its robot and the robot's senses."""
+    world: SimulatedHome
+    robot: Robot
+    camera: Camera
+    detector: Detector
     if settings.world == "fake":
-        instant = FakeWorld(home, inbox, recorder)
-        return instant, FakeRobot(instant), FakeCamera(instant), FakeDetector(instant)
-    from sim.world import PhysicsWorld
+        world = instant = FakeWorld(home, inbox, recorder)
+        robot = FaultyFakeRobot(instant, mishaps) if mishaps else FakeRobot(instant)
+        camera, detector = FakeCamera(instant), FakeDetector(instant)
+        camera = FaultyCamera(camera, mishaps) if mishaps else camera
+    else:
+        from sim.world import PhysicsWorld
 
-    models = load_objects()
-    physics = PhysicsWorld(
-        home,
-        with_scans(models, settings.ycb) if settings.ycb else models,
-        inbox,
-        recorder,
-        seed=settings.seed,
-        gui=gui,
-        camera_hz=settings.camera_hz,
-    )
-    detector: Detector = physics.detector
-    if settings.detector != "simulated":
-        file = LEARNED if settings.detector == "learned" else Path(settings.detector)
-        detector = OnnxDetector(file, knowledge.objects_named)
-    return physics, physics.robot, physics.camera, detector
+        models = load_objects()
+        world = physics = PhysicsWorld(
+            home,
+            with_scans(models, settings.ycb) if settings.ycb else models,
+            inbox,
+            recorder,
+            seed=settings.seed,
+            gui=gui,
+            camera_hz=settings.camera_hz,
+            mishaps=mishaps,
+        )
+        robot, camera, detector = physics.robot, physics.camera, physics.detector
+        if settings.detector != "simulated":
+            file = LEARNED if settings.detector == "learned" else Path(settings.detector)
+            detector = OnnxDetector(file, knowledge.objects_named)
+    if mishaps:
+        detector = FaultyDetector(detector, mishaps, tuple(home.objects))
+    return world, robot, camera, detector
 
 
 def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:

@@ -2,17 +2,13 @@
 
 import argparse
 import json
-import multiprocessing
 import os
 import platform
 import signal
 import sys
 import time
-from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable, Sequence
 from importlib.metadata import version
-from multiprocessing.synchronize import Event
 from pathlib import Path
 from types import FrameType
 from typing import TextIO
@@ -20,16 +16,16 @@ from typing import TextIO
 from executive import households, paper
 from executive.app import PACKAGES
 from executive.config import KnowledgeSystem, Settings, load_settings
+from executive.engines import Engine, Here, Pool
 from executive.errors import ExecutiveError, InputError
-from executive.experiment import report
-from executive.households import Household
+from executive.experiment import write_report
 from executive.journal import CRASHED, Entry, Journal, in_order, write_tables
+from executive.policies import POLICIES
 
-POLL_S = 0.5
-"""How often the journal is looked at while workers write it."""
-OF_A_MISSION = {"knowledge", "defaults", "seed", "runs"}
+OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
 """Settings that the campaign itself varies."""
 BAD_INPUT, STOPPED = 2, 130
+SHOWN_EVERY_S = 0.5
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -50,144 +46,93 @@ class Campaign:
         Raises:
             InputError: if an option or a file is wrong, or the folder holds another campaign.
         """
-        self._workers: int = options.workers
         self._out: Path = options.out or Path("campaigns") / options.setting
-        settings = load_settings(
-            options.config,
-            world="fake" if options.setting == "ideal" else "physics",
-            user="oracle",
-            home=options.home,
-            llm=options.llm,
-            elicit=options.elicit,
-            top=options.top,
-        )
+        self._policies = tuple(dict.fromkeys(options.policy or ["ours"]))
+        settings = all_settings(options)
         commands = read_commands(options.commands) if options.commands else paper.COMMANDS
-        self._households = households.for_conditions(
+        self._households = households.grid(
             settings,
+            self._policies,
             [KnowledgeSystem(name) for name in options.systems],
             commands,
             options.seeds,
             options.runs.resolve() if options.runs else None,
         )
         self._keys = {key for household in self._households for key in household.keys}
-        self._about = claim(self._out, settings, commands)
+        self._about = claim(self._out, settings[0], commands)
         self._journal = Journal(self._out / "journal.jsonl")
         self._journal.mend()
         self._interrupted = False
+        self._engine = self._engine_for(options)
 
     def run(self) -> int:
         """Run what has not ended yet; the tables are written however it ends."""
-        progress = Progress(len(self._keys), len(self._entries()))
+        progress = Progress(len(self._keys), lambda: len(self._entries()))
         before = signal.signal(signal.SIGINT, self._interrupt)
         try:
-            if self._workers == 1:
-                self._run_here(progress)
-            else:
-                self._run_in_pool(progress)
+            self._engine.run(self._households, self._journal, progress)
+            progress.show()
         except KeyboardInterrupt:
             print("\nstopped; the same command goes on from here", file=sys.stderr)
             return STOPPED
         finally:
             signal.signal(signal.SIGINT, before)
             self._write()
-        print(f"\n{self._out / 'report.md'}", file=sys.stderr)
+        print(f"\n{self._out / 'report.md'}\n{self._out / 'report.html'}", file=sys.stderr)
         return 0
+
+    def _engine_for(self, options: argparse.Namespace) -> Engine:
+        if options.cluster:
+            return cluster(options.cluster)
+        return Here() if options.workers == 1 else Pool(options.workers, lambda: self._interrupted)
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         """Note Ctrl-C, too: the exception is lost if it is raised within a callback."""
         self._interrupted = True
         raise KeyboardInterrupt
 
-    def _run_here(self, progress: "Progress") -> None:
-        before = self._entries()
-        for household in self._households:
-            for entry in households.run(household, before):
-                self._journal.append(entry)
-                progress.one_more()
-
-    def _run_in_pool(self, progress: "Progress") -> None:
-        """Give households to worker processes; if one is killed, go on with what is left.
-
-        Raises:
-            ExecutiveError: if workers die without any mission ending in between.
-        """
-        while True:
-            ended = len(self._entries())
-            try:
-                return self._run_pool(progress)
-            except BrokenProcessPool:
-                if self._interrupted:  # it reached a worker that was still starting
-                    raise KeyboardInterrupt from None
-                if len(self._entries()) == ended:
-                    raise ExecutiveError(
-                        "a worker process died, and the next one, too, before any mission ended; "
-                        "try --workers 1, which shows why"
-                    ) from None
-
-    def _run_pool(self, progress: "Progress") -> None:
-        before = self._entries()
-        context = multiprocessing.get_context("spawn")
-        stop = context.Event()
-        pool = ProcessPoolExecutor(
-            self._workers, mp_context=context, initializer=start_worker, initargs=(stop,)
-        )
-        try:
-            left = {
-                pool.submit(work, household, of(household, before), self._journal)
-                for household in self._households
-            }
-            while left:
-                if self._interrupted:
-                    raise KeyboardInterrupt
-                done, left = wait(left, timeout=POLL_S)
-                for future in done:
-                    future.result()
-                progress.so_many(len(self._entries()))
-        except BaseException:
-            stop.set()
-            print("\nends when the missions under way have ended", file=sys.stderr)
-            raise
-        finally:
-            pool.shutdown(cancel_futures=True)
-
     def _entries(self) -> list[Entry]:
-        """Missions of this campaign that have ended; the folder may hold those of more seeds."""
+        """Missions of this campaign that have ended; the folder may hold those of others."""
         return [entry for entry in self._journal.entries() if entry.row.key in self._keys]
 
     def _write(self) -> None:
-        rows = in_order(entry.row for entry in self._entries())
+        rows = in_order((entry.row for entry in self._entries()), self._policies)
         models = sorted({row.model for row in rows if row.model})
         wall_s = sum(row.wall_time_s for row in rows)
         about = {
             **self._about,
-            "model": ", ".join(models) or "none",
+            "policies": ", ".join(self._policies),
+            "homes": ", ".join(dict.fromkeys(row.home for row in rows)),
+            "models": ", ".join(models) or "none",
             "seeds": ", ".join(str(seed) for seed in sorted({row.seed for row in rows})),
             "missions": f"{len(rows)} of {len(self._keys)}",
             "crashed": str(sum(row.status == CRASHED for row in rows)),
             "sum of the missions' wall time": f"{wall_s:.0f} s",
         }
         write_tables(rows, self._out)
-        (self._out / "report.md").write_text(report(rows, about), encoding="utf-8")
+        write_report(rows, about, self._out)
 
 
 class Progress:
     """One line on standard error: missions done, and the time left at the pace so far."""
 
-    def __init__(self, total: int, before: int, out: TextIO | None = None) -> None:
-        """Begin with so many missions of a resumed campaign."""
-        self._total, self._before, self._done = total, before, before
-        self._began = time.monotonic()
+    def __init__(self, total: int, count: Callable[[], int], out: TextIO | None = None) -> None:
+        """`count` tells how many have ended; those of a resumed campaign are no pace."""
+        self._total, self._count = total, count
+        self._before = count()
+        self._began = self._shown = time.monotonic()
         self._out = out or sys.stderr
 
-    def one_more(self) -> None:
-        """A mission has ended."""
-        self.so_many(self._done + 1)
+    def __call__(self) -> None:
+        """Show it, at most every half second."""
+        if time.monotonic() - self._shown > SHOWN_EVERY_S:
+            self.show()
 
-    def so_many(self, done: int) -> None:
-        """So many have ended in all."""
-        self._done = done
+    def show(self) -> None:
+        """Show it now."""
+        self._shown, done = time.monotonic(), self._count()
         if now := done - self._before:
-            left_s = (time.monotonic() - self._began) / now * (self._total - done)
+            left_s = (self._shown - self._began) / now * (self._total - done)
             line = f"{done} of {self._total} missions, {clock(left_s)} left"
             print(f"\r{line:<60}", end="", file=self._out, flush=True)
 
@@ -198,35 +143,56 @@ def clock(seconds: float) -> str:
     return f"{minutes // 60}:{minutes % 60:02}:{s:02}"
 
 
-def of(household: Household, entries: Sequence[Entry]) -> list[Entry]:
-    """The household's missions among these."""
-    keys = set(household.keys)
-    return [entry for entry in entries if entry.row.key in keys]
-
-
-# --- in a worker process ---
-
-_stop: Event | None = None
-
-
-def start_worker(stop: Event) -> None:
-    """Leave Ctrl-C to the parent, which sets `stop`."""
-    global _stop
-    _stop = stop
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-def work(household: Household, before: Sequence[Entry], journal: Journal) -> None:
-    """Run a household until it ends or all shall stop."""
-    if _stop and _stop.is_set():
-        return
-    for entry in households.run(household, before):
-        journal.append(entry)
-        if _stop and _stop.is_set():
-            return
-
-
 # --- the folder and the command line ---
+
+
+def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
+    """One for each home and each language model, as the options and the file of settings say.
+
+    Raises:
+        InputError: if a setting is wrong, or tables would call two homes or models the same.
+    """
+    found = tuple(
+        load_settings(
+            options.config,
+            world="fake" if options.setting == "ideal" else "physics",
+            user="oracle",
+            home=home and at_any_folder(home),
+            llm=llm and at_any_folder(llm),
+            elicit=options.elicit,
+            top=options.top,
+        )
+        for home in dict.fromkeys(options.home or [None])
+        for llm in dict.fromkeys(options.llm or [None])
+    )
+    for option, names in (
+        ("--home", {settings.home for settings in found}),
+        ("--llm", {settings.llm for settings in found}),
+    ):
+        if len(names) > len({households.short(name) for name in names}):
+            raise InputError(option, f"two of {', '.join(sorted(names))} are called the same")
+    return found
+
+
+def at_any_folder(name_or_file: str) -> str:
+    """A file as other processes find it, too; the name of anything else as it is."""
+    is_file = households.short(name_or_file) != name_or_file
+    return str(Path(name_or_file).resolve()) if is_file else name_or_file
+
+
+def cluster(address: str) -> Engine:
+    """The workers of a Dask cluster.
+
+    Raises:
+        InputError: if Dask is not installed.
+    """
+    try:
+        from executive.cluster import Cluster
+    except ImportError:
+        raise InputError(
+            "--cluster", "Dask is not installed", "pip install 'robot-executive[campaign]'"
+        ) from None
+    return Cluster(address)
 
 
 def claim(out: Path, settings: Settings, commands: Sequence[str]) -> dict[str, str]:
@@ -281,7 +247,10 @@ def parser() -> argparse.ArgumentParser:
         prog="python -m executive.campaign",
         description="Run the paper's experiment with a simulated person, and tabulate it. "
         "Stopped with Ctrl-C, the same command goes on.",
-        epilog="exit: 0 all missions have ended, 2 bad usage or input, 130 stopped",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="policies:\n"
+        + "".join(f"  {name:<17} {policy.description}\n" for name, policy in POLICIES.items())
+        + "\nexit: 0 all missions have ended, 2 bad usage or input, 130 stopped",
     )
     setting = p.add_mutually_exclusive_group()
     setting.add_argument(
@@ -308,9 +277,27 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument("--out", type=Path, metavar="DIR", help="default: campaigns/ideal or /physics")
     p.add_argument("--runs", type=Path, metavar="DIR", help="record each mission there")
-    p.add_argument("--workers", type=_count, default=1, metavar="N", help="processes (default: 1)")
-    p.add_argument("--home", metavar="NAME or FILE.toml")
-    p.add_argument("--llm", metavar="embedded, FILE.gguf, http://host:port/v1 or none")
+    workers = p.add_mutually_exclusive_group()
+    workers.add_argument(
+        "--workers", type=_count, default=1, metavar="N", help="processes (default: 1)"
+    )
+    workers.add_argument(
+        "--cluster", metavar="ADDRESS", help="of a Dask scheduler; its workers run the missions"
+    )
+    p.add_argument(
+        "--policy",
+        action="append",
+        choices=list(POLICIES),
+        metavar="NAME",
+        help="who says where to look; may be repeated (default: ours)",
+    )
+    p.add_argument("--home", action="append", metavar="NAME or FILE.toml", help="may be repeated")
+    p.add_argument(
+        "--llm",
+        action="append",
+        metavar="embedded, FILE.gguf, http://host:port/v1 or none",
+        help="may be repeated",
+    )
     p.add_argument("--elicit", choices=["generate", "rank"])
     p.add_argument("--top", type=_count, metavar="N", help="places of a ranking worth a visit")
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")

@@ -51,6 +51,7 @@ class Settings(BaseSettings):
         "learned",
         description="learned, simulated (never wrong), or FILE.onnx; the fake world has its own",
     )
+    fault: tuple[str, ...] = Field((), description="what goes wrong in the simulated world")
     ycb: Path | None = Field(
         None, description="folder of YCB models to see instead of the packaged meshes"
     )

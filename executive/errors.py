@@ -17,7 +17,12 @@ class InputError(ExecutiveError):
 
     def __init__(self, where: str, what: str, right: str = "") -> None:
         """Say where the fault is, what it is, and what would be right."""
-        super().__init__(f"{where}: {what}" + (f"; {right}" if right else ""))
+        super().__init__(where, what, right)
+
+    def __str__(self) -> str:
+        """The three in one sentence."""
+        where, what, right = self.args
+        return f"{where}: {what}" + (f"; {right}" if right else "")
 
 
 class ModelError(ExecutiveError):

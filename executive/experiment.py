@@ -1,215 +1,90 @@
-"""The report of a campaign: the paper's tables with ours beside its figures, in Markdown."""
+"""The report of a campaign: the paper's tables with ours beside its figures, tests and plots."""
 
-from collections import Counter
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from statistics import fmean
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 
-from executive import paper
-from executive.config import KnowledgeSystem
+from executive import tables
+from executive.document import Heading, Part, Table, Text, to_html, to_markdown, write_pictures
 from executive.journal import CRASHED, Row
-from executive.paper import Condition
-from executive.statistics import Comparison, Summary, grouped, pairwise, stars, summarize
-from executive.types import Kind
+from executive.variants import Variant, variants
 
-Column = Callable[[Row], float]
+PICTURES = "plots"
+"""Folder of the plots, beside the report."""
 
-READING = """\
-In brackets: the paper's figures. Intervals (95 %, of the mean) are bootstrapped over the commands.
+READING = (
+    "In brackets: the paper's figures. Intervals (95 %, of the mean) are bootstrapped over the "
+    "commands.",
+    "Differences are tested with Wilcoxon's signed-rank test, two-sided, Holm-corrected over the "
+    "pairs of systems of a situation; * p < 0.05, ** p < 0.01. By command: the mean of a command's "
+    "seeds is one pair. By mission: a command with a seed is one pair, which takes repetitions of "
+    "a command for independent, and so overstates what is known.",
+    "A mission is completed if the robot says so and the simulator's truth agrees: it went to the "
+    "furniture that it names and the thing is there (find), the thing is in its hand (take), or "
+    "on the delivery table (bring). SPL is success weighted by path length (Anderson et al., "
+    "2018): the shortest way on the home's grid, to the thing and on to where the command ends, "
+    "as a share of the way driven; 0 for a mission that is not completed.",
+)
 
-Differences are tested with Wilcoxon's signed-rank test, two-sided, Holm-corrected over the pairs
-of systems of a situation; \\* p < 0.05, \\*\\* p < 0.01. *By command*: the mean of a command's
-seeds is one pair. *By mission*: a command with a seed is one pair, which takes repetitions of a
-command for independent, and so overstates what is known."""
-
-MEASURES: dict[str, tuple[Column, dict[Condition, tuple[float, float]]]] = {
-    "Inquiries to the person": (lambda row: row.inquiries, paper.INQUIRIES),
-    "Pieces of furniture visited": (lambda row: row.visits, paper.VISITS),
-}
-"""What the paper reports by mean and SD, with stars."""
-
-COST: dict[str, Callable[[Sequence[Row]], float]] = {
-    "list generation [s]": lambda rows: fmean(r.thinking_time_s for r in rows),
-    "calls of the LLM": lambda rows: fmean(r.llm_calls for r in rows),
-    "each LLM output [s]": lambda rows: sum(r.llm_s for r in rows) / sum(r.llm_calls for r in rows),
-    "generated tokens": lambda rows: (
-        sum(r.generated_tokens for r in rows) / sum(r.llm_calls for r in rows)
-    ),
-}
+NO_PLOTS = (
+    "There are no plots: matplotlib is not installed (pip install 'robot-executive[campaign]')."
+)
 
 
-def report(rows: Sequence[Row], about: Mapping[str, str]) -> str:
+def write_report(rows: Sequence[Row], about: Mapping[str, str], folder: Path) -> None:
+    """Write `report.md` with its plots, and `report.html`, which holds them."""
+    parts = report(rows, about, folder)
+    write_pictures(parts, folder / PICTURES)
+    (folder / "report.md").write_text(to_markdown(parts, PICTURES), encoding="utf-8")
+    (folder / "report.html").write_text(to_html(parts), encoding="utf-8")
+
+
+def report(rows: Sequence[Row], about: Mapping[str, str], folder: Path = Path()) -> list[Part]:
     """The whole report; crashed missions count as not completed and nowhere else.
 
     Args:
         rows: missions that have ended, of any part of the campaign.
         about: settings, versions and the like, to be listed at the end.
+        folder: where it will be; links to recordings are relative to it.
     """
     ran = [row for row in rows if row.status != CRASHED]
-    parts = [
-        f"# Campaign: {len(rows)} missions",
-        READING,
-        completion(rows),
-        times(ran),
-        *(measure(ran, title) for title in MEASURES),
-        cost(ran),
-        failures(rows),
-        "## Settings\n\n" + table(["what", "value"], about.items()),
-    ]
-    return "\n\n".join(parts) + "\n"
+    found, all_found = variants(ran), variants(rows)
+    plots = dict(_plots(found))
+    parts: list[Part] = [Heading(f"Campaign: {len(rows)} missions", 1), *map(Text, READING)]
+    if not plots and ran:
+        parts.append(Text(NO_PLOTS))
+    parts += [Heading("Overview"), tables.overview(found)]
+    parts += [Heading("Task completion rate"), tables.completion(all_found)]
+    parts += [Heading("Mission time of completed missions [s]"), tables.times(found)]
+    parts += [Heading("What the time goes into"), tables.time_split(found), *plots.get("time", ())]
+    for title, heading in (
+        ("inquiries", "Inquiries to the person"),
+        ("visits", "Pieces of furniture visited"),
+    ):
+        parts += [Heading(heading), tables.measure(found, title), *plots.get(title, ())]
+        parts += [tables.differences(found, title)]
+    parts += plots.get("distributions", ())
+    parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
+    if len(found) > 1:
+        parts += [Heading("Policies, homes and models compared"), Text(COMPARED)]
+        parts += [tables.policies(found), *plots.get("policies", ())]
+    failed = tables.failures(rows, folder)
+    parts += [Heading("Missions not completed"), failed if failed.rows else Text("None.")]
+    return [*parts, Heading("Settings"), Table(["what", "value"], list(about.items()))]
 
 
-def completion(rows: Sequence[Row]) -> str:
-    """Share of missions that were done, by system."""
-    lines = []
-    for system in paper.SYSTEMS:
-        mine = [row for row in rows if row.key.system == system]
-        if summary := summary_of(mine, lambda row: 100.0 * row.completed):
-            lines.append(
-                [
-                    system,
-                    f"{summary.mean:.1f} % ({100 * paper.COMPLETION[system]:.1f} %)",
-                    interval(summary, 1),
-                    str(summary.n),
-                ]
-            )
-    return "## Task completion rate\n\n" + table(["system", "completed", "95 %", "n"], lines)
+COMPARED = (
+    "Stars: the difference from the first variant in the same condition, by command, Holm-"
+    "corrected over the variants. Failed visits: places that the robot set out for and could not "
+    "get to. Invented names: of those that the model wrote, how many no room and no furniture "
+    "goes by."
+)
 
 
-def times(rows: Iterable[Row]) -> str:
-    """Mission time of completed missions, by kind and condition."""
-    done = [row for row in rows if row.completed]
-    lines = [
-        [kind, *(_cell(_mean(_of(done, c, kind), "mission_time_s"), t) for c, t in figures.items())]
-        for kind, figures in paper.TIME_S.items()
-    ]
-    return "## Mission time of completed missions [s]\n\n" + table(["", *_names()], lines)
-
-
-def measure(rows: Sequence[Row], title: str) -> str:
-    """Mean, SD and interval of each condition, then which differ."""
-    column, figures = MEASURES[title]
-    lines = []
-    for condition, (mean, sd) in figures.items():
-        if summary := summary_of(_of(rows, condition), column):
-            lines.append(
-                [
-                    name(condition),
-                    f"{summary.mean:.2f} ({mean:.2f})",
-                    interval(summary, 2),
-                    f"{summary.sd:.2f} ({sd:.2f})",
-                    str(summary.n),
-                ]
-            )
-    means = table(["condition", "mean", "95 %", "SD", "n"], lines)
-    return f"## {title}\n\n{means}\n\n{differences(rows, column)}"
-
-
-def differences(rows: Sequence[Row], column: Column) -> str:
-    """Wilcoxon's signed-rank test of each two systems, in each situation."""
-    lines = []
-    for defaults in (False, True):
-        mine = [row for row in rows if row.defaults == defaults]
-        by_command = pairwise(_columns(mine, column, lambda row: row.command))
-        by_mission = pairwise(_columns(mine, column, lambda row: (row.command, row.seed)))
-        for command, mission in zip(by_command, by_mission, strict=True):
-            situation = "defaults" if defaults else "no defaults"
-            lines.append(
-                [
-                    situation,
-                    f"{command.a} - {command.b}",
-                    f"{command.difference:+.2f}",
-                    _p(command),
-                    _p(mission),
-                ]
-            )
-    heads = ["situation", "systems", "difference", "p by command", "p by mission"]
-    return table(heads, lines)
-
-
-def cost(rows: Iterable[Row]) -> str:
-    """What consulting the language model cost, of missions that did."""
-    asked = [row for row in rows if row.llm_calls]
-    lines = []
-    for title, figures in paper.COST.items():
-        cells = []
-        for condition, figure in figures.items():
-            mine = _of(asked, condition)
-            cells.append(_cell(COST[title](mine) if mine else None, figure, 2))
-        lines.append([title, *cells])
-    heads = ["", *map(name, next(iter(paper.COST.values())))]
-    return "## Execution cost of missions that consulted the LLM\n\n" + table(heads, lines)
-
-
-def failures(rows: Iterable[Row]) -> str:
-    """Why missions were not completed, commonest first."""
-    failed = Counter(
-        (row.status, row.reason, name((row.key.system, row.defaults)))
-        for row in rows
-        if not row.completed
-    )
-    lines = [[*cause, str(times)] for cause, times in failed.most_common()]
-    body = table(["status", "reason", "condition", "missions"], lines) if lines else "None."
-    return f"## Missions not completed\n\n{body}"
-
-
-def name(condition: Condition) -> str:
-    """A condition as the head of a column."""
-    system, defaults = condition
-    return f"{system}, {'defaults' if defaults else 'no defaults'}"
-
-
-def summary_of(rows: Iterable[Row], column: Column) -> Summary | None:
-    """The column's summary, with its interval over the commands."""
-    return summarize(grouped((row.command, column(row)) for row in rows))
-
-
-def interval(summary: Summary, digits: int) -> str:
-    """From the low to the high end."""
-    return f"{summary.low:.{digits}f} to {summary.high:.{digits}f}"
-
-
-def table(heads: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
-    """A Markdown table; a bar within a cell is escaped."""
-    rows = [heads, ["---"] * len(heads), *lines]
-    escaped = ([cell.replace("|", "\\|").replace("\n", " ") for cell in row] for row in rows)
-    return "\n".join(f"| {' | '.join(row)} |" for row in escaped)
-
-
-def _names() -> list[str]:
-    return [name(condition) for condition in paper.CONDITIONS]
-
-
-def _of(rows: Iterable[Row], condition: Condition, kind: Kind | None = None) -> list[Row]:
-    return [
-        row
-        for row in rows
-        if (row.key.system, row.defaults) == condition and kind in (None, row.kind)
-    ]
-
-
-def _mean(rows: Sequence[Row], column: str) -> float | None:
-    return fmean(getattr(row, column) for row in rows) if rows else None
-
-
-def _cell(ours: float | None, theirs: float, digits: int = 1) -> str:
-    return f"{'-' if ours is None else f'{ours:.{digits}f}'} ({theirs:.{digits}f})"
-
-
-def _columns(
-    rows: Iterable[Row], column: Column, unit: Callable[[Row], Hashable]
-) -> dict[KnowledgeSystem, dict[Hashable, float]]:
-    """Of each system the mean value of each unit."""
-    values: dict[KnowledgeSystem, dict[Hashable, list[float]]] = {}
-    for row in rows:
-        values.setdefault(row.key.system, {}).setdefault(unit(row), []).append(column(row))
-    return {
-        system: {key: fmean(several) for key, several in values[system].items()}
-        for system in paper.SYSTEMS
-        if system in values
-    }
-
-
-def _p(comparison: Comparison[KnowledgeSystem]) -> str:
-    mark = stars(comparison.p).replace("*", "\\*")
-    p = "< 0.001" if comparison.p < 0.001 else f"{comparison.p:.3f}"
-    return f"{p} {mark} (n = {comparison.pairs})".replace("  ", " ")
+def _plots(found: Sequence[Variant]) -> Iterator[tuple[str, Sequence[Part]]]:
+    """The figures by the section that they belong to; none without matplotlib."""
+    try:
+        from executive import plots
+    except ImportError:
+        return
+    if found:
+        yield from plots.figures(found)

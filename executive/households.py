@@ -9,19 +9,22 @@ What is kept from command to command, and what is not:
 
 import io
 import random
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Generator, Iterable, Sequence
+from dataclasses import asdict, dataclass
+from math import dist
 from pathlib import Path
+from typing import Any
 
-from executive.app import Session, build_model
+from executive.app import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
-from executive.interfaces import LanguageModel
+from executive.interfaces import Advisor
 from executive.journal import CRASHED, Entry, Key, Row
-from executive.records import LlmCall, Record
-from executive.types import ChatRequest, Message, Outcome, Replied, Scored, Status
-from kb.advisor import PlaceAdvisor
-from logs.recorder import Stamp
+from executive.observed import Observed
+from executive.policies import POLICIES
+from executive.routes import routes_in
+from executive.truth import completed, shortest_m, whereabouts
+from executive.types import ChatRequest, Message, Outcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,17 +32,30 @@ class Household:
     """Who lives where, and what is asked of the robot."""
 
     settings: Settings
-    """Of its missions: system, situation, seed and all else."""
+    """Of its missions: system, situation, seed and all else; the policy may override some."""
     commands: tuple[str, ...]
     """In the order in which they are given."""
+    policy: str = "ours"
     recorded: bool = False
     """Whether each mission leaves a folder in `settings.runs`."""
 
     @property
     def keys(self) -> tuple[Key, ...]:
         """Its missions."""
-        s = self.settings
-        return tuple(Key(s.knowledge, s.defaults, s.seed, words) for words in self.commands)
+        s, used = self.settings, self.settings_used
+        where = (self.policy, short(s.home), short(used.llm) if used.uses_llm else "none")
+        return tuple(Key(*where, s.knowledge, s.defaults, s.seed, w) for w in self.commands)
+
+    @property
+    def settings_used(self) -> Settings:
+        """The settings with those of the policy."""
+        return self.settings.model_copy(update=dict(POLICIES[self.policy].settings))
+
+
+def short(name_or_file: str) -> str:
+    """What tables call a home or a model: its name, or its file's less folder and ending."""
+    suffixes = (".toml", ".gguf")
+    return Path(name_or_file).stem if name_or_file.endswith(suffixes) else name_or_file
 
 
 def shuffled(commands: Iterable[str], seed: int) -> tuple[str, ...]:
@@ -49,38 +65,7 @@ def shuffled(commands: Iterable[str], seed: int) -> tuple[str, ...]:
     return tuple(order)
 
 
-@dataclass
-class Calls:
-    """A sink that keeps the finished calls of the language model."""
-
-    results: list[Replied | Scored] = field(default_factory=list)
-
-    def write(self, stamp: Stamp, record: Record) -> None:
-        """Keep it if it is a call."""
-        if isinstance(record, LlmCall):
-            self.results.append(record.result)
-
-    def flush(self) -> None:
-        """Nothing to bring to disk."""
-
-    def close(self) -> None:
-        """Nothing to close."""
-
-    def entry(self, row: Row) -> Entry:
-        """The row with what the calls cost, and what was said in them."""
-        usage = [call.usage for call in self.results]
-        written = [call for call in self.results if isinstance(call, Replied)]
-        return Entry(
-            replace(
-                row,
-                generated_tokens=sum(u.output_tokens for u in usage),
-                llm_s=round(sum(u.total_s for u in usage), 3),
-            ),
-            tuple((call.request.messages[-1].content, call.text) for call in written),
-        )
-
-
-def run(household: Household, before: Iterable[Entry] = ()) -> Iterator[Entry]:
+def run(household: Household, before: Iterable[Entry] = ()) -> Generator[Entry, None, None]:
     """Run the missions of a household that are not in `before`, each when it is asked for.
 
     Raises:
@@ -100,106 +85,141 @@ def run(household: Household, before: Iterable[Entry] = ()) -> Iterator[Entry]:
 
 
 class _Rest:
-    """What outlives the missions of a household: model, and advisor with its memory."""
+    """What outlives the missions of a household: the model, and what was said to it."""
 
     def __init__(self, household: Household) -> None:
-        self._household = household
+        self._recorded = household.recorded
+        self._settings = household.settings_used
+        self._policy = POLICIES[household.policy]
         self._inbox = Inbox()
-        self._model: LanguageModel | None = build_model(household.settings, self._inbox)
-        self._advisor: PlaceAdvisor | None = None
-        self._to_recall: list[tuple[str, str]] = []
+        self._model = self._policy.model(self._settings, self._inbox)
+        self._dialogue: list[tuple[str, str]] = []
 
     def recall(self, entry: Entry) -> None:
-        """Bring the dialogue of a mission that was run earlier back to memory."""
-        self._to_recall += entry.exchanges
+        """Take in what was said in a mission that has ended."""
+        self._dialogue += entry.exchanges
 
     def mission(self, turn: int, key: Key) -> Entry:
-        calls = Calls()
+        observed = Observed()
         session = Session(
-            self._household.settings,
+            self._settings,
             inbox=self._inbox,
             model=self._model,
             out=io.StringIO(),
-            recorded=self._household.recorded,
-            sinks=[calls],
+            recorded=self._recorded,
+            sinks=[observed],
         )
-        self._share_memory(session)
+        session.advisor = self._advisor(session)
         try:
-            row = _row(turn, key, session.run(key.command), session)
+            row = _row(turn, key, session.run(key.command), session, observed)
         except Exception as error:
-            row = _crash(turn, key, error)
+            row = crash(turn, key, error, str(session.folder or ""))
             self._inbox.take_all()  # what the broken mission left
         finally:
+            session.facts.close()
             session.world.close()
-        return calls.entry(row)
+        entry = Entry(row, observed.exchanges())
+        self.recall(entry)
+        return entry
 
-    def _share_memory(self, session: Session) -> None:
-        self._advisor = session.advisor = self._advisor or session.advisor
-        for said, reply in self._to_recall:
-            assert self._advisor
-            self._advisor.remember(ChatRequest("recalled", (Message("user", said),)), reply)
-        self._to_recall.clear()
+    def _advisor(self, session: Session) -> Advisor | None:
+        """The policy's, told the dialogue so far, which it keeps if the system has a memory."""
+        advisor = self._policy.advisor(session)
+        if advisor:
+            for said, reply in self._dialogue:
+                advisor.remember(ChatRequest("recalled", (Message("user", said),)), reply)
+        return advisor
 
     def close(self) -> None:
         if self._model:
             self._model.close()
 
 
-def _row(turn: int, key: Key, outcome: Outcome, session: Session) -> Row:
-    true_place = session.home.placement.get(outcome.object or "")
+def _row(turn: int, key: Key, outcome: Outcome, session: Session, observed: Observed) -> Row:
+    truth = whereabouts(outcome.object or "", session.world)
+    routes = routes_in(session.settings.home)
+    usage = [call.usage for call in observed.calls]
+    known = session.knowledge.place_names.exactly
+    invented = [n for n in observed.names if not (known(n).furniture or known(n).rooms)]
+    ideal = session.settings.world == "fake"
     return Row(
-        system=str(key.system),
-        defaults=key.defaults,
-        seed=key.seed,
-        command=key.command,
+        **_of_key(key),
         turn=turn,
         kind=str(outcome.kind or ""),
         object=outcome.object or "",
         status=str(outcome.status),
         reason=outcome.reason,
-        completed=outcome.status == Status.DONE and outcome.location == true_place,
+        completed=completed(outcome, truth),
+        truth=truth,
         source=str(outcome.source or ""),
         location=outcome.location or "",
         inquiries=outcome.inquiries,
         visits=len(outcome.visited),
         visited=" ".join(outcome.visited),
+        failed_visits=observed.unreached,
+        named=len(observed.names),
+        invented=len(invented),
         llm_calls=outcome.llm_calls,
+        generated_tokens=sum(u.output_tokens for u in usage),
+        llm_s=round(sum(u.total_s for u in usage), 3),
         thinking_time_s=outcome.thinking_time_s,
+        driving_s=round(observed.seconds["driving"], 3),
+        looking_s=round(observed.seconds["looking"], 3),
+        handling_s=round(observed.seconds["handling"], 3),
         mission_time_s=outcome.mission_time_s,
         wall_time_s=outcome.wall_time_s,
+        path_m=round(observed.path_m(routes.length if ideal else dist), 3),
+        shortest_m=round(shortest_m(outcome, session.home, routes), 3),
         model=session.model.name if session.model else "",
         run_dir=outcome.run_dir or "",
     )
 
 
-def _crash(turn: int, key: Key, error: Exception) -> Row:
-    system, reason = str(key.system), f"{type(error).__name__}: {error}"
-    return Row(system, key.defaults, key.seed, key.command, turn, status=CRASHED, reason=reason)
+def crash(turn: int, key: Key, error: Exception, run_dir: str = "") -> Row:
+    """The row of a mission that ended in an exception."""
+    reason = f"{type(error).__name__}: {error}"
+    return Row(**_of_key(key), turn=turn, status=CRASHED, reason=reason, run_dir=run_dir)
 
 
-def for_conditions(
-    settings: Settings,
-    systems: Iterable[KnowledgeSystem],
+def _of_key(key: Key) -> dict[str, Any]:
+    return {**asdict(key), "system": str(key.system)}
+
+
+def grid(
+    settings: Sequence[Settings],
+    policies: Sequence[str],
+    systems: Sequence[KnowledgeSystem],
     commands: tuple[str, ...],
     seeds: int,
-    runs: Path | None,
+    runs: Path | None = None,
 ) -> tuple[Household, ...]:
-    """Every household of a campaign, seed by seed, so that early tables are already fair."""
-    chosen = tuple(systems)
-    return tuple(
+    """Every household of a campaign, seed by seed, so that early tables are already fair.
+
+    okb asks no model: it is run once in each home, under the first policy.
+
+    Args:
+        settings: one for each home and language model.
+        policies: by name.
+        systems: the paper's, or some of them.
+        commands: each once.
+        seeds: how many.
+        runs: where missions leave their recordings; None: nowhere.
+    """
+    watched = {"runs": runs} if runs else {"camera_hz": 0.0}
+    found = (
         Household(
-            settings.model_copy(
-                update={
-                    "knowledge": system,
-                    "defaults": defaults,
-                    "seed": seed,
-                    **({"runs": runs} if runs else {}),
-                }
+            base.model_copy(
+                update={"knowledge": system, "defaults": defaults, "seed": seed, **watched}
             ),
             shuffled(commands, seed),
+            policy,
             recorded=runs is not None,
         )
         for seed in range(seeds)
         for defaults in (False, True)
-        for system in chosen
+        for base in settings
+        for policy in policies
+        for system in systems
+        if system != KnowledgeSystem.OKB or policy == policies[0]
     )
+    return tuple({household.keys: household for household in found}.values())

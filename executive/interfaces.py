@@ -39,7 +39,7 @@ class Robot(Protocol):
         ...
 
     def views(self, place: str) -> int:
-        """How many head poses it takes to see all of a place (at least 1)."""
+        """How many head poses it takes to see all of a place or of the `floor` (at least 1)."""
         ...
 
     @property
@@ -334,6 +334,11 @@ class SimulatedHome(World, Protocol):
 
         For the simulated person and for tests: the robot has no access to it.
         """
+        ...
+
+    @property
+    def held(self) -> str | None:
+        """The object that is in the robot's hand, by the simulator's truth; None for none."""
         ...
 
 

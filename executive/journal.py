@@ -26,6 +26,9 @@ CRASHED = "crashed"
 class Key:
     """Which mission of a campaign."""
 
+    policy: str
+    home: str
+    llm: str
     system: KnowledgeSystem
     defaults: bool
     seed: int
@@ -36,6 +39,11 @@ class Key:
 class Row:
     """How one mission of a campaign went; times in seconds. What is not known is 0 or empty."""
 
+    policy: str
+    """Who says where to look, as `executive.policies` names it."""
+    home: str
+    llm: str
+    """The language model as the settings name it; `none` where none is asked."""
     system: str
     defaults: bool
     seed: int
@@ -48,28 +56,55 @@ class Row:
     """done, not_done, not_understood, stopped, or crashed."""
     reason: str = ""
     completed: bool = False
-    """Done, and the thing was found where the home file has it."""
+    """Done by the world's truth, as `executive.truth` has it; `status` is what the robot said."""
+    truth: str = ""
+    """Where the thing truly was when the mission ended: furniture, `hand`, or nowhere."""
     source: str = ""
     location: str = ""
     inquiries: int = 0
     visits: int = 0
     visited: str = ""
     """Pieces of furniture in the order of the visits, with blanks between."""
+    failed_visits: int = 0
+    """Places that the robot set out for and could not get to, such as those that do not exist."""
+    named: int = 0
+    """Names that the language model wrote in its lists."""
+    invented: int = 0
+    """Those of them that no room and no furniture of the home goes by."""
     llm_calls: int = 0
     generated_tokens: int = 0
     llm_s: float = 0.0
     """Wall time inside the language model."""
     thinking_time_s: float = 0.0
     """Mission time from asking the model for places until it has answered."""
+    driving_s: float = 0.0
+    looking_s: float = 0.0
+    handling_s: float = 0.0
     mission_time_s: float = 0.0
     wall_time_s: float = 0.0
+    path_m: float = 0.0
+    """How far the robot drove."""
+    shortest_m: float = 0.0
+    """How far it had to: to the thing, and on to where the command ends."""
     model: str = ""
+    """The language model's own name."""
     run_dir: str = ""
 
     @property
     def key(self) -> Key:
         """Which mission it was."""
-        return Key(KnowledgeSystem(self.system), self.defaults, self.seed, self.command)
+        system = KnowledgeSystem(self.system)
+        where = (self.policy, self.home, self.llm)
+        return Key(*where, system, self.defaults, self.seed, self.command)
+
+    @property
+    def spl(self) -> float:
+        """Success weighted by path length, 0 to 1; of one mission.
+
+        Anderson et al., "On Evaluation of Embodied Navigation Agents", 2018.
+        """
+        longer = max(self.path_m, self.shortest_m)
+        return self.completed * (self.shortest_m / longer if longer else 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,10 +170,26 @@ class Journal:
             ) from None
 
 
-def in_order(rows: Iterable[Row]) -> list[Row]:
-    """Sorted by system, situation, seed and turn, whatever order the missions ended in."""
-    systems = list(KnowledgeSystem)
-    return sorted(rows, key=lambda r: (systems.index(r.key.system), r.defaults, r.seed, r.turn))
+def in_order(rows: Iterable[Row], policies: Sequence[str] = ()) -> list[Row]:
+    """Sorted by what a campaign varies, whatever order the missions ended in.
+
+    Args:
+        rows: of any number of policies.
+        policies: those that come first, in this order.
+    """
+    systems, ranks = list(KnowledgeSystem), {name: rank for rank, name in enumerate(policies)}
+
+    def place(row: Row) -> tuple[int, str, str, str, int, bool, int, int]:
+        first = ranks.get(row.policy, len(ranks))
+        which = (first, row.policy, row.home, row.llm)
+        return *which, systems.index(row.key.system), row.defaults, row.seed, row.turn
+
+    return sorted(rows, key=place)
+
+
+def read_table(file: Path) -> list[Row]:
+    """The rows of a `results.parquet`."""
+    return [Row(**row) for row in pq.read_table(file).to_pylist()]
 
 
 def write_tables(rows: Sequence[Row], folder: Path) -> None:

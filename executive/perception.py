@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from executive.events import Inbox
 from executive.interfaces import Camera, Detector, Recorder
 from executive.records import Picture, Seen
-from executive.types import Detection, Frame, Intrinsics, Pose, Saw
+from executive.types import Detection, Failed, Frame, Intrinsics, Pose, Saw
 
 
 class Eyes:
@@ -29,10 +29,13 @@ class Eyes:
         self._recorder = recorder
 
     def see(self) -> int:
-        """Take a picture and recognise; ends Saw."""
+        """Take a picture and recognise; ends Saw, or Failed if the picture is wholly black."""
         request = self._inbox.open()
         frame = self._camera.capture()
         self._recorder.record(Picture(frame))
+        if not frame.color.any():
+            self._inbox.end(request, Failed("my camera shows nothing"))
+            return request
         found = tuple(locate(d, frame) for d in self._detector.detect(frame))
         self._recorder.record(Seen(frame.number, found))
         self._inbox.end(request, Saw(frame.number, found))

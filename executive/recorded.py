@@ -4,9 +4,9 @@ from collections.abc import Iterable
 
 from executive.events import DeadlinePassed, Ended, Inbox, StopRequested
 from executive.records import Tick
-from executive.types import ChatRequest, Goal, Question, RankRequest
+from executive.types import FLOOR, ChatRequest, Goal, Question, RankRequest
 from logs.reader import Turn
-from sim.home import Home
+from sim.home import FLOOR_VIEWS, Home
 
 
 class RecordedTime:
@@ -118,6 +118,8 @@ class Absent:
 
     def views(self, place: str) -> int:
         """As many as the simulated robot has."""
+        if self.home and place == FLOOR:
+            return FLOOR_VIEWS
         return len(self.home.view_targets(place)) if self.home else 1
 
     def count_tokens(self, text: str) -> int:

@@ -182,6 +182,17 @@ class Path:
 
 
 @dataclass(frozen=True, slots=True)
+class Mishap:
+    """A fault that was ordered has struck the simulated world: for readers, never for the robot.
+
+    `fault` is the order as `--fault` has it, `text` what it did.
+    """
+
+    fault: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Finished:
     """The mission is over."""
 
@@ -201,5 +212,6 @@ Record = (
     | Scene
     | Transforms
     | Path
+    | Mishap
     | Finished
 )

@@ -6,9 +6,11 @@ from typing import Any
 
 from executive.events import DeadlinePassed, Ended, Event, Started, StopRequested
 from executive.types import (
+    DELIVERY,
     Candidate,
     Command,
     Detection,
+    Kind,
     Outcome,
     Replied,
     Result,
@@ -64,12 +66,20 @@ class Situation:
     """Places that the robot could not get to, and why."""
     doubtful: Detection | None = None
     """What may be the thing, in the last picture; None if nothing, or if it surely is."""
+    unseen: dict[str, str] = field(default_factory=dict)
+    """Places that the robot got to but could not look at, and why."""
     detection: Detection | None = None
     """The thing, as last seen."""
     found: Candidate | None = None
     """Where the thing was seen."""
     in_hand: str | None = None
     """The thing that the robot holds, from this mission or one before it."""
+    gone: bool = False
+    """Whether the thing was seen, and then was there no more."""
+    lost: str = ""
+    """What happened to the thing that fell from the hand, as a clause; empty if it did not."""
+    spot: str = ""
+    """Where the robot looks for what fell from its hand."""
     away: bool = False
     """Whether the robot has left the person."""
     inquiries: int = 0
@@ -102,6 +112,20 @@ class Situation:
             case DeadlinePassed():
                 pass
 
+    def asks_to(self, kind: Kind) -> bool:
+        """Whether this kind of deed was asked for."""
+        return self.command is not None and self.command.kind == kind
+
+    @property
+    def has_it(self) -> bool:
+        """Whether what was asked for is in the hand."""
+        return self.in_hand is not None and self.in_hand == self.object
+
+    @property
+    def is_delivered(self) -> bool:
+        """Whether the thing was found at the delivery place."""
+        return self.found is not None and self.found.place == DELIVERY
+
     @property
     def next_deadline(self) -> float | None:
         """The earliest time (mission time, s) at which a tick is due without an event."""
@@ -115,9 +139,9 @@ class Situation:
     def search_so_far(self) -> str:
         """Where the thing was looked for in vain, as a clause; empty if nowhere."""
         clauses = []
-        if self.visited:
-            seen = ", ".join(dict.fromkeys(self.visited))
-            clauses.append(f"I did not find the {self.object} at {seen}")
+        if seen := [place for place in dict.fromkeys(self.visited) if place not in self.unseen]:
+            clauses.append(f"I did not find the {self.object} at {', '.join(seen)}")
+        clauses += [f"I could not look at {place}: {why}" for place, why in self.unseen.items()]
         clauses += [f"I could not get to {place}: {why}" for place, why in self.unreached.items()]
         return "; ".join(clauses)
 
@@ -134,9 +158,12 @@ class Situation:
             "view": self.view,
             "visited": list(self.visited),
             "unreached": dict(self.unreached),
+            "unseen": dict(self.unseen),
             "sighting": list(self.detection.position or ()) if self.detection else None,
             "found": asdict(self.found) if self.found else None,
             "in_hand": self.in_hand,
+            "gone": self.gone,
+            "lost": self.lost,
             "inquiries": self.inquiries,
             "llm_calls": self.llm_calls,
             "status": self.status,

@@ -61,13 +61,21 @@ class Comparison(Generic[Name]):
 
 
 def pairwise(columns: Mapping[Name, Mapping[Hashable, float]]) -> list[Comparison[Name]]:
-    """Wilcoxon's signed-rank test of each two conditions on what they have in common.
+    """Each two conditions compared, as `compare` does it."""
+    return compare(columns, combinations(columns, 2))
+
+
+def compare(
+    columns: Mapping[Name, Mapping[Hashable, float]], pairs: Iterable[tuple[Name, Name]]
+) -> list[Comparison[Name]]:
+    """Wilcoxon's signed-rank test of pairs of conditions on what the two have in common.
 
     Args:
         columns: of each condition the value of each unit (a command, or a mission).
+        pairs: which to compare; those with nothing in common are left out.
     """
     found: list[Comparison[Name]] = []
-    for a, b in combinations(columns, 2):
+    for a, b in pairs:
         units = [unit for unit in columns[a] if unit in columns[b]]
         if units:
             d = np.array([columns[a][unit] - columns[b][unit] for unit in units])

@@ -120,6 +120,8 @@ class Place:
 
 DELIVERY = "delivery"
 """The place by the person where brought things are put down; it is no furniture to search."""
+FLOOR = "floor"
+"""The floor around the robot, wherever it is: a place to look at, for what fell from the hand."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,9 +133,10 @@ class DriveTo:
 
 @dataclass(frozen=True, slots=True)
 class LookAt:
-    """Point the head at a place or `delivery`; `view` counts from 0 to `Robot.views(place) - 1`.
+    """Point the head at a place, `delivery` or the `floor`.
 
-    With a `point` of `map` (metres) given, that is in the middle of the picture instead.
+    `view` counts from 0 to `Robot.views(place) - 1`. With a `point` of `map` (metres) given, that
+    is in the middle of the picture instead.
     """
 
     place: str
@@ -263,12 +266,26 @@ class ChatRequest:
 
 
 @dataclass(frozen=True, slots=True)
+class Precedent:
+    """A thing whose places are known: the question about it, and the right answers to that.
+
+    `kind` is the class above it in the ontology; empty if there is none.
+    """
+
+    messages: tuple[Message, ...]
+    places: tuple[str, ...]
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class RankRequest:
     """Ask the language model how likely each of `options` is as its next words.
 
-    The score of an option is log P(option | messages) - log P(option | neutral): `neutral` is the
-    same chat with the thing left open, so that what is merely a common phrase does not win.
-    `places` are the places that the options stand for, in the same order.
+    What counts is log P(option | messages) - log P(option | neutral): `neutral` is the same chat
+    with the thing left open, so that what is merely a common phrase does not win; empty, it counts
+    for nothing. `places` are the places that the options stand for, in the same order. A model that
+    can tell which questions are alike takes the `precedents` into account; so are, a little, those
+    about things of the same `kind`.
     """
 
     label: str
@@ -276,6 +293,8 @@ class RankRequest:
     neutral: tuple[Message, ...]
     options: tuple[str, ...]
     places: tuple[str, ...]
+    precedents: tuple[Precedent, ...] = ()
+    kind: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -323,9 +342,13 @@ class Succeeded:
 
 @dataclass(frozen=True, slots=True)
 class Failed:
-    """It could not be done, and why, as a clause for the person: "the way is blocked"."""
+    """It could not be done, and why, as a clause for the person: "the way is blocked".
+
+    `lost` tells that what was in the hand fell out of it on the way, and lies about.
+    """
 
     reason: str
+    lost: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -348,7 +371,7 @@ class Replied:
 
 @dataclass(frozen=True, slots=True)
 class Scored:
-    """The language model's calibrated log-likelihood of each option, in the request's order."""
+    """The logarithm of how likely each option is, up to a constant, in the request's order."""
 
     request: RankRequest
     scores: tuple[float, ...]

@@ -4,9 +4,11 @@ The paper's section "Proposed System", less the model itself and less the order 
 is a subtree.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
 
-from executive.interfaces import LanguageModel
+from executive.interfaces import Facts, LanguageModel
 from executive.types import (
     Candidate,
     ChatRequest,
@@ -19,9 +21,9 @@ from executive.types import (
 )
 from kb import ranking, understanding, verification
 from kb.memory import Memory, history_budget
-from kb.names import spoken
 from kb.ontology import Ontology
 from kb.prompts import Prompts
+from kb.ranking import Known
 
 SITUATION = "likely places"
 """What a summary is about."""
@@ -38,6 +40,7 @@ class PlaceAdvisor:
         remembers: bool,
         top: int = 5,
         prompts: Prompts | None = None,
+        facts: Facts | None = None,
     ) -> None:
         """Advise with what the ontology knows; the model only counts tokens here.
 
@@ -47,12 +50,14 @@ class PlaceAdvisor:
             remembers: whether prompts hold the dialogue so far (OKB+LLM+MEM) or not (OKB+LLM).
             top: how many places to ask for, at most.
             prompts: the texts; None: those of prompts.toml.
+            facts: where things were seen; like default locations they are precedents for others.
         """
         self._ontology = ontology
         self._model = model
         self._remembers = remembers
         self._top = top
         self._prompts = prompts or Prompts.load()
+        self._facts = facts
         self._system = Message("system", self._prompts.home(ontology.places()))
         self._memory: Memory | None = None
 
@@ -133,11 +138,28 @@ class PlaceAdvisor:
             (place, ranking.answer(place, self._ontology.preposition(place)))
             for place in self._allowed(among)
         ]
-        return ranking.rank_request(spoken(name), options, self._prompts.ranking)
+        thing = self._usual.get(name, Known(name))
+        return ranking.rank_request(thing, options, self._prompts.ranking, self._others(name))
 
     def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
         """Places with probabilities (they sum to 1), likeliest first."""
         return ranking.ranked(scored)
+
+    @cached_property
+    def _usual(self) -> dict[str, Known]:
+        """Every object with its default locations."""
+        ontology = self._ontology
+        return {
+            name: Known(name, (*ontology.classes_of(name), "")[0], ontology.usual_places(name))
+            for name in ontology.objects()
+        }
+
+    def _others(self, name: str) -> Iterator[Known]:
+        """All other objects: where they were seen last, else their default locations."""
+        for other in self._usual.values():
+            if other.name != name:
+                seen = self._facts.places_of(other.name) if self._facts else ()
+                yield replace(other, places=seen) if seen else other
 
     def _allowed(self, among: tuple[str, ...]) -> tuple[Place, ...]:
         return tuple(p for p in self._ontology.places() if not among or p.name in among)

@@ -9,6 +9,7 @@ import operator
 import os
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import Any
@@ -171,6 +172,8 @@ class Context:
         params.n_seq_max = sequences
         params.kv_unified = True
         params.no_perf = True
+        params.embeddings = sequences > 1
+        params.pooling_type = llama_cpp.LLAMA_POOLING_TYPE_NONE
         cores = os.cpu_count() or 1
         params.n_threads = threads or max(1, cores // 2)
         params.n_threads_batch = threads or cores
@@ -178,8 +181,9 @@ class Context:
         if not self.pointer:
             raise ModelError(f"no context of {tokens} tokens: {_last_complaint()}")
         self._memory: Any = llama_cpp.llama_get_memory(self.pointer)
-        self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, 1)
+        self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, sequences)
         self._vocabulary_size = model.vocabulary_size
+        self._width = llama_cpp.llama_model_n_embd(model.pointer)
         self._sequences = sequences
         self._batches: list[tuple[int, ...]] = []
         self._length = 0
@@ -214,17 +218,20 @@ class Context:
 
     def append(self, tokens: Sequence[int]) -> None:
         """Evaluate further tokens of sequence 0 (at most BATCH_TOKENS)."""
-        rows = [(token, self._length + i, 0, False) for i, token in enumerate(tokens)]
-        rows[-1] = (*rows[-1][:3], True)
+        rows = [_Row(token, self._length + i) for i, token in enumerate(tokens)]
+        rows[-1] = replace(rows[-1], wanted=True)
         self._decode(rows)
         self._length += len(tokens)
 
     def continuations(
-        self, options: Sequence[Sequence[int]], checkpoint: Checkpoint
-    ) -> Iterator[float]:
-        """Log P(option | sequence 0) of each option, many options to a batch.
+        self, options: Sequence[Tokens], checkpoint: Checkpoint
+    ) -> tuple[list[float], int]:
+        """Log P(option | sequence 0) of each option, many to a batch; what they share only once.
 
         Has to follow `read`; sequence 0 stays as it is.
+
+        Returns:
+            The logarithms, and how many tokens were evaluated.
 
         Raises:
             ModelError: if an option is empty or longer than BATCH_TOKENS.
@@ -232,24 +239,35 @@ class Context:
         if not all(0 < len(option) <= BATCH_TOKENS for option in options):
             raise ModelError(f"an option has to be from 1 to {BATCH_TOKENS} tokens long")
         first = self.log_probabilities()
-        for group in self._packed(options):
+        scores = [float(first[option[0]]) for option in options]
+        evaluated = 0
+        for tree in _trees(options, self._sequences - 1):
             checkpoint()
-            rows = []
-            for sequence, option in enumerate(group, start=1):
+            sequences = {n: i for i, n in enumerate(sorted(set().union(*tree.values())), start=1)}
+            for sequence in sequences.values():
                 llama_cpp.llama_memory_seq_cp(self._memory, 0, sequence, *WHOLE)
-                rows += [
-                    (token, self._length + i, sequence, True) for i, token in enumerate(option[:-1])
+            self._decode(
+                [
+                    _Row(begin[-1], self._length + len(begin) - 1, [sequences[n] for n in on], True)
+                    for begin, on in tree.items()
                 ]
-            if rows:
-                self._decode(rows)
-            row = 0
-            for sequence, option in enumerate(group, start=1):
-                score = first[option[0]]
-                for token in option[1:]:
-                    score += self.log_probabilities(row)[token]
-                    row += 1
+            )
+            for row, (begin, on) in enumerate(tree.items()):
+                next_token = self.log_probabilities(row)
+                for n in on:
+                    scores[n] += float(next_token[options[n][len(begin)]])
+            for sequence in sequences.values():
                 llama_cpp.llama_memory_seq_rm(self._memory, sequence, *WHOLE)
-                yield float(score)
+            evaluated += len(tree)
+        return scores, evaluated
+
+    def state(self) -> NDArray[np.float64]:
+        """(width,) the last layer's state after the last token of sequence 0.
+
+        Has to follow `read`; only a context of several sequences keeps states.
+        """
+        pointer = llama_cpp.llama_get_embeddings_ith(self.pointer, -1)
+        return np.ctypeslib.as_array(pointer, shape=(self._width,)).astype(np.float64)
 
     def log_probabilities(self, row: int = -1) -> NDArray[np.float64]:
         """(vocabulary,) log P(next token) after this row of the last batch; -1: after the last."""
@@ -264,31 +282,47 @@ class Context:
         llama_cpp.llama_batch_free(self._batch)
         llama_cpp.llama_free(self.pointer)
 
-    def _packed(self, options: Sequence[Sequence[int]]) -> Iterator[list[Sequence[int]]]:
-        """Options in their order, in groups that fit into one batch and into the sequences."""
-        group: list[Sequence[int]] = []
-        size = 0
-        for option in options:
-            if group and (size + len(option) > BATCH_TOKENS or len(group) == self._sequences - 1):
-                yield group
-                group, size = [], 0
-            group.append(option)
-            size += len(option)
-        if group:
-            yield group
-
-    def _decode(self, rows: Sequence[tuple[int, int, int, bool]]) -> None:
-        """Evaluate (token, position, sequence, whether its scores are wanted)."""
+    def _decode(self, rows: Sequence["_Row"]) -> None:
         batch = self._batch
         batch.n_tokens = len(rows)
-        for i, (token, position, sequence, wanted) in enumerate(rows):
-            batch.token[i] = token
-            batch.pos[i] = position
-            batch.n_seq_id[i] = 1
-            batch.seq_id[i][0] = sequence
-            batch.logits[i] = wanted
+        for i, row in enumerate(rows):
+            batch.token[i] = row.token
+            batch.pos[i] = row.position
+            batch.n_seq_id[i] = len(row.sequences)
+            for j, sequence in enumerate(row.sequences):
+                batch.seq_id[i][j] = sequence
+            batch.logits[i] = row.wanted
         if code := llama_cpp.llama_decode(self.pointer, batch):
             raise ModelError(f"llama.cpp could not evaluate (code {code}): {_last_complaint()}")
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """One token to evaluate, at its place in some sequences, and whether its scores are wanted."""
+
+    token: int
+    position: int
+    sequences: Sequence[int] = (0,)
+    wanted: bool = False
+
+
+def _trees(options: Sequence[Tokens], most: int) -> Iterator[dict[tuple[int, ...], list[int]]]:
+    """Every beginning of an option, less the whole -> the numbers of the options that begin so.
+
+    In parts, each of at most BATCH_TOKENS beginnings and `most` options.
+    """
+    tree: dict[tuple[int, ...], list[int]] = {}
+    count = 0
+    for number, option in enumerate(options):
+        begins = [tuple(option[:end]) for end in range(1, len(option))]
+        if count == most or len(tree.keys() | begins) > BATCH_TOKENS:
+            yield tree
+            tree, count = {}, 0
+        for begin in begins:
+            tree.setdefault(begin, []).append(number)
+        count += bool(begins)
+    if tree:
+        yield tree
 
 
 def _last_complaint() -> str:

@@ -9,7 +9,9 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+import numpy as np
 from llama_cpp.llama_grammar import json_schema_to_gbnf
+from numpy.typing import NDArray
 
 from executive.errors import ModelError
 from executive.events import Inbox
@@ -24,9 +26,10 @@ from executive.types import (
     Usage,
 )
 from kb.gguf import BATCH_TOKENS, Checkpoint, Context, Gguf, Tokens, check_file
+from kb.precedents import LIKELIHOOD_WEIGHT, log_expected, shares
 from kb.sampling import Sampler, Sampling
 
-RANKED_AT_ONCE = 32
+RANKED_AT_ONCE = 63
 """Options that are scored side by side."""
 
 
@@ -45,6 +48,16 @@ def embedded_model() -> Path:
 
 class Cancelled(Exception):  # noqa: N818 - it is no error
     """The request was called off."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Grasp:
+    """What the model makes of a chat: its state, how likely each option is next, and the cost."""
+
+    state: NDArray[np.float64]
+    likelihoods: NDArray[np.float64]
+    read: int
+    evaluated: int
 
 
 @dataclass(slots=True)
@@ -104,7 +117,7 @@ class LlamaCpp:
         self._threads = threads
         self._grammar = grammar
         self._stops: dict[int, threading.Event] = {}
-        self._likelihoods: dict[tuple[tuple[Message, ...], tuple[str, ...]], tuple[float, ...]] = {}
+        self._grasped: dict[tuple[tuple[Message, ...], tuple[str, ...]], _Grasp] = {}
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="language model")
         self._loading = self._pool.submit(self._load, gpu_layers)
 
@@ -210,26 +223,48 @@ class LlamaCpp:
 
     def _score(self, request: RankRequest, checkpoint: Checkpoint) -> Result:
         began = time.monotonic()
+        read = evaluated = 0
+
+        def grasp(messages: tuple[Message, ...], options: tuple[str, ...] = ()) -> _Grasp:
+            nonlocal read, evaluated
+            fresh = (messages, options) not in self._grasped
+            if fresh:
+                self._grasped[messages, options] = self._grasp(messages, options, checkpoint)
+            grasped = self._grasped[messages, options]
+            read += grasped.read
+            evaluated += fresh * grasped.evaluated
+            return grasped
+
+        asked = grasp(request.messages, request.options)
+        scores = LIKELIHOOD_WEIGHT * asked.likelihoods
+        if request.neutral:
+            neutral = grasp(request.neutral, request.options)
+            scores -= LIKELIHOOD_WEIGHT * neutral.likelihoods
+        if known := request.precedents:
+            states = [asked.state, *(grasp(precedent.messages).state for precedent in known)]
+            kinds = [request.kind, *(precedent.kind for precedent in known)]
+            at = shares([precedent.places for precedent in known], request.places)
+            scores += log_expected(np.stack(states), kinds, at)
+        usage = self._usage(read, evaluated, 0, 0.0, began)
+        return Scored(request, tuple(scores.tolist()), usage)
+
+    def _grasp(
+        self, messages: tuple[Message, ...], options: tuple[str, ...], checkpoint: Checkpoint
+    ) -> _Grasp:
+        """Read a chat; all but its last turn is shared with others."""
         loaded = self._loading.result()
         if loaded.ranking is None:
             loaded.ranking = Context(
                 loaded.model, self._n_ctx, sequences=1 + RANKED_AT_ONCE, threads=self._threads
             )
-        options = [loaded.model.tokenize(option) for option in request.options]
-        written = sum(map(len, options))
-        tokens = evaluated = 0
-        for messages in (request.neutral, request.messages):
-            prompt, head = loaded.model.prompt(messages, constant=len(messages) - 1)
-            self._check_length(prompt, BATCH_TOKENS)
-            tokens += len(prompt) + written
-            if (messages, request.options) not in self._likelihoods:
-                evaluated += loaded.ranking.read(prompt, head, checkpoint) + written
-                likelihoods = tuple(loaded.ranking.continuations(options, checkpoint))
-                self._likelihoods[messages, request.options] = likelihoods
-        given = self._likelihoods[request.messages, request.options]
-        neutral = self._likelihoods[request.neutral, request.options]
-        scores = tuple(g - n for g, n in zip(given, neutral, strict=True))
-        return Scored(request, scores, self._usage(tokens, evaluated, 0, 0.0, began))
+        prompt, head = loaded.model.prompt(messages, constant=len(messages) - 1)
+        self._check_length(prompt, BATCH_TOKENS)
+        evaluated = loaded.ranking.read(prompt, head, checkpoint)
+        state = loaded.ranking.state()
+        answers = [loaded.model.tokenize(option) for option in options]
+        likelihoods, branches = loaded.ranking.continuations(answers, checkpoint)
+        read = len(prompt) + sum(map(len, answers))
+        return _Grasp(state, np.array(likelihoods), read, evaluated + branches)
 
     def _check_length(self, prompt: Tokens, reserve: int) -> None:
         if len(prompt) + reserve > self._n_ctx:

@@ -89,6 +89,7 @@ class Ontology:
             for place in places:
                 self._add(place)
         self._things = tuple(downwards(self._class("Object")))
+        self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
         self._objects = leaves(self._class("Object"))
         self._objects_by_words = self._index()
         self._names_by_words = index_by_words(
@@ -186,6 +187,15 @@ class Ontology:
                 return tuple(place.name for place in usual if place is not None)
         return ()
 
+    def recorded_locations(self) -> dict[str, tuple[str, ...]]:
+        """Default locations of each object and class for which a file has some of its own."""
+        usual = self._class("hasDefaultLocation")
+        recorded = {
+            label(thing): tuple(place.name for place in values(thing, usual) if place is not None)
+            for thing in self._things
+        }
+        return {name: places for name, places in recorded.items() if places}
+
     def preferred_by(self, name: str) -> tuple[str, ...]:
         """The people who prefer an object or a class, of others like it."""
         return tuple(label(person) for person in self._preferring(self._thing(name)))
@@ -241,9 +251,8 @@ class Ontology:
         return self._world[CLASSES + name]
 
     def _thing(self, name: str) -> Any:
-        for thing in self._things:
-            if name == label(thing):
-                return thing
+        if name in self._things_by_name:
+            return self._things_by_name[name]
         right = f"known are {', '.join(label(thing) for thing in self._things)}"
         raise InputError("ontology", f"there is no {name!r}", right)
 

@@ -39,6 +39,8 @@ def event_to_message(event: Event, mission_time_s: float) -> Any:
             message.request = request
             message.result = type(result).__name__
             match result:
+                case Failed(lost=lost):
+                    message.lost = lost
                 case Saw(number, detections):
                     message.frame_number = number
                     for detection in detections:
@@ -67,7 +69,7 @@ def _result(message: Any) -> Result:
         case "Succeeded":
             return Succeeded()
         case "Failed":
-            return Failed(message.text)
+            return Failed(message.text, message.lost)
         case "Answered":
             return Answered(message.text)
         case "Saw":

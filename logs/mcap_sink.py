@@ -20,6 +20,7 @@ from executive.records import (
     EventTaken,
     Finished,
     LlmCall,
+    Mishap,
     Note,
     Path,
     Picture,
@@ -52,6 +53,7 @@ TOPICS: dict[str, Any] = {
     "/camera/annotations": ImageAnnotations,
     "/tf": FrameTransforms,
     "/scene": SceneUpdate,
+    "/mishap": MESSAGES["Mishap"],
     "/log": Log,
     "/outcome": MESSAGES["Outcome"],
 }
@@ -130,6 +132,9 @@ class McapSink:
                 message = event_to_message(event, stamp.mission_s)
                 self._add_own("/event", message, ns, stamp)
                 self._add_line(Note("debug", in_words(event)), ns)
+            case Mishap():
+                self._add_line(Note("warning", f"{record.fault}: {record.text}"), ns)
+                self._add_own("/mishap", messages.mishap_to_message(record), ns, stamp)
             case Finished(outcome):
                 self._add_line(Note("info", f"{outcome.status}: {outcome.reason}"), ns)
                 self._add_own("/outcome", messages.outcome_to_message(outcome), ns, stamp)

@@ -5,6 +5,7 @@ from typing import Any
 
 from executive.records import (
     LlmCall,
+    Mishap,
     NodeShape,
     NodeState,
     Tick,
@@ -18,6 +19,7 @@ from executive.types import (
     Kind,
     Message,
     Outcome,
+    Precedent,
     RankRequest,
     Replied,
     Scored,
@@ -118,6 +120,11 @@ def llm_call_to_message(call: LlmCall) -> Any:
         _add_turns(message.neutral_messages, request.neutral)
         for text, place, score in zip(request.options, request.places, result.scores, strict=True):
             message.options.add(text=text, place=place, score=score)
+        for known in request.precedents:
+            message.precedents.add(
+                question=known.messages[-1].content, places=known.places, kind=known.kind
+            )
+        message.kind = request.kind
     return message
 
 
@@ -141,6 +148,11 @@ def llm_call_from_message(message: Any) -> LlmCall:
             neutral=_turns(message.neutral_messages),
             options=tuple(o.text for o in message.options),
             places=tuple(o.place for o in message.options),
+            precedents=tuple(
+                Precedent((*asked[:-1], Message("user", p.question)), tuple(p.places), p.kind)
+                for p in message.precedents
+            ),
+            kind=message.kind,
         )
         return LlmCall(Scored(ranking, tuple(o.score for o in message.options), usage))
     schema = json.loads(message.output_schema) if message.output_schema else None
@@ -207,6 +219,19 @@ def utterance_to_message(utterance: Utterance) -> Any:
 def utterance_from_message(message: Any) -> Utterance:
     """The utterance of a `/dialog` message."""
     return Utterance(message.speaker, message.text)
+
+
+# --- what went wrong by order ---
+
+
+def mishap_to_message(mishap: Mishap) -> Any:
+    """`/mishap`."""
+    return MESSAGES["Mishap"](fault=mishap.fault, text=mishap.text)
+
+
+def mishap_from_message(message: Any) -> Mishap:
+    """The mishap of a `/mishap` message."""
+    return Mishap(message.fault, message.text)
 
 
 # --- the end ---

@@ -13,7 +13,7 @@ from mcap_protobuf.decoder import DecoderFactory
 
 from executive.errors import InputError
 from executive.events import Event
-from executive.records import LlmCall, Tick, TreeShape, Utterance, Verified
+from executive.records import LlmCall, Mishap, Tick, TreeShape, Utterance, Verified
 from executive.types import Outcome
 from logs import messages
 from logs.event_messages import event_from_message
@@ -118,6 +118,10 @@ class Run:
             "/llm/verification": messages.verified_from_message,
         }
         return (at for _, at in self._read_all(decoders))
+
+    def mishaps(self) -> Iterator[At[Mishap]]:
+        """What went wrong in the simulated world, because it was told to."""
+        return self._read("/mishap", messages.mishap_from_message)
 
     def frames(self) -> Iterator[At[bytes]]:
         """Every camera picture, as JPEG."""

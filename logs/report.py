@@ -41,6 +41,7 @@ def summary(run: Run) -> Row:
         "ticks": sum(1 for _ in run.ticks()),
         "frames": sum(1 for _ in run.frames()),
         "time_by_behaviour_s": time_split(run),
+        "mishaps": [{"time_s": at.time_s, **asdict(at.value)} for at in run.mishaps()],
         "metadata": run.metadata,
         "outcome": asdict(outcome) if outcome else None,
     }
@@ -170,6 +171,7 @@ def _in_words(row: Row) -> str:
         f"{outcome['llm_calls']} calls of the model, {outcome['inquiries']} questions, "
         f"{len(outcome['visited'])} places visited; {size}\n"
         f"    seconds by behaviour: {split or 'none'}"
+        + "".join(f"\n    {m['time_s']:.1f} s {m['fault']}: {m['text']}" for m in row["mishaps"])
     )
 
 

@@ -8,6 +8,7 @@ from executive.records import (
     EventTaken,
     Finished,
     LlmCall,
+    Mishap,
     Note,
     Path,
     Picture,
@@ -100,6 +101,8 @@ class RerunSink:
                 )
             case Note(level, text):
                 self._stream.log(blueprint.LOG, rr.TextLog(text, level=_LEVELS[level]))
+            case Mishap(fault, text):
+                self._stream.log(blueprint.LOG, rr.TextLog(f"{fault}: {text}", level="WARN"))
             case EventTaken():
                 self._write_event(record)
             case Picture(frame):

@@ -51,6 +51,7 @@ _MESSAGES: dict[str, dict[str, str]] = {
     },
     "ChatMessage": {"role": "string", "content": "string"},
     "Option": {"text": "string", "place": "string", "score": "double"},
+    "Precedent": {"question": "string", "places": "repeated string", "kind": "string"},
     "LlmCall": {
         **_STAMPED,
         "label": "string",
@@ -73,6 +74,8 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "output_schema": "string",
         "neutral_messages": "repeated ChatMessage",
         "options": "repeated Option",
+        "precedents": "repeated Precedent",
+        "kind": "string",
     },
     "LlmVerification": {
         **_STAMPED,
@@ -102,7 +105,9 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "frame_number": "optional int64",
         "detections": "repeated Detection",
         "llm_call": "LlmCall",
+        "lost": "bool",
     },
+    "Mishap": {**_STAMPED, "fault": "string", "text": "string"},
     "Candidate": {"place": "string", "source": "string", "probability": "optional double"},
     "Outcome": {
         **_STAMPED,

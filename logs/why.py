@@ -7,6 +7,7 @@ was taken, those before it failed and said why, those after it were not needed.
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from heapq import merge
 
 from executive.records import LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
 from executive.types import Scored
@@ -15,6 +16,8 @@ from logs.reader import At, Run
 SOURCES = {"Ontology": "ontology", "Rank": "llm", "Adopt": "llm", "Ask": "user"}
 """Who speaks through a behaviour whose class name begins so."""
 
+WORLD = "world"
+"""Whose doing an ordered fault is."""
 NOT_NEEDED = "not needed"
 
 
@@ -34,7 +37,8 @@ class Decision:
         time_s: mission time at which it was settled.
         question: what was to be settled, as the tree names it.
         answer: what came of it.
-        source: `person`, `ontology`, `llm`, `user` or `eyes`; empty where the tree itself decides.
+        source: `person`, `ontology`, `llm`, `user`, `eyes` or `world`; empty where the tree itself
+            decides.
         by: the behaviour that settled it.
         alternatives: what was not taken.
     """
@@ -48,8 +52,12 @@ class Decision:
 
 
 def why(run: Run) -> list[Decision]:
-    """Every decision of a mission, in order, up to how it ended."""
-    decisions = list(_Chain(run).decisions())
+    """Every decision of a mission, in order, up to how it ended; and what went wrong by order."""
+    ordered = (
+        Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
+        for at in run.mishaps()
+    )
+    decisions = list(merge(_Chain(run).decisions(), ordered, key=lambda d: d.time_s))
     outcome = run.outcome()
     if outcome is not None:
         ending = outcome.reason or outcome.status
@@ -189,10 +197,17 @@ def _visits(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
     for lost, why_not in (now.get("unreached") or {}).items():
         if lost not in (was.get("unreached") or {}):
             yield Decision(at.time_s, f"look at {lost}", f"not reached: {why_not}", "", tip)
-    if now.get("found") and not was.get("found"):
-        yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
-    elif not now.get("found") and place in (was.get("visited") or ()) and _is_left(was, now, at):
+    if now.get("found"):
+        if not was.get("found"):
+            yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
+    elif _was_looking(before) and place in (was.get("visited") or ()) and _is_left(was, now, at):
         yield Decision(at.time_s, f"look at {place}", "not seen there", "eyes", tip)
+
+
+def _was_looking(at: At[Tick]) -> bool:
+    """Whether the robot was at a place to look for the thing, or to look for it once more."""
+    looks = ("/go and look", "/another approach")
+    return any(node.status == "RUNNING" and node.path.endswith(looks) for node in at.value.nodes)
 
 
 def _is_left(was: dict[str, object], now: dict[str, object], at: At[Tick]) -> bool:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.hardware import Floats, Hardware
+from sim.hardware import ARM, Floats, Hardware
 from sim.skill import CONTROL_S, CannotError, Skill, wait_until
 
 SPEED = 0.6
@@ -14,6 +14,8 @@ SLOW = 0.15
 _RAMP_S = 0.3
 _LAG = 0.2
 """A joint this far behind (radians, metres) has met something."""
+_OFF = 0.05
+"""A joint that comes to rest this far off did not arrive (radians, metres)."""
 _SAME_WAY = 0.9
 """Cosine between successive directions in joint space that are passed without stopping."""
 _SETTLED = 0.004
@@ -45,13 +47,21 @@ def follow(hardware: Hardware, path: Sequence[Floats], speed: float = SPEED) -> 
         hardware.command_arm(now, (now - before) / CONTROL_S)
         before = now
         yield
-        if np.abs(hardware.arm_positions - now).max() > _LAG:
-            hold(hardware)
-            raise CannotError("something is in the way of my arm")
+        _check_lag(hardware, now, _LAG)
     hardware.command_arm(before, np.zeros(len(before)))
     yield from wait_until(
         lambda: bool(np.abs(hardware.arm_positions - before).max() < _SETTLED), _SETTLING_S
     )
+    _check_lag(hardware, before, _OFF)
+
+
+def _check_lag(hardware: Hardware, wanted: Floats, most: float) -> None:
+    """Give up if a joint is farther than `most` from where it should be."""
+    lag = np.abs(hardware.arm_positions - wanted)
+    if lag.max() > most:
+        hold(hardware)
+        joint = ARM[int(lag.argmax())].removeprefix("panda_")
+        raise CannotError(f"my arm does not follow: {joint} is stuck, or something is in its way")
 
 
 def hold(hardware: Hardware) -> None:

@@ -16,6 +16,7 @@ from executive.events import Inbox
 from executive.interfaces import Recorder
 from executive.records import Transform, Transforms
 from executive.types import (
+    FLOOR,
     Box,
     Detection,
     DriveTo,
@@ -81,15 +82,15 @@ class FakeWorld:
         return bool(self._agenda)
 
     def advance(self, at_most: float) -> float:
-        """Jump to what is due next, if it is within `at_most` seconds."""
-        if not self._agenda or self._agenda[0].time > self._time + at_most:
-            self._time += at_most
-            return at_most
+        """Jump to when something is due, at most so many seconds; then, in no time, end it."""
+        until_due = self._agenda[0].time - self._time if self._agenda else math.inf
+        if until_due > 0:
+            passed = min(at_most, until_due)
+            self._time += passed
+            return passed
         due = heapq.heappop(self._agenda)
-        passed = due.time - self._time
-        self._time = due.time
         self.inbox.end(due.request, due.finish())
-        return passed
+        return 0.0
 
     def close(self) -> None:
         """Nothing to free."""
@@ -158,8 +159,8 @@ class FakeRobot:
         match goal:
             case DriveTo(place):
                 return self._drive(place)
-            case LookAt(place):
-                return LOOK_S, lambda: self._look(place)
+            case LookAt(place, view):
+                return LOOK_S, lambda: self._look(place, view)
             case Pick(detection):
                 return PICK_S, lambda: self._pick(detection.label)
             case PutDown(place):
@@ -183,8 +184,10 @@ class FakeRobot:
 
         return distance / SPEED_M_S, arrive
 
-    def _look(self, place: str) -> Result:
-        if self._world.at != place:
+    def _look(self, place: str, view: int) -> Result:
+        if not 0 <= view < self.views(place):
+            return Failed(f"there is only one view of the {place}")
+        if place not in (self._world.at, FLOOR):
             return Failed(f"I am not at the {place}")
         self._world.looking_at = place
         return Succeeded()
@@ -193,7 +196,7 @@ class FakeRobot:
         world = self._world
         if world.held:
             return Failed(f"my hand already holds the {world.held}")
-        if world.things.get(name) != world.at:
+        if world.things.get(name) not in (world.at, FLOOR):
             return Failed(f"the {name} is out of reach")
         del world.things[name]
         world.held = name

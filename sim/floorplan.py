@@ -67,14 +67,29 @@ def walls(rooms: tuple[Room, ...], doors: tuple[Door, ...], thickness: float) ->
     return tuple(pieces)
 
 
-def is_on_wall(door: Door, rooms: tuple[Room, ...]) -> bool:
-    """Whether the whole door is in the wall of a room."""
+def wall_axis(door: Door, rooms: tuple[Room, ...]) -> int | None:
+    """Which coordinate is fixed along the wall that has the whole door: 0 (x), 1 (y), or None."""
     for axis in (0, 1):
         along, half = door.position[1 - axis], door.width / 2
         for start, end in _joined(_lines(rooms)[axis, door.position[axis]]):
             if start <= along - half and along + half <= end:
-                return True
-    return False
+                return axis
+    return None
+
+
+def doors_between(rooms: tuple[Room, ...], doors: tuple[Door, ...]) -> dict[Door, tuple[str, str]]:
+    """The names of the two rooms on either side of each door; doors to the outside are left out."""
+    sides = {door: _rooms_beside(door, rooms) for door in doors}
+    return {door: (found[0], found[1]) for door, found in sides.items() if len(found) == 2}
+
+
+def _rooms_beside(door: Door, rooms: tuple[Room, ...]) -> list[str]:
+    x, y = door.position
+    return [
+        room.name
+        for room in rooms
+        if room.holds(x, y)  # on its edge; at a corner of three rooms no door can be
+    ]
 
 
 def _lines(rooms: tuple[Room, ...]) -> dict[tuple[int, float], list[Span]]:

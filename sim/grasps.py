@@ -5,7 +5,7 @@ of a line that is inside the thing, free on both sides and not too long is what 
 straddle: the whole of a box, the wall of a mug, the handle of a pitcher.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import combinations_with_replacement, product
 
@@ -40,6 +40,8 @@ _FACING = 0.1
 """Normals that point less than this towards the finger belong to other sides."""
 _WITHIN_FRICTION = 0.85
 """Cosine of the angle between surface normal and closing direction at which fingers hold."""
+_ALIKE_M, _ALIKE_TURN = 0.02, np.radians(20.0)
+"""Grasps nearer to one another than this (metres, radians) are alike; so are swapped fingers."""
 _PALM_HALF_SIZE = (0.025, 0.105)
 _STEP_X, _STEP_Y, _STEP_Z = 0.008, 0.001, 0.004
 _DEEPEST = 0.06
@@ -94,6 +96,24 @@ def find_grasps(model: ObjectModel, pose: Pose, facing: float, tilt: float) -> l
         for grasp in _straddles(model, pose, hand_rotation(yaw, tilt))
     ]
     return sorted(found, key=lambda grasp: grasp.cost)
+
+
+def varied(grasps: Iterable[Grasp], count: int) -> list[Grasp]:
+    """The first grasps, at most so many, without those that are much like one before them."""
+    kept: list[Grasp] = []
+    for grasp in grasps:
+        if len(kept) == count:
+            break
+        if not any(_alike(grasp.hand, other.hand) for other in kept):
+            kept.append(grasp)
+    return kept
+
+
+def _alike(one: HandPose, other: HandPose) -> bool:
+    if np.linalg.norm(one.position - other.position) > _ALIKE_M:
+        return False
+    turn = (one.rotation.inv() * other.rotation).magnitude()
+    return bool(min(turn, np.pi - turn) < _ALIKE_TURN)
 
 
 def _yaws(pose: Pose, facing: float, tilt: float) -> Iterator[float]:

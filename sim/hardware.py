@@ -54,6 +54,7 @@ class Hardware:
             [self._joints[name] for name in names] for names in (ARM, BASE, FINGERS, HEAD)
         )
         self._couple_fingers()
+        self._client.enableJointForceTorqueSensor(self.body, self.links["panda_hand"], True)
         self._reset(start)
 
     def _read_joints(self) -> None:
@@ -148,6 +149,12 @@ class Hardware:
             for finger in self._fingers
         )
         return (left & right) - {self.body}
+
+    @property
+    def weight(self) -> float:
+        """What the force sensor in the wrist carries: the hand and what is in it (newtons)."""
+        force = self._client.getJointState(self.body, self.links["panda_hand"])[2][:3]
+        return float(np.linalg.norm(force))
 
     # --- motors ---
 

@@ -24,7 +24,7 @@ from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.types import Place, Pose, Vector3
-from sim.floorplan import Door, Room, Wall, is_on_wall, walls
+from sim.floorplan import Door, Room, Wall, wall_axis, walls
 from sim.furniture import FORM_OF_KIND, Furniture, PlanarPose, PoseInDegrees, Surface
 from sim.objects import load_objects
 from sim.spots import NoRoomError, Spot, Standing, arrange
@@ -40,6 +40,8 @@ STAND_OFF_M = 0.62
 """From the front edge of a piece of furniture to the middle of the robot that uses it."""
 TALKING_DISTANCE_M = 0.9
 """From the middle of the person to the middle of the robot that talks to them."""
+FLOOR_VIEWS = 5
+"""How many looks it takes to see the floor all around the robot."""
 FACE_HEIGHT_M = 1.55
 LARGEST_M = 200.0
 """A home that is longer was not meant in metres."""
@@ -272,7 +274,7 @@ def _room_faults(home: Home) -> Iterator[Fault]:
         yield f"the rooms span more than {LARGEST_M:g} m", "give metres"
     yield from _twice("room", [room.name for room in home.rooms])
     for door in home.doors:
-        if not is_on_wall(door, home.rooms):
+        if wall_axis(door, home.rooms) is None:
             on_edge = "put its middle on the edge of a room, away from the corners"
             yield f"the door at {door.position} is not in a wall", on_edge
 

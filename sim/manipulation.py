@@ -4,8 +4,8 @@ What the hand does follows from what the camera saw, the known shapes of things 
 home. What comes of it is up to physics.
 """
 
-from collections.abc import Callable, Generator, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Generator, Mapping
+from functools import cache
 from itertools import product
 
 import numpy as np
@@ -13,60 +13,45 @@ from scipy.spatial.transform import Rotation
 
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
-from sim.clutter import CELL_M, Column, columns
-from sim.driving import drive
-from sim.grasps import TILTS, Grasp, HandPose, find_grasps
-from sim.hardware import FOLDED, Floats, Hardware
+from sim.driving import CREEPING, drive
+from sim.grasps import TILTS, Grasp, HandPose, find_grasps, varied
+from sim.hand import Hand, Held, LostError
+from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
 from sim.home import Furniture, Home
 from sim.looking import look_at
 from sim.objects import ObjectModel
-from sim.placing import free_spots
+from sim.placing import free_spots, stands
 from sim.planning import PlanningWorld
-from sim.reaching import Reach, clear_path, plan_reach, plan_retreat, plan_stance, standing_poses
-from sim.registration import locate
+from sim.reaching import (
+    Reach,
+    clear_path,
+    plan_reach,
+    plan_retreat,
+)
+from sim.registration import locate_fallen
 from sim.skill import CannotError, Skill, attempt, pause, wait_until
+from sim.solids import sample_surface
+from sim.surroundings import Surroundings, support
 
 APPROACH_M = (0.12, 0.05)
 """Lengths of the last straight part of a reach, in order of preference."""
 RISE_M = 0.10
-CREEP_M_S = 0.35
-"""Speed of the base while the arm is out or the furniture near."""
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 """How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
 FEWEST_POINTS = 30
 _GRASPS_TRIED = 8
 _SPOTS_TRIED = 12
-_BEFORE_M = 0.6
-"""Farther than this from where one stands to use a piece of furniture, nothing on it is tried."""
 _FOLDED_WITHIN = 0.05
 """Farther than this from the folded pose (any joint but the last), the arm is out."""
 _CLOSING_S = 2.0
+_ALIKE = np.radians(30.0)
+"""Grasps whose hands are turned by less are the same approach."""
 _SETTLING_S = 0.3
+_UPRIGHT = 0.99
+"""Cosine of the tilt up to which a hand points down."""
 _DOWN = np.array([0.0, 0.0, -1.0])
 _CARRY_TURNS = (FOLDED[7] + np.pi / 2, FOLDED[7] - np.pi / 2)
 """Values of the last joint that put the long side of a held thing across the robot (radians)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Held:
-    """What is in the hand: its pose in the hand's frame, and how far the hand opens for it."""
-
-    model: ObjectModel
-    position: Floats
-    rotation: Rotation
-    gap: float
-
-    @staticmethod
-    def taken(model: ObjectModel, pose: Pose, grasp: Grasp) -> "Held":
-        """The thing at `pose` in `map`, taken by this grasp."""
-        to_hand = grasp.hand.rotation.inv()
-        offset = to_hand.apply(np.asarray(pose.position) - grasp.hand.position)
-        return Held(model, offset, to_hand * Rotation.from_quat(pose.orientation), grasp.gap)
-
-    def hand_for(self, pose: Pose) -> HandPose:
-        """Where the hand must be for the thing to be at `pose` in `map`."""
-        rotation = Rotation.from_quat(pose.orientation) * self.rotation.inv()
-        return HandPose(np.asarray(pose.position) - rotation.apply(self.position), rotation)
 
 
 class Manipulator:
@@ -85,18 +70,14 @@ class Manipulator:
         self._planning = planning
         self._home = home
         self._models = models
-        self._scan = scan
-        self._held: Held | None = None
-
-    @property
-    def holding(self) -> bool:
-        """Whether both fingers touch a thing, now."""
-        return bool(self._hardware.touched())
+        self._around = Surroundings(hardware, planning, home, scan)
+        self.hand = Hand(hardware, planning)
+        self._missed: list[tuple[str, Rotation]] = []
 
     @property
     def handling(self) -> bool:
         """Whether the arm is out or something is in the hand."""
-        return self._held is not None or not self._is_folded
+        return self.hand.held is not None or not self._is_folded
 
     @property
     def _is_folded(self) -> bool:
@@ -111,17 +92,23 @@ class Manipulator:
         """
         model = self._model_of(detection)
         points = np.asarray(detection.points, dtype=np.float64)
-        pose = locate(model, points)
-        grasp, way, stance = self._choose_grasp(model, pose, points)
+        piece = self._around.furniture_below(points)
+        if piece is None:
+            yield from self._face(np.median(points, axis=0))
+            points = self._around.rising_near(model, points)
+        model, pose = locate_fallen(model, points, support(piece, points))
+        grasp, way, stance = self._choose_grasp(model, pose, points, piece)
         yield from self._creep(stance)
-        failure = yield from attempt(self._grasp(Held.taken(model, pose, grasp), grasp, way))
+        tare = yield from self.hand.weigh()
+        taken = Held.taken(model, pose, grasp, float(stance[-1][2]))
+        failure = yield from attempt(self._grasp(taken, grasp, way))
         self._planning.forget_target()
         yield from self.stow()
+        failure = failure or (yield from attempt(self._check_lifted(model, tare)))
         if failure:
+            self._missed.append((model.name, grasp.hand.rotation))
             raise failure
-        if not self.holding:
-            self._take(None)
-            raise CannotError(f"the {model.name} slipped from my fingers")
+        self._missed.clear()
 
     def put_down(self, place: str) -> Skill:
         """Put the held thing on a free spot near the front of a piece of furniture.
@@ -129,19 +116,20 @@ class Manipulator:
         Raises:
             CannotError: if nothing is held, or there is no free spot within reach.
         """
-        held = self._held
-        if held is None or not self.holding:
-            self._take(None)
+        held = self.hand.held
+        if held is None or not self.hand.holding:
+            self.hand.take(None)
             raise CannotError("my hand is empty")
         piece = self._home.furniture_named(place)
-        target, stance = yield from self._choose_spot(held, piece)
+        target, way, stance = yield from self._choose_spot(held, piece)
         yield from self._creep(stance)
-        failure = yield from attempt(self._release(held.hand_for(target), held.gap))
+        failure = yield from attempt(self._release(held.hand_for(target), way, held.gap))
         yield from self.stow()
         if failure:
             raise failure
-        if self.holding:
+        if self.hand.holding:
             raise CannotError(f"the {held.model.name} stuck to my fingers")
+        yield from self._check_stands(held.model, target, piece)
 
     def stow(self) -> Skill:
         """Bring the arm back over the base: rise, back off, fold."""
@@ -165,7 +153,7 @@ class Manipulator:
 
     def _model_of(self, detection: Detection) -> ObjectModel:
         name = detection.label
-        if self.holding:
+        if self.hand.holding:
             raise CannotError("my hand already holds a thing")
         if name not in self._models:
             raise CannotError(f"I do not know how to grasp the {name}")
@@ -173,21 +161,37 @@ class Manipulator:
             raise CannotError(f"I could not see the {name} well enough")
         return self._models[name]
 
+    def _face(self, point: Floats) -> Skill:
+        """Turn to a point on the floor, and look at it."""
+        x, y, z = (float(value) for value in point)
+        here = self._hardware.base_pose
+        yield from self._creep([np.append(here[:2], np.arctan2(y - here[1], x - here[0]))])
+        yield from look_at(self._hardware, (x, y, z))
+
     def _choose_grasp(
-        self, model: ObjectModel, pose: Pose, points: Floats
+        self, model: ObjectModel, pose: Pose, points: Floats, piece: Furniture | None
     ) -> tuple[Grasp, Floats, list[Floats]]:
-        """A grasp, the last straight way of the hand to it, and the way to where to stand."""
-        piece = self._furniture_at(pose)
-        if piece is None:
-            raise CannotError(f"the {model.name} is out of reach")
-        self._mind_clutter(piece, points)
-        stances = list(self._stances(piece, np.asarray(pose.position)))
-        for tilt in TILTS:
-            grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:_GRASPS_TRIED]
-            for stance, grasp, length in product(stances, grasps, APPROACH_M):
+        """A grasp, the last straight way of the hand to it, and the way to where to stand.
+
+        Approaches that missed before come last.
+        """
+        self._around.mind_clutter(piece, np.concatenate((points, _surface(model, pose))))
+        stances = list(self._around.stances(piece, np.asarray(pose.position)))
+
+        @cache
+        def grasps(facing: float, tilt: float) -> list[Grasp]:
+            found = find_grasps(model, pose, facing, tilt)
+            new_first = sorted(found, key=lambda grasp: self._has_missed(model, grasp))
+            return varied(new_first, _GRASPS_TRIED)
+
+        for tilt, stance in product(TILTS, stances):
+            found = grasps(float(stance[-1][2]), tilt)
+            for grasp, length in product(found, APPROACH_M):
                 way = length * grasp.hand.approach
                 if plan_reach(self._planning, stance[-1], FOLDED, grasp.hand, way):
                     return grasp, way, stance
+        if stances and not any(grasps(float(stances[0][-1][2]), tilt) for tilt in TILTS):
+            raise CannotError(f"I cannot grasp the {model.name} as it lies")
         raise CannotError(f"I cannot reach the {model.name}")
 
     def _grasp(self, thing: Held, grasp: Grasp, way: Floats) -> Skill:
@@ -199,51 +203,64 @@ class Manipulator:
         hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * thing.model.mass_kg)
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
-        if not self.holding:
+        if not self.hand.holding:
             hardware.open_fingers(grasp.gap)
             yield from follow(hardware, reach.way_back, SLOW)
             raise CannotError(f"I could not get hold of the {name}")
-        self._take(thing)
+        self.hand.take(thing)
+
+    def _check_lifted(self, model: ObjectModel, tare: float) -> Skill:
+        """See whether the thing is in the hand: felt by the fingers, and by its weight."""
+        if self.hand.holding:
+            weight = (yield from self.hand.weigh()) - tare
+            if self.hand.is_lifted(model, weight):
+                return
+            self._hardware.open_fingers(2 * FINGER_TRAVEL)
+        self.hand.take(None)
+        raise CannotError(f"the {model.name} slipped from my fingers")
 
     # --- steps of putting down ---
 
     def _choose_spot(
         self, held: Held, piece: Furniture
-    ) -> Generator[None, None, tuple[Pose, list[Floats]]]:
-        """Look, then choose where to put the thing, and the way to where to stand for it."""
+    ) -> Generator[None, None, tuple[Pose, Floats, list[Floats]]]:
+        """Look, then choose where to put the thing.
+
+        Returns:
+            The spot, the last straight way of the hand to it, and the way to where to stand.
+        """
         yield from look_at(self._hardware, self._home.view_targets(piece.name)[0])
-        way = APPROACH_M[0] * _DOWN
         carrying = self._hardware.arm_positions
-        self._mind_clutter(piece, np.empty((0, 3)))
-        spots = list(free_spots(piece, held.model, self._scan()))
+        self._around.mind_clutter(piece, np.empty((0, 3)))
+        spots = list(free_spots(piece, held.model, self._around.scan(), held.turn))
         for spot in spots[:_SPOTS_TRIED]:
-            for stance in self._stances(piece, np.asarray(spot.position)):
-                hand = held.hand_for(spot)
+            hand = held.hand_for(spot)
+            stances = self._around.stances(piece, np.asarray(spot.position))
+            for stance, way in product(stances, _ways_to_put(hand)):
                 if plan_reach(self._planning, stance[-1], carrying, hand, way):
-                    return spot, stance
+                    return spot, way, stance
         clause = "I cannot reach a free spot on" if spots else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
 
-    def _release(self, hand: HandPose, gap: float) -> Skill:
+    def _release(self, hand: HandPose, way: Floats, gap: float) -> Skill:
         hardware = self._hardware
-        reach = self._reach(hand, APPROACH_M[0] * _DOWN, "I cannot reach a free spot")
+        reach = self._reach(hand, way, "I cannot reach a free spot")
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
         hardware.open_fingers(gap)
-        self._take(None)
-        yield from wait_until(lambda: not self.holding, _CLOSING_S)
+        self.hand.take(None)
+        yield from wait_until(lambda: not self.hand.holding, _CLOSING_S)
         yield from pause(_SETTLING_S)
         yield from follow(hardware, reach.way_back, SLOW)
 
-    # --- helpers ---
+    def _check_stands(self, model: ObjectModel, spot: Pose, piece: Furniture) -> Skill:
+        """Look whether what was put down stands where it was put."""
+        yield from look_at(self._hardware, spot.position)
+        fault = stands(model, spot, self._around.scan())
+        if fault:
+            raise LostError(f"the {model.name} {fault} on the {piece.name}")
 
-    def _take(self, held: Held | None) -> None:
-        """Know, and plan with, what is in the hand."""
-        self._held = held
-        if held is None:
-            self._planning.carry((), None)
-        else:
-            self._planning.carry(held.model.shapes, HandPose(held.position, held.rotation))
+    # --- helpers ---
 
     def _reach(self, hand: HandPose, way: Floats, otherwise: str) -> Reach:
         """The motion to a hand pose from where the robot stands now."""
@@ -253,33 +270,27 @@ class Manipulator:
             raise CannotError(otherwise)
         return reach
 
-    def _mind_clutter(self, piece: Furniture, target: Floats) -> None:
-        """Plan around what stands on the furniture; the points (n, 3) are those of the target."""
-        near: list[Column] = []
-        others: list[Column] = []
-        for column in columns(piece, self._scan()):
-            off = np.abs(target[:, :2] - (column.x, column.y)).max(axis=1)
-            (near if (off < CELL_M).any() else others).append(column)
-        self._planning.assume_clutter(near, others)
-
-    def _stances(self, piece: Furniture, target: Floats) -> Iterator[list[Floats]]:
-        """Ways of the base to where a point on the furniture may be reached from."""
-        here = self._hardware.base_pose
-        for base in standing_poses(piece, target):
-            way = plan_stance(self._planning, here, base)
-            if way is not None:
-                yield way
-
     def _creep(self, way: list[Floats]) -> Skill:
         """Drive slowly, straight from pose to pose."""
         for x, y, yaw in way:
-            yield from drive(self._hardware, [(x, y)], yaw, CREEP_M_S)
+            yield from drive(self._hardware, [(x, y)], yaw, CREEPING)
 
-    def _furniture_at(self, pose: Pose) -> Furniture | None:
-        """The piece of furniture that something stands on, if the robot stands before it."""
-        x, y, _ = self._hardware.base_pose
-        for piece in (*self._home.furniture, self._home.delivery):
-            stand = self._home.stand(piece.name)
-            if np.hypot(stand[0] - x, stand[1] - y) < _BEFORE_M and piece.is_below(pose.position):
-                return piece
-        return None
+    def _has_missed(self, model: ObjectModel, grasp: Grasp) -> bool:
+        """Whether the thing was missed with the hand turned like this."""
+        return any(
+            name == model.name and (rotation.inv() * grasp.hand.rotation).magnitude() < _ALIKE
+            for name, rotation in self._missed
+        )
+
+
+def _surface(model: ObjectModel, pose: Pose) -> Floats:
+    """Points (n, 3) all over a thing at `pose` in `map`: more of it is there than was seen."""
+    points, _ = sample_surface(model.shapes)
+    surface: Floats = Rotation.from_quat(pose.orientation).apply(points[::5]) + pose.position
+    return surface
+
+
+def _ways_to_put(hand: HandPose) -> list[Floats]:
+    """Last straight ways of the hand with a thing: from above, or the way a tilted hand points."""
+    directions = [_DOWN] if hand.approach @ _DOWN > _UPRIGHT else [hand.approach, _DOWN]
+    return [length * direction for direction, length in product(directions, APPROACH_M)]

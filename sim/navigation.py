@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.spatial import KDTree
 
 from sim.home import Home
 
@@ -19,11 +20,11 @@ Slices = tuple[slice, slice]
 
 FOOTPRINT_M = 0.33
 """Radius of the robot, seen from above."""
-COMFORT_M = 0.55
+COMFORT_M = 0.5
 """With this much room around its middle the robot is at ease; less costs extra."""
 FAR_M = 1.0
 """What is farther away than this does not matter."""
-DISCOMFORT = 6.0
+DISCOMFORT = 4.0
 """How much dearer a metre is where the robot just fits."""
 PERSON_RADIUS_M = 0.25
 SLACK = 1.02
@@ -33,7 +34,11 @@ SNAP_M = 0.25
 
 
 class Unreachable(Exception):
-    """There is no way; the text says why, as a clause for the person."""
+    """There is no way; the text says why, as a clause with a gap for the name of the goal."""
+
+    def clause(self, place: str) -> str:
+        """Why there is none to this place: "the way to the desk is blocked"."""
+        return str(self).format(place=place)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +78,32 @@ class OccupancyGrid:
             found = _distance_to_box(x[near], y[near], box)
             clearance[near] = np.minimum(clearance[near], found)
         return cls(origin, resolution, clearance)
+
+    def with_obstacles(self, points: Floats) -> "OccupancyGrid":
+        """The same with points (n, 2) of `map` in the way, too (metres)."""
+        low, high = points.min(axis=0) - FAR_M, points.max(axis=0) + FAR_M
+        first, last = (
+            np.clip(self.cells(corner[None])[0], 0, self.clearance.shape) for corner in (low, high)
+        )
+        near = slice(first[0], last[0] + 1), slice(first[1], last[1] + 1)
+        cells = np.indices(self.clearance[near].shape).reshape(2, -1).T + first
+        found, _ = KDTree(points).query(self.origin + cells * self.resolution)
+        clearance = self.clearance.copy()
+        clearance[near] = np.minimum(clearance[near], np.reshape(found, clearance[near].shape))
+        return OccupancyGrid(self.origin, self.resolution, clearance)
+
+    def clearance_at(self, points: Floats) -> Floats:
+        """(n,) clearance of the cells that points (n, 2) of `map` are in; 0 off the grid."""
+        columns, rows = self.cells(points).T
+        shape = self.clearance.shape
+        on_grid = (columns >= 0) & (columns < shape[0]) & (rows >= 0) & (rows < shape[1])
+        found = np.zeros(len(points))
+        found[on_grid] = self.clearance[columns[on_grid], rows[on_grid]]
+        return found
+
+    def cells(self, points: Floats) -> NDArray[np.intp]:
+        """(n, 2) column and row of the cells of points (n, 2); some may be off the grid."""
+        return np.rint((points - self.origin) / self.resolution).astype(np.intp)
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
@@ -132,7 +163,7 @@ def plan(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
         Unreachable: if there is no such way.
     """
     if not grid.is_free(grid.cell(goal)):
-        raise Unreachable("there is no room to stand there")
+        raise Unreachable("there is no room to stand at the {place}")
     if grid.is_free(grid.cell(start)):
         return _way(grid, start, goal)
     return start, *_way(grid, _nearest_free(grid, start), goal)
@@ -159,7 +190,7 @@ def _way(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
         grid.graph, directed=False, indices=[first], return_predecessors=True
     )
     if not np.isfinite(costs[0, last]):
-        raise Unreachable("the way there is blocked")
+        raise Unreachable("the way to the {place} is blocked")
     numbers = [last]
     while numbers[-1] != first:
         numbers.append(int(previous[0, numbers[-1]]))
@@ -194,7 +225,7 @@ def _nearest_free(grid: OccupancyGrid, point: Point) -> Point:
     y = grid.origin[1] + rows * grid.resolution
     distances = np.hypot(x - point[0], y - point[1])
     if not len(distances) or distances.min() > SNAP_M:
-        raise Unreachable("the robot is stuck where it is")
+        raise Unreachable("I am stuck where I am")
     nearest = int(distances.argmin())
     return float(x[nearest]), float(y[nearest])
 

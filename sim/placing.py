@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
 from sim.clutter import rising_points
@@ -20,12 +21,20 @@ CLEAR_M = 0.06
 HEADROOM_M = 0.05
 DROP_M = 0.002
 """How far above the surface a thing is let go."""
+_SHIFTED_M = 0.03
+"""A thing may slide this far when it is let go."""
+FLAT_M = 0.012
+"""Lower than this above a surface, the camera does not tell a thing from it."""
+_UPRIGHT_M = 0.015
+"""What stands is as high as it should be, but for this and a tenth of it."""
 _STEP_M = 0.04
 _FEW_POINTS = 3
 _TURNS = (0.0, np.pi, np.pi / 2, -np.pi / 2)
 
 
-def free_spots(piece: Furniture, model: ObjectModel, seen: Floats) -> Iterator[Pose]:
+def free_spots(
+    piece: Furniture, model: ObjectModel, seen: Floats, turn: float = 0.0
+) -> Iterator[Pose]:
     """Poses in `map` where the thing can stand, the handiest first.
 
     Args:
@@ -33,24 +42,43 @@ def free_spots(piece: Furniture, model: ObjectModel, seen: Floats) -> Iterator[P
         model: what is to be put down.
         seen: points (n, 3) in `map` that the depth camera sees now; what rises above the surface
             is in the way.
+        turn: how the thing is best turned, seen from the furniture (radians); then come quarters.
     """
     for surface in piece.surfaces():
         if model.size[2] + HEADROOM_M > surface.clearance:
             continue
         rising = rising_points(piece, surface, seen)[:, :2]
-        for turn in _TURNS:
-            lower, upper = _outline(model, turn)
-            x = surface.length_x / 2 - max(RIM_M, upper[0] + MARGIN_M)
-            for y in _from_middle(surface, lower[1], upper[1]):
+        outlines = [(turn + quarter, *_outline(model, turn + quarter)) for quarter in _TURNS]
+        for y in _from_middle(surface):
+            for turned, lower, upper in outlines:
+                x = surface.length_x / 2 - max(RIM_M, upper[0] + MARGIN_M)
+                if not _fits(surface, y + lower[1], y + upper[1]):
+                    continue
                 low, high = lower - CLEAR_M + (x, y), upper + CLEAR_M + (x, y)
                 inside = ((rising > low) & (rising < high)).all(axis=1)
                 if inside.sum() < _FEW_POINTS:
-                    spot = (
-                        surface.center[0] + x,
-                        surface.center[1] + y,
-                        surface.center[2] + DROP_M,
-                    )
-                    yield _pose(piece, spot, turn)
+                    middle = np.add(surface.center, (x, y, DROP_M))
+                    yield _pose(piece, (middle[0], middle[1], middle[2]), turned)
+
+
+def stands(model: ObjectModel, spot: Pose, seen: Floats) -> str | None:
+    """What is wrong with a thing that was put down at `spot`; None if it stands there.
+
+    Args:
+        model: what was put down.
+        spot: where, in `map`.
+        seen: points (n, 3) in `map` that the depth camera sees now.
+    """
+    local = Rotation.from_quat(spot.orientation).inv().apply(seen - np.asarray(spot.position))
+    low, high = np.subtract(model.lower, _SHIFTED_M)[:2], np.add(model.upper, _SHIFTED_M)[:2]
+    over = ((local[:, :2] > low) & (local[:, :2] < high)).all(axis=1)
+    highest = max(model.size) + _SHIFTED_M
+    heights = local[over & (local[:, 2] > FLAT_M) & (local[:, 2] < highest), 2]
+    if len(heights) < _FEW_POINTS:
+        return None if model.size[2] < 2 * FLAT_M else "is not where I put it"
+    if abs(float(np.quantile(heights, 0.99)) - model.size[2]) > _UPRIGHT_M + 0.1 * model.size[2]:
+        return "fell over"
+    return None
 
 
 def _outline(model: ObjectModel, turn: float) -> tuple[Floats, Floats]:
@@ -65,13 +93,16 @@ def _ends(model: ObjectModel, axis: int) -> tuple[float, float]:
     return model.lower[axis], model.upper[axis]
 
 
-def _from_middle(surface: Surface, lower: float, upper: float) -> Iterator[float]:
-    """Places along the front where an outline fits, from the middle to both sides."""
+def _from_middle(surface: Surface) -> Iterator[float]:
+    """Places along the front, from the middle to both sides."""
+    for step in range(int(surface.length_y / 2 / _STEP_M) + 1):
+        yield from sorted({step * _STEP_M, -step * _STEP_M})
+
+
+def _fits(surface: Surface, right: float, left: float) -> bool:
+    """Whether what reaches from `right` to `left` is over the surface, with some margin."""
     half = surface.length_y / 2 - MARGIN_M
-    for step in range(int(half / _STEP_M) + 1):
-        for y in {step * _STEP_M, -step * _STEP_M}:
-            if y + lower > -half and y + upper < half:
-                yield y
+    return right > -half and left < half
 
 
 def _pose(piece: Furniture, point: tuple[float, float, float], turn: float) -> Pose:

@@ -20,6 +20,10 @@ OVER_M = (0.15, 0.3, 0.45)
 """How much higher the lift may go to bring the arm in from above, in order of preference."""
 ASIDE_M = (0.0, 0.15, -0.15, 0.3, -0.3)
 """Where to stand, left of the thing, in order of preference."""
+FLOOR_REACH_M = 0.55
+"""From a thing on the floor to the middle of the robot that picks it up."""
+FLOOR_BEARINGS = tuple(np.radians((0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0, 180.0)))
+"""Sides from which it is tried, from that of the robot (radians)."""
 _HALF_TURN = Rotation.from_euler("z", np.pi)
 """The two fingers are alike."""
 
@@ -46,6 +50,21 @@ def standing_poses(piece: Furniture, target: Floats) -> Iterator[Floats]:
     for aside in ASIDE_M:
         spot = np.array([x, y]) + (piece.size[0] / 2 + NEAREST_M) * out + (along + aside) * left
         yield np.append(spot, yaw + np.pi)
+
+
+def floor_poses(here: Floats, target: Floats) -> Iterator[Floats]:
+    """Poses (x, y, yaw) of the base, facing a point on the floor, the nearest to `here` first."""
+    from_target = here[:2] - target[:2]
+    bearing = float(np.arctan2(from_target[1], from_target[0]))
+    for aside in FLOOR_BEARINGS:
+        out = np.array([np.cos(bearing + aside), np.sin(bearing + aside)])
+        yaw = np.remainder(bearing + aside + 2 * np.pi, 2 * np.pi) - np.pi
+        yield np.append(target[:2] + FLOOR_REACH_M * out, _nearest_turn(here[2], yaw))
+
+
+def _nearest_turn(here: float, yaw: float) -> float:
+    """The same yaw, counted on from where the robot is turned to (radians)."""
+    return here + float(np.remainder(yaw - here + np.pi, 2 * np.pi) - np.pi)
 
 
 def plan_stance(world: PlanningWorld, here: Floats, base: Floats) -> list[Floats] | None:

@@ -1,18 +1,41 @@
 """The simulated robot: turns goals into skills and runs one at a time."""
 
+import math
+from collections.abc import Sequence
+
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import Recorder
-from executive.records import Path
-from executive.types import DriveTo, Failed, Goal, Halt, LookAt, Pick, PutDown, Succeeded, Vector3
+from executive.types import (
+    FLOOR,
+    DriveTo,
+    Failed,
+    Goal,
+    Halt,
+    LookAt,
+    Pick,
+    PutDown,
+    Succeeded,
+    Vector3,
+)
 from sim.arm import hold
-from sim.driving import brake, drive
+from sim.driving import CARRYING, FREE, brake
+from sim.hand import LostError
 from sim.hardware import Hardware
-from sim.home import PERSON, Home
+from sim.home import FLOOR_VIEWS, PERSON, Home
 from sim.looking import look_at
 from sim.manipulation import Manipulator
-from sim.navigation import OccupancyGrid, Unreachable, plan
-from sim.skill import CannotError, Skill
+from sim.navigation import Unreachable
+from sim.navigator import Navigator
+from sim.skill import CannotError, Skill, pause, wait_until
+
+FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
+"""Where the robot looks for what fell to the floor: to the left of where it faces (radians)."""
+FINGERS_STOP_S = 1.0
+"""The longest that fingers move on when the robot comes to rest."""
+ROLLING_S = 1.5
+"""How long the robot waits for what fell to come to rest before it says so."""
+FLOOR_AHEAD_M = 0.9
+"""How far from its middle."""
 
 
 class SimulatedRobot:
@@ -21,18 +44,17 @@ class SimulatedRobot:
     def __init__(
         self,
         hardware: Hardware,
+        navigator: Navigator,
         manipulator: Manipulator,
         home: Home,
         inbox: Inbox,
-        recorder: Recorder,
     ) -> None:
         """Stand idle."""
         self._hardware = hardware
+        self._navigator = navigator
         self._manipulator = manipulator
         self._home = home
-        self._grid = OccupancyGrid.from_home(home)
         self._inbox = inbox
-        self._recorder = recorder
         self._skill: Skill | None = None
         self._request: int | None = None
         self._at: str | None = None
@@ -42,11 +64,11 @@ class SimulatedRobot:
     @property
     def holding(self) -> bool:
         """Whether both fingers touch a thing, now."""
-        return self._manipulator.holding
+        return self._manipulator.hand.holding
 
     def views(self, place: str) -> int:
         """How many head poses it takes to see all of a place."""
-        return len(self._home.view_targets(place))
+        return FLOOR_VIEWS if place == FLOOR else len(self._home.view_targets(place))
 
     def start(self, goal: Goal) -> int:
         """Pursue a goal; ends Succeeded, or Failed with a reason."""
@@ -91,7 +113,7 @@ class SimulatedRobot:
         except StopIteration:
             self._end(Succeeded())
         except CannotError as failure:
-            self._end(Failed(str(failure)))
+            self._end(Failed(str(failure), lost=isinstance(failure, LostError)))
 
     def _end(self, result: Succeeded | Failed) -> None:
         self._skill = None
@@ -119,25 +141,35 @@ class SimulatedRobot:
         yield from brake(self._hardware)
         yield from self._manipulator.stow()
         self._at = None
-        x, y, yaw = self._home.stand(place)
-        here = self._hardware.base_pose
+        limits = CARRYING if self._manipulator.hand.held else FREE
         try:
-            way = plan(self._grid, (float(here[0]), float(here[1])), (x, y))
+            for _ in self._navigator.go(self._home.stand(place), limits):
+                self._manipulator.hand.feel()
+                yield
+        except LostError:
+            yield from brake(self._hardware)
+            yield from pause(ROLLING_S)
+            raise
         except Unreachable as reason:
-            raise CannotError(str(reason)) from reason
-        self._recorder.record(Path(tuple((px, py, 0.0) for px, py in way)))
-        try:
-            yield from drive(self._hardware, way, yaw)
-        except CannotError:
-            raise CannotError(f"the way to the {place} is blocked") from None
+            raise CannotError(reason.clause(place)) from reason
         self._at = place
 
     def _look(self, place: str, view: int, point: Vector3 | None) -> Skill:
-        self._check_here(place)
-        targets = self._home.view_targets(place)
+        targets = self._targets(place)
         if not 0 <= view < len(targets):
             raise CannotError(f"there are only {len(targets)} views of the {place}")
         yield from look_at(self._hardware, point or targets[view])
+
+    def _targets(self, place: str) -> Sequence[Vector3]:
+        """Points of `map` to look at, to see all of a place."""
+        if place != FLOOR:
+            self._check_here(place)
+            return self._home.view_targets(place)
+        x, y, yaw = self.base_pose
+        return [
+            (x + FLOOR_AHEAD_M * math.cos(yaw + pan), y + FLOOR_AHEAD_M * math.sin(yaw + pan), 0.0)
+            for pan in FLOOR_PANS[:FLOOR_VIEWS]
+        ]
 
     def _put_down(self, place: str) -> Skill:
         self._check_here(place)
@@ -148,6 +180,7 @@ class SimulatedRobot:
     def _rest(self) -> Skill:
         hold(self._hardware)
         yield from brake(self._hardware)
+        yield from wait_until(lambda: self._hardware.fingers_still, FINGERS_STOP_S)
 
     # --- helpers ---
 

@@ -8,18 +8,24 @@ import pybullet
 from scipy.spatial.transform import Rotation
 
 from executive.events import Inbox
-from executive.interfaces import Recorder
+from executive.interfaces import Camera, Recorder
 from executive.records import Picture, Scene, Transforms
 from executive.types import Pose
 from sim.bodies import build_home, frame_pose, home_entities, place_objects
-from sim.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector, render
+from sim.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
 from sim.client import aim_window, connect
+from sim.faulty_hardware import FaultyHardware
 from sim.hardware import Floats, Hardware
 from sim.home import Home
+from sim.laser import Laser
 from sim.manipulation import Manipulator
+from sim.mishaps import FaultyCamera, Mishaps
 from sim.model import describe_robot, robot_entities
+from sim.navigation import OccupancyGrid
+from sim.navigator import Navigator
 from sim.objects import ObjectModel
 from sim.planning import PlanningWorld
+from sim.poltergeist import Poltergeist
 from sim.robot import SimulatedRobot
 from sim.skill import CONTROL_S
 from sim.transforms import FrameTree
@@ -49,6 +55,7 @@ class PhysicsWorld:
         seed: int = 0,
         gui: bool = False,
         camera_hz: float = 1.0,
+        mishaps: Mishaps | None = None,
     ) -> None:
         """Build the home with the robot in it.
 
@@ -60,6 +67,7 @@ class PhysicsWorld:
             seed: moves and turns things a little from where the home has them; 0 does not.
             gui: show PyBullet's window.
             camera_hz: pictures for the log per second while something moves; 0 for none.
+            mishaps: what goes wrong by order.
         """
         self._home = home
         self._models = models
@@ -72,19 +80,25 @@ class PhysicsWorld:
         self._things = place_objects(self._client, home, models)
         self._disturb(seed)
         self._let_sleep()
-        self._hardware = Hardware(self._client, home.robot_start)
         self._planning = PlanningWorld(home)
+        self._hardware, self._poltergeist = self._haunted(mishaps)
         numbers = count()
-        self.camera = SimulatedCamera(self._client, self._camera_pose, LOOKING, numbers)
-        self._glancing = SimulatedCamera(self._client, self._camera_pose, GLANCING, numbers)
-        self.detector = SimulatedDetector(self.camera, self._things)
+        camera = SimulatedCamera(self._client, self._camera_pose, LOOKING, numbers)
+        glancing = SimulatedCamera(self._client, self._camera_pose, GLANCING, numbers)
+        self.camera: Camera = FaultyCamera(camera, mishaps) if mishaps else camera
+        self._glancing: Camera = FaultyCamera(glancing, mishaps) if mishaps else glancing
+        self.detector = SimulatedDetector(camera, self._things)
+        laser = Laser(self._client, self._hardware)
+        grid = OccupancyGrid.from_home(home)
+        navigator = Navigator(self._hardware, laser, grid, recorder, self._time)
         manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan)
-        self.robot = SimulatedRobot(self._hardware, manipulator, home, inbox, recorder)
+        self.robot = SimulatedRobot(self._hardware, navigator, manipulator, home, inbox)
         self._periods = 0
         self._steps = 0
         self._owed = 0.0
         self._last_act = 0
-        self._frames = FrameTree(self._client, self._hardware, self._things)
+        movable = {**self._things, **(self._poltergeist.bodies() if self._poltergeist else {})}
+        self._frames = FrameTree(self._client, self._hardware, movable)
         self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
 
     # --- SimulatedHome ---
@@ -112,7 +126,9 @@ class PhysicsWorld:
 
     def describe(self) -> None:
         """Record the whole scene, where everything is, and what the camera sees from the start."""
-        entities = (*home_entities(self._home, self._models), *robot_entities(describe_robot()))
+        extra = self._poltergeist.entities() if self._poltergeist else ()
+        robot = robot_entities(describe_robot())
+        entities = (*home_entities(self._home, self._models), *extra, *robot)
         self._recorder.record(Scene(entities))
         self._recorder.record(Transforms(self._frames.all()))
         if self._picture_every:
@@ -130,6 +146,12 @@ class PhysicsWorld:
         pieces = {piece.name for piece in (*self._home.furniture, self._home.delivery)}
         return next((found for found in names if found in pieces), None)
 
+    @property
+    def held(self) -> str | None:
+        """The object that both fingers touch, by the simulator's truth; None for none."""
+        touched = self._hardware.touched()
+        return next((name for body, name in self._things.items() if body in touched), None)
+
     def truth(self, name: str) -> Pose:
         """Where an object is in `map`, by the simulator's truth: for tests, never for the robot."""
         body = self._body(name)
@@ -141,6 +163,8 @@ class PhysicsWorld:
     def _pass_period(self) -> None:
         if self.robot.active:
             self._last_act = self._periods
+        if self._poltergeist:
+            self._poltergeist.act()
         self.robot.control()
         self._use_steps(FINE_STEPS if self.robot.handling else COARSE_STEPS)
         for _ in range(self._steps):
@@ -172,16 +196,28 @@ class PhysicsWorld:
 
     def _scan(self) -> Floats:
         """Points in `map` (n, 3) that the depth camera sees now."""
-        pose, lens = self._camera_pose(), GLANCING
-        depth = render(self._client, pose, lens).depth.astype(np.float64)
+        frame = self._glancing.capture()
+        lens, depth = frame.intrinsics, frame.depth.astype(np.float64)
         rows, columns = np.nonzero(np.isfinite(depth))
         far = depth[rows, columns]
         ahead = np.column_stack(
             ((columns - lens.cx) / lens.fx * far, (rows - lens.cy) / lens.fy * far, far)
         )
-        return Rotation.from_quat(pose.orientation).apply(ahead) + pose.position
+        return Rotation.from_quat(frame.pose.orientation).apply(ahead) + frame.pose.position
+
+    def _time(self) -> float:
+        """The robot's own time (s)."""
+        return self._periods * CONTROL_S
 
     # --- helpers ---
+
+    def _haunted(self, mishaps: Mishaps | None) -> tuple[Hardware, Poltergeist | None]:
+        """The robot, and what happens to it and the world by order."""
+        start = self._home.robot_start
+        if mishaps is None:
+            return Hardware(self._client, start), None
+        hardware = FaultyHardware(self._client, start, mishaps)
+        return hardware, Poltergeist(self._client, self._home, self._things, hardware, mishaps)
 
     def _disturb(self, seed: int) -> None:
         """Move and turn the things a little, once, before anything begins."""

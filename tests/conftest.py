@@ -22,7 +22,10 @@ from kb.advisor import PlaceAdvisor
 from kb.ontology import Ontology
 from kb.scripted import Scripted as ScriptedModel
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
+from sim.faults import parse_faults
+from sim.faulty_fake import FaultyFakeRobot
 from sim.home import Home, load_home
+from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
 from trees.mission import mission
 from trees.team import NoFacts, Rules, Team
 from trees.tree import MissionTree
@@ -87,6 +90,8 @@ def run_mission(
     elicit: str = "rank",
     place: dict[str, str] | None = None,
     fault: Callable[[Goal], str | None] = lambda goal: None,
+    mishaps: Iterable[str] = (),
+    seed: int = 0,
     during: Callable[[Goal, Inbox], None] = lambda goal, inbox: None,
     rules: dict[str, Any] | None = None,
     person: Callable[[Inbox], User] | None = None,
@@ -98,14 +103,21 @@ def run_mission(
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
-    `during` is called at the start of every goal of the robot, and may post events; `first` are
-    posted before the mission starts.
+    `mishaps` are ordered as with `--fault`. `during` is called at the start of every goal of the
+    robot, and may post events; `first` are posted before the mission starts.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
     home = four_rooms().with_placement(place or {})
     world = FakeWorld(home, inbox, notebook, fault)
     clock = SimulatedClock(inbox, world)
-    robot, goals = FakeRobot(world), []
+    camera, goals = FakeCamera(world), []
+    recogniser = detector(world)
+    robot = FakeRobot(world)
+    if mishaps:
+        faults = Mishaps(parse_faults(mishaps, home), notebook, clock.now, seed)
+        robot = FaultyFakeRobot(world, faults)
+        camera = FaultyCamera(camera, faults)  # type: ignore[assignment]
+        recogniser = FaultyDetector(recogniser, faults, tuple(home.objects))
     start = robot.start
 
     def start_and_note(goal: Goal) -> int:
@@ -133,7 +145,7 @@ def run_mission(
         interpreter=EnglishInterpreter(),
         knowledge=knowledge,
         robot=robot,
-        eyes=Eyes(FakeCamera(world), detector(world), inbox, notebook),
+        eyes=Eyes(camera, recogniser, inbox, notebook),
         user=user,
         model=thinker,
         advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,
@@ -158,3 +170,9 @@ def run_mission(
 @pytest.fixture(scope="session")
 def places() -> tuple[str, ...]:
     return tuple(place.name for place in four_rooms().places())
+
+
+@pytest.fixture
+def no_plots(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Reports without their plots, which take seconds to draw."""
+    monkeypatch.setattr("executive.experiment._plots", lambda found: iter(()))

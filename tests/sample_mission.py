@@ -11,6 +11,7 @@ from executive.records import (
     EventTaken,
     Finished,
     LlmCall,
+    Mishap,
     NodeShape,
     NodeState,
     Note,
@@ -38,6 +39,7 @@ from executive.types import (
     Message,
     Outcome,
     Pose,
+    Precedent,
     RankRequest,
     Replied,
     Scored,
@@ -123,6 +125,8 @@ def rank_call() -> LlmCall:
         (Message("user", "Where is the thing?"),),
         ("in the cupboard in the kitchen", "on the dining table", "on the desk in the study"),
         ("cupboard", "dining_table", "desk"),
+        (Precedent((Message("user", "Where is the flour?"),), ("cupboard", "desk"), "food"),),
+        "food",
     )
     return LlmCall(Scored(request, (2.5, 1.8, 0.7), usage()))
 
@@ -220,6 +224,7 @@ def mission() -> Iterator[tuple[float, Record]]:
     yield 6.0, Picture(frame())
     yield 6.0, Seen(0, (detection(),))
     yield 6.0, tick(2, "mission/see", done, done, done, done, done, candidates=CANDIDATES)
+    yield 6.2, Mishap("moved=sugar_box:desk@6", "the sugar_box is taken to desk")
     yield 6.5, Utterance("robot", "Here is the sugar_box.")
     yield 6.5, Note("info", "the sugar_box was in the cupboard")
     yield 6.5, Finished(outcome())

@@ -8,20 +8,25 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterable
+from dataclasses import replace
+from io import StringIO
 from pathlib import Path
 
-import pyarrow.parquet as pq
 import pytest
 
 from executive import households
 from executive.app import Session
-from executive.campaign import Campaign, clock, main, parser
+from executive.campaign import Campaign, Progress, clock, main, parser
 from executive.config import KnowledgeSystem, load_settings
 from executive.events import Inbox
-from executive.experiment import report
-from executive.journal import Entry, Journal, Row, in_order
+from executive.journal import Journal, Row, in_order, read_table
+from executive.policies import POLICIES
 from executive.types import Outcome
 from kb.scripted import Scripted
+from sim.generation import generate_home
+from sim.home import home_text
+
+pytestmark = pytest.mark.usefixtures("no_plots")
 
 COMMANDS = ("Find an apple.", "Find a power_drill.", "Take a mug.")
 
@@ -48,8 +53,7 @@ def test_each_condition_command_and_seed_is_one_row(grid: list[str], tmp_path: P
 def test_the_tables_hold_what_the_journal_holds(grid: list[str], tmp_path: Path) -> None:
     main(grid)
     rows = in_order(rows_of(tmp_path / "out"))
-    table = pq.read_table(tmp_path / "out" / "results.parquet").to_pylist()
-    assert [Row(**row) for row in table] == rows
+    assert read_table(tmp_path / "out" / "results.parquet") == rows
     assert (tmp_path / "out" / "results.csv").read_text().count("\n") == len(rows) + 1
 
 
@@ -122,7 +126,8 @@ def test_a_crash_is_a_row_with_its_reason(
     assert all(row.completed for row in rows if row not in crashed)
     text = (tmp_path / "out" / "report.md").read_text()
     assert "66.7 % (98.0 %)" in text
-    assert "| crashed | ZeroDivisionError: the floor is lava | okb, defaults | 2 |" in text
+    crash = "| crashed | ZeroDivisionError: the floor is lava | ours | okb, defaults | 2 |"
+    assert f"{crash} not recorded |" in text
 
 
 def test_a_folder_with_other_settings_is_refused(
@@ -155,17 +160,15 @@ def test_a_killed_worker_costs_no_mission(
     grid: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     options = parser().parse_args([*grid, "--workers", "2", "--seeds", "4"])
-    campaign, entries, killed = Campaign(options), Campaign._entries, []
+    killed: list[int] = []
 
-    def kill_one(self: Campaign) -> list[Entry]:
-        ended = entries(self)
-        if len(ended) > 3 and not killed:
+    def kill_one(progress: Progress) -> None:
+        if len(rows_of(tmp_path / "out")) > 3 and not killed:
             killed.append(children()[0])
             os.kill(killed[0], signal.SIGKILL)
-        return ended
 
-    monkeypatch.setattr(Campaign, "_entries", kill_one)
-    assert campaign.run() == 0
+    monkeypatch.setattr(Progress, "__call__", kill_one)
+    assert Campaign(options).run() == 0
     rows = rows_of(tmp_path / "out")
     assert killed
     assert len(rows) == len({row.key for row in rows}) == 3 * 2 * 3 * 4
@@ -189,24 +192,16 @@ def test_ctrl_c_ends_the_workers_and_keeps_their_missions(grid: list[str], tmp_p
     assert 0 < len(rows) < 720
     assert len(rows) == len({row.key for row in rows})
     assert json.loads((tmp_path / "out" / "campaign.json").read_text())["commands"]
-    assert len(pq.read_table(tmp_path / "out" / "results.parquet")) == len(rows)
+    assert len(read_table(tmp_path / "out" / "results.parquet")) == len(rows)
 
 
 def test_every_system_gets_the_commands_in_the_same_order() -> None:
     orders = {
         (h.settings.seed, h.commands)
-        for h in households.for_conditions(
-            load_settings(), list(KnowledgeSystem), COMMANDS, 20, None
-        )
+        for h in households.grid([load_settings()], ["ours"], list(KnowledgeSystem), COMMANDS, 20)
     }
     assert len(orders) == 20
     assert len({order for _, order in orders}) > 1
-
-
-def entry_with(household: households.Household, said: str, reply: str) -> Entry:
-    key = household.keys[0]
-    row = Row(str(key.system), key.defaults, key.seed, key.command, 0)
-    return Entry(row, ((said, reply),))
 
 
 def household_that_writes(
@@ -220,7 +215,8 @@ def household_that_writes(
         models.append(Scripted(replies, inbox))
         return models[0]
 
-    monkeypatch.setattr(households, "build_model", build)
+    ours = replace(POLICIES["ours"], model=build)
+    monkeypatch.setattr(households, "POLICIES", {**POLICIES, "ours": ours})
     settings = load_settings(
         world="fake", user="oracle", knowledge=system, defaults=False, elicit="generate"
     )
@@ -256,33 +252,50 @@ def test_a_resumed_household_remembers_what_was_said_before(
     assert models[0].requests[0].messages == said
 
 
-def missions(system: str, inquiries: Iterable[int], command: str = "Find a mug.") -> list[Row]:
-    return [
-        Row(system, True, seed, command, 0, "find", status="done", completed=True, inquiries=n)
-        for seed, n in enumerate(inquiries)
-    ]
-
-
-def test_the_report_says_what_a_hand_computes() -> None:
-    rows = [*missions("okb", [1, 1, 1, 1]), *missions("okb+llm", [0, 0, 0, 1])]
-    text = report(rows, {"seeds": "4"})
-    assert "| okb, defaults | 1.00 (0.80) | 1.00 to 1.00 | 0.00 (0.40) | 4 |" in text
-    assert "| okb+llm, defaults | 0.25 (0.14) | 0.25 to 0.25 | 0.50 (0.35) | 4 |" in text
-    assert "| defaults | okb - okb+llm | +0.75 | 1.000 (n = 1) | 0.250 (n = 4) |" in text
-
-
-def test_a_policy_that_always_asks_shows_in_the_tables() -> None:
-    rows = []
-    for number in range(9):
-        command = f"Find thing {number}."
-        rows += missions("okb+llm", [0, 0], command) + missions("okb+llm+mem", [1, 1], command)
-    text = report(rows, {})
-    assert "| okb+llm+mem, defaults | 1.00 (0.08) |" in text
-    assert r"| defaults | okb+llm - okb+llm+mem | -1.00 | 0.004 \*\* (n = 9) |" in text
-
-
 def test_time_left_reads_as_a_clock() -> None:
     assert clock(3725.4) == "1:02:05"
+
+
+def test_progress_goes_by_the_pace_of_this_run_and_not_by_what_was_done_before() -> None:
+    done, out = 10, StringIO()
+    progress = Progress(30, lambda: done, out)
+    progress.show()
+    assert not out.getvalue()
+    done = 20
+    progress._began -= 60
+    progress.show()
+    assert "20 of 30 missions, 0:01:00 left" in out.getvalue()
+
+
+def test_more_policies_and_homes_extend_a_campaign(grid: list[str], tmp_path: Path) -> None:
+    main([*grid, "--seeds", "1", "--systems", "okb+llm"])
+    first = rows_of(tmp_path / "out")
+    home = tmp_path / "other.toml"
+    home.write_text(home_text("four_rooms"))
+    more = ["--policy", "ours", "--policy", "nearest", "--home", "four_rooms", "--home", str(home)]
+    main([*grid, "--seeds", "1", "--systems", "okb+llm", *more])
+    rows = rows_of(tmp_path / "out")
+    assert rows[: len(first)] == first
+    assert {(row.policy, row.home) for row in rows} == {
+        (policy, home) for policy in ("ours", "nearest") for home in ("four_rooms", "other")
+    }
+    assert "| nearest, other |" in (tmp_path / "out" / "report.md").read_text()
+
+
+def test_a_generated_home_can_be_searched(grid: list[str], tmp_path: Path) -> None:
+    file = tmp_path / "big.toml"
+    file.write_text(generate_home(rooms=6, furniture=20, seed=3))
+    assert main([*grid, "--seeds", "1", "--policy", "true-first", "--home", str(file)]) == 0
+    rows = rows_of(tmp_path / "out")
+    assert all(row.completed for row in rows)
+    assert all(row.spl == 1.0 for row in rows if not row.defaults)
+
+
+def test_two_homes_of_one_name_are_refused(
+    grid: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*grid, "--home", "a/flat.toml", "--home", "b/flat.toml"]) == 2
+    assert "--home" in capsys.readouterr().err
 
 
 def test_a_campaign_of_no_seeds_is_refused() -> None:

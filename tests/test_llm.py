@@ -5,18 +5,27 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from itertools import pairwise
 
 import pytest
 from conftest import ontology
 
 from executive.errors import ModelError
 from executive.events import Ended, Inbox
-from executive.types import ChatRequest, Failed, Message, RankRequest, Replied, Scored
+from executive.types import (
+    ChatRequest,
+    Failed,
+    Message,
+    Precedent,
+    RankRequest,
+    Replied,
+    Scored,
+)
 from kb.advisor import PlaceAdvisor
 from kb.gguf import Context, Gguf
 from kb.llama import LlamaCpp, embedded_model
+from kb.precedents import LIKELIHOOD_WEIGHT
 from kb.sampling import Sampler
 from kb.scripted import Scripted
 from kb.server import Server
@@ -385,7 +394,8 @@ def test_the_batched_scores_are_those_of_one_token_after_the_other(real):
     expected = [one_by_one(RANK.messages, o) - one_by_one(RANK.neutral, o) for o in RANK.options]
     context.close()
     gguf.close()
-    assert scored.scores == pytest.approx(expected, abs=0.5)
+    unweighted = [score / LIKELIHOOD_WEIGHT for score in scored.scores]
+    assert unweighted == pytest.approx(expected, abs=0.5)
     assert scored.scores[0] == max(scored.scores)
 
 
@@ -400,10 +410,41 @@ def test_scoring_the_same_again_gives_the_same(real):
 @pytest.mark.llm
 def test_more_options_than_fit_into_a_batch_are_scored_alike(real):
     model, inbox = real
-    many = RANK.options * 25
+    many = tuple(f"{option} {number}" for number in range(60) for option in RANK.options)
     scored = end_of(inbox, model.rank(RankRequest("rank", RANK.messages, RANK.neutral, many, many)))
-    for a, b in pairwise(scored.scores[:: len(RANK.options)]):
-        assert a == pytest.approx(b, abs=0.5)
+    few = end_of(inbox, model.rank(replace(RANK, options=many[-4:], places=many[-4:])))
+    assert scored.scores[-4:] == pytest.approx(few.scores, abs=0.1)
+
+
+@pytest.mark.llm
+def test_a_thing_is_ranked_where_things_like_it_are_known_to_be(real):
+    model, inbox = real
+
+    def best(**known: str) -> str:
+        precedents = [
+            Precedent((*RANK.messages[:-1], Message("user", f"Where is the {name}?")), (place,))
+            for name, place in known.items()
+        ]
+        request = replace(RANK, precedents=tuple(precedents))
+        scores = end_of(inbox, model.rank(request)).scores
+        return max(zip(scores, RANK.places, strict=True))[1]
+
+    tools = {"hammer": "bed", "wrench": "bed"}
+    food = {"yoghurt": "garage", "butter": "garage", "cheese": "garage"}
+    assert best() == "refrigerator"
+    assert best(**tools, **food) == "garage"
+
+
+@pytest.mark.llm
+def test_a_precedent_is_read_once(real):
+    model, inbox = real
+    known = Precedent((*RANK.messages[:-1], Message("user", "Where is the jam?")), ("here",))
+    end_of(inbox, model.rank(RANK))
+    first, second = (
+        end_of(inbox, model.rank(replace(RANK, precedents=(known,)))).usage for _ in range(2)
+    )
+    assert 0 < first.evaluated_tokens < 32
+    assert second.evaluated_tokens == 0
 
 
 @pytest.mark.llm

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from executive.events import Inbox
 from executive.perception import locate as locate_pixels
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
-from sim.grasps import WIDEST, find_grasps
+from sim.grasps import WIDEST, find_grasps, varied
 from sim.home import Home
 from sim.kinematics import COMFORT
 from sim.objects import load_objects
@@ -117,6 +117,13 @@ def test_a_box_is_taken_across_its_narrow_side() -> None:
     best = find_grasps(MODELS["cracker_box"], Pose(), facing=0.0, tilt=0.0)[0]
     across = best.hand.rotation.apply((0.0, 1.0, 0.0))
     assert abs(across[0]) > 0.95
+
+
+def test_varied_grasps_are_spread_over_a_long_thing() -> None:
+    grasps = varied(find_grasps(MODELS["spatula"], Pose(), facing=0.0, tilt=0.0), 8)
+    places = [tuple(np.round(grasp.hand.position, 3)) for grasp in grasps]
+    assert len(set(places)) == len(places) == 8
+    assert np.ptp([place[0] for place in places]) + np.ptp([p[1] for p in places]) > 0.05
 
 
 def test_of_a_mug_one_wall_is_taken() -> None:

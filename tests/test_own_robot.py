@@ -9,7 +9,7 @@ import pytest
 from contracts.robot import Bench, RobotContract
 
 from executive.events import DeadlinePassed, Inbox
-from executive.types import DriveTo, Goal, Halt, LookAt
+from executive.types import FLOOR, DriveTo, Goal, Halt, LookAt
 
 PAGE = Path(__file__).parents[1] / "docs" / "own-robot.md"
 PLACES = {"coffee_table", "desk", "person"}
@@ -31,7 +31,7 @@ class WaitingDriver:
         match goal:
             case DriveTo(place) if place in PLACES:
                 self.at = place
-            case LookAt(place) if place == self.at:
+            case LookAt(place, 0) if place in (self.at, FLOOR):
                 pass
             case Halt():
                 pass

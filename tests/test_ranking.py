@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from executive.events import Inbox
 from executive.types import Place, RankRequest, Scored, Source, Usage
 from kb.advisor import PlaceAdvisor
+from kb.facts import FactStore
 from kb.names import spoken
 from kb.prompts import Prompts
-from kb.ranking import answer, ranked
+from kb.ranking import MOST_PRECEDENTS, Known, answer, rank_request, ranked
 from kb.scripted import Scripted
 
 PLACES = four_rooms().places()
@@ -58,6 +59,57 @@ def test_examples_are_turns_of_the_chat_and_not_about_any_object_of_the_ontology
     assert [m.role for m in request.messages] == ["system", *["user", "assistant"] * 4, "user"]
     shown = " ".join(example for example, _ in Prompts.load().ranking.examples)
     assert not [name for name in ontology(True).objects() if spoken(name) in shown]
+
+
+def precedents(request: RankRequest) -> dict[str, tuple[str, ...]]:
+    """The question about each precedent -> its places."""
+    return {known.messages[-1].content: known.places for known in request.precedents}
+
+
+def test_other_things_are_precedents_with_their_default_locations():
+    known = precedents(ranking("mug"))
+    assert known["Where is the hammer?"] == ("shelf_lobby",)
+    assert known["Where is the sugar box?"] == ("cabinet_kitchen", "counter_wagon", "high_table")
+    assert "Where is the mug?" not in known
+    assert "Where is the colored wood blocks?" not in known
+
+
+def test_precedents_are_only_those_that_are_in_one_of_the_allowed_places():
+    known = precedents(ranking("scissors", ("sideboard", "desk")))
+    assert list(known) == ["Where is the adjustable wrench?"]
+
+
+def test_where_a_thing_was_seen_counts_and_not_where_it_usually_is():
+    facts = FactStore()
+    facts.saw(["hammer"], "desk")
+    facts.saw(["colored_wood_blocks"], "bed")
+    adviser = PlaceAdvisor(ontology(True), Scripted([], Inbox()), remembers=False, facts=facts)
+    known = precedents(adviser.ranking("mug", ()))
+    assert known["Where is the hammer?"] == ("desk",)
+    assert known["Where is the colored wood blocks?"] == ("bed",)
+    facts.close()
+
+
+def test_without_default_locations_and_facts_there_are_no_precedents():
+    adviser = PlaceAdvisor(ontology(False), Scripted([], Inbox()), remembers=False)
+    assert adviser.ranking("mug", ()).precedents == ()
+
+
+def test_a_thing_and_its_precedents_are_told_with_their_class():
+    request = ranking("power_drill")
+    assert request.kind == "tool"
+    first = request.precedents[0]
+    assert first.kind == "tool"
+    assert {known.kind for known in request.precedents} > {"tool", "fruit"}
+
+
+def test_of_too_many_precedents_those_of_its_class_are_kept():
+    texts, options = Prompts.load().ranking, [(PLACES[0], "in the cabinet")]
+    others = [Known(f"tool{i}", "tool", (PLACES[0].name,)) for i in range(500)]
+    others.append(Known("pear", "fruit", (PLACES[0].name,)))
+    request = rank_request(Known("apple", "fruit"), options, texts, others)
+    assert len(request.precedents) == MOST_PRECEDENTS
+    assert request.precedents[0].kind == "fruit"
 
 
 def test_the_best_score_comes_first_with_its_probability():

@@ -55,6 +55,14 @@ def damage_a_chunk(path: Path, number: int) -> int:
 # --- why ---
 
 
+def test_an_ordered_fault_stands_among_the_decisions_and_in_the_summary(run_dir: Path) -> None:
+    (fault,) = [decision for decision in why(Run(run_dir)) if decision.source == "world"]
+    assert (fault.question, fault.time_s) == ("fault", 6.2)
+    assert fault.answer == "moved=sugar_box:desk@6: the sugar_box is taken to desk"
+    text = report.summary_text([report.summary(Run(run_dir))])
+    assert "6.2 s moved=sugar_box:desk@6: the sugar_box is taken to desk" in text
+
+
 def test_a_fallback_is_a_decision_between_its_children(tmp_path: Path) -> None:
     decided = tick(0, "mission/drive", "RUNNING", "SUCCESS", "SUCCESS", "RUNNING", "INVALID")
     (decision,) = why(Run(record(tmp_path, [(0.0, TREE), (1.0, decided)])))

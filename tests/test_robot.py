@@ -66,12 +66,6 @@ def test_it_keeps_its_speed_limit(living: Living) -> None:
     assert 0.6 < max(map(dist, spots, spots[1:])) / 0.1 < 0.85
 
 
-def test_what_stands_in_the_way_ends_the_drive_in_words(living: Living) -> None:
-    crate = Shape("box", (0.3, 1.0, 0.4), (1.0, 0.0, 0.0, 1.0))
-    create_body(living.world._client, (crate,), Pose((4.2, 5.6, 0.2)))
-    assert living.do(DriveTo("counter_wagon")) == Failed("the way to the counter_wagon is blocked")
-
-
 def test_a_cancelled_drive_brakes_to_rest_within_a_second(living: Living) -> None:
     request = living.robot.start(DriveTo("sideboard"))
     wait(living, 2.0)

@@ -1,10 +1,10 @@
 """The mission: from words to a deed, and to an honest word when it cannot be done.
 
-understand ─> which object ─> search ─────────────────────────> act ───────────> report
-grammar       ontology        memory: where it was seen         find, take
-else LLM,     else person     else ontology: its one place      or bring
-confirmed                     else LLM, verified
-                              else person; visit, look;
+understand ─> which object ─> search ──────────────────> grasp ───────────> act ─────> report
+grammar       ontology        memory: where it was      pick it up         find, take
+else LLM,     else person     else ontology: its one    else look again    or bring
+confirmed                     place; else LLM, verified if gone, search
+                              else person; visit, look; again
                               not seen: ask the person
 """
 
@@ -14,6 +14,7 @@ from py_trees.decorators import FailureIsSuccess
 
 from executive.types import Status as MissionStatus
 from trees.act import HandIsFree, act
+from trees.grasp import grasp
 from trees.nodes import Check, Step, fallback, sequence
 from trees.object import resolve_object
 from trees.person import Apologise
@@ -33,6 +34,7 @@ def mission(team: Team) -> Behaviour:
             resolve_object(team),
             HandIsFree("hand is free", team),
             search(team),
+            grasp(team),
             act(team),
             Conclude("done", team),
         ),

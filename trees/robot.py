@@ -40,7 +40,9 @@ class RobotAction(Action):
         return self.team.robot.start(goal)
 
     def ended(self, result: Result) -> Status:
-        """Succeed as the robot did."""
+        """Succeed as the robot did; note if it lost what it held."""
+        if isinstance(result, Failed) and result.lost:
+            self.situation.lost, self.situation.in_hand = result.reason, None
         return Status.SUCCESS if isinstance(result, Succeeded) else self.failed(result)
 
     def cancel(self, request: int) -> None:
@@ -112,6 +114,14 @@ class LookCloser(RobotAction):
         return LookAt(self.situation.candidate.place, self.situation.view, point)
 
 
+class LookForLost(RobotAction):
+    """Points the head at where the thing may have fallen."""
+
+    def goal(self) -> Goal:
+        """Look at the next part of the spot."""
+        return LookAt(self.situation.spot, self.situation.view)
+
+
 class PickUp(RobotAction):
     """Grasps the thing where it was seen, and lifts it."""
 
@@ -127,6 +137,7 @@ class PickUp(RobotAction):
             assert self.situation.found
             self.situation.in_hand = self.situation.detection.label
             self.team.facts.took(self.situation.in_hand, self.situation.found.place)
+            self.situation.lost = ""
         return super().ended(result)
 
 
@@ -164,11 +175,16 @@ class SeeTarget(Action):
 
     def ended(self, result: Result) -> Status:
         """Keep the surest detection of the thing, and where it was; remember all that was seen."""
+        assert self.situation.candidate
+        place = self.situation.candidate.place
         if not isinstance(result, Saw):
-            return self.failed(result)
+            status = self.failed(result)
+            self.situation.unseen[place] = self.situation.reason
+            return status
+        self.situation.unseen.pop(place, None)
         self._remember(result.detections)
         self.situation.doubtful = None
-        seen = next((d for d in result.detections if d.label == self.situation.object), None)
+        seen = self._surest(result)
         if seen is None:
             self.situation.views_without += 1
             self.feedback_message = f"no {self.situation.object} in view"
@@ -185,6 +201,10 @@ class SeeTarget(Action):
         """Look no more."""
         self.team.eyes.cancel(request)
 
+    def _surest(self, saw: Saw) -> Detection | None:
+        """The surest detection of the thing, if it was seen."""
+        return next((d for d in saw.detections if d.label == self.situation.object), None)
+
     def _remember(self, detections: Iterable[Detection]) -> None:
         """A thing may be on furniture behind this place; with none below it, it counts as here."""
         assert self.situation.candidate
@@ -193,6 +213,20 @@ class SeeTarget(Action):
                 continue
             below = self.team.place_at(seen.position) if seen.position else None
             self.team.facts.saw((seen.label,), below or self.situation.candidate.place)
+
+
+class SeeLost(SeeTarget):
+    """Takes a picture and succeeds if what fell from the hand is in it."""
+
+    def ended(self, result: Result) -> Status:
+        """Keep where it lies now; it was found elsewhere."""
+        if not isinstance(result, Saw):
+            return self.failed(result)
+        seen = self._surest(result)
+        if seen is None:
+            return self.fail(f"I do not see it on the {self.situation.spot}")
+        self.situation.detection = seen
+        return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
 
 def _in_words(goal: Goal) -> str:

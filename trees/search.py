@@ -100,6 +100,7 @@ class NotHere(Step):
         name, place = self.situation.object, self.situation.candidate.place
         if self.situation.views_without == self.team.robot.views(place):
             self.team.facts.missed(name, place)
+        self.situation.gone = self.situation.detection is not None
         return self.fail(f"no {name} at {place}")
 
 

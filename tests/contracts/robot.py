@@ -12,6 +12,7 @@ import numpy as np
 from executive.events import Ended, Inbox
 from executive.interfaces import Robot
 from executive.types import (
+    FLOOR,
     Box,
     Detection,
     DriveTo,
@@ -111,6 +112,49 @@ class RobotContract:
 
     def test_it_does_not_pretend_to_look_at_a_place_that_it_is_not_at(self, bench: Bench) -> None:
         assert isinstance(bench.do(LookAt(bench.place)), Failed)
+
+    def test_it_looks_at_the_floor_wherever_it_is(self, bench: Bench) -> None:
+        views = range(bench.robot.views(FLOOR))
+        assert len(views) >= 1
+        assert all(bench.do(LookAt(FLOOR, view)) == Succeeded() for view in views)
+
+    def test_time_that_runs_out_is_a_cancel_and_leaves_the_robot_free(self, bench: Bench) -> None:
+        request = bench.robot.start(DriveTo(bench.place))
+        passed = 0.0
+        while passed < 0.1:
+            passed += bench.advance(0.1 - passed)
+        bench.robot.cancel(request)
+        assert bench.do(DriveTo("person")) == Succeeded()
+        assert not bench.inbox.awaits_anything
+
+    def test_cancelling_what_has_ended_or_never_was_does_nothing(self, bench: Bench) -> None:
+        request = bench.robot.start(DriveTo(bench.place))
+        assert bench.end_of(request) == Succeeded()
+        bench.robot.cancel(request)
+        bench.robot.cancel(request + 1000)
+        assert bench.do(LookAt(bench.place)) == Succeeded()
+
+    def test_cancelling_an_old_goal_leaves_the_new_one_alone(self, bench: Bench) -> None:
+        first = bench.robot.start(Halt())
+        bench.end_of(first)
+        second = bench.robot.start(DriveTo(bench.place))
+        bench.robot.cancel(first)
+        assert bench.end_of(second) == Succeeded()
+
+    def test_every_goal_ends_once(self, bench: Bench) -> None:
+        requests = [bench.robot.start(DriveTo(bench.place)), bench.robot.start(Halt())]
+        ends: list[int] = []
+        passed = 0.0
+        while bench.inbox.awaits_anything and passed < PATIENCE_S:
+            ends += [e.request for e in bench.inbox.take_all() if isinstance(e, Ended)]
+            passed += bench.advance(0.5)
+        assert sorted(ends) == requests
+
+    def test_a_view_that_is_not_there_fails_in_words(self, bench: Bench) -> None:
+        bench.do(DriveTo(bench.place))
+        result = bench.do(LookAt(bench.place, bench.robot.views(bench.place)))
+        assert isinstance(result, Failed)
+        assert result.reason
 
     def test_it_does_not_pretend_to_pick_what_is_not_there(self, bench: Bench) -> None:
         bench.do(DriveTo("desk"))

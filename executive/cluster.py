@@ -1,0 +1,144 @@
+"""A campaign on a Dask cluster: workers run missions, this process keeps the journal.
+
+A worker is given one mission of its household after the other, with what was said in those before,
+and keeps the household's model loaded in between. What it returns is written down here, and only
+here, so that no mission counts twice. If a worker is lost, the scheduler gives its mission to
+another one, which takes the household over.
+"""
+
+import threading
+import time
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import CancelledError
+from contextlib import suppress
+from dataclasses import dataclass
+
+from distributed import Client, Future, KilledWorker, wait
+
+from executive import households
+from executive.engines import POLL_S, own
+from executive.errors import ExecutiveError, InputError
+from executive.households import Household
+from executive.journal import Entry, Journal
+
+CONNECTING_S = 20
+
+
+@dataclass(slots=True)
+class _Turns:
+    """How far a household is, and the address of the worker that has its model loaded."""
+
+    household: Household
+    before: list[Entry]
+    worker: str = ""
+
+    @property
+    def next(self) -> int | None:
+        """Which of the household's missions is to be run now; None if all have ended."""
+        ended = {entry.row.key for entry in self.before}
+        left = (turn for turn, key in enumerate(self.household.keys) if key not in ended)
+        return next(left, None)
+
+
+class Cluster:
+    """Implements `Engine`: each worker process of a cluster runs one mission at a time."""
+
+    def __init__(self, address: str) -> None:
+        """Use the workers of the scheduler at this address, `tcp://host:8786`."""
+        self._address = address
+        self._waiting: list[_Turns] = []
+        self._under_way: dict[Future[Entry], _Turns] = {}
+
+    def run(
+        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+    ) -> None:
+        """Run what is left on as many workers as there are, while they come and go.
+
+        Raises:
+            ExecutiveError: if there is no scheduler at the address, or it is lost.
+        """
+        before = journal.entries()
+        turns = (_Turns(household, own(household, before)) for household in campaign)
+        self._waiting = [one for one in turns if one.next is not None]
+        with self._connect() as client:
+            try:
+                while self._waiting or self._under_way:
+                    self._hand_out(client)
+                    for entry in self._take_in():
+                        journal.append(entry)
+                        progress()
+            finally:
+                client.cancel(list(self._under_way))
+
+    def _connect(self) -> Client:
+        try:
+            return Client(self._address, timeout=CONNECTING_S)
+        except (OSError, ValueError) as error:
+            right = "start one with `dask scheduler`, and workers with `dask worker ADDRESS`"
+            raise InputError(f"--cluster {self._address}", str(error), right) from None
+
+    def _hand_out(self, client: Client) -> None:
+        """Give each idle worker a mission; it goes on with its own household if it has one."""
+        workers = set(client.nthreads())
+        for worker in workers - {turns.worker for turns in self._under_way.values()}:
+            if not self._waiting:
+                return
+            turns = min(self._waiting, key=lambda t: (t.worker != worker, t.worker in workers))
+            self._waiting.remove(turns)
+            turns.worker = worker
+            future = client.submit(
+                next_mission,
+                turns.household,
+                turns.before,
+                workers=[worker],
+                allow_other_workers=True,
+                pure=False,
+            )
+            self._under_way[future] = turns
+
+    def _take_in(self) -> Iterator[Entry]:
+        """The missions that have ended, after a little while at most."""
+        if not self._under_way:
+            time.sleep(POLL_S)
+            return
+        with suppress(TimeoutError):
+            wait(list(self._under_way), timeout=POLL_S, return_when="FIRST_COMPLETED")
+        for future in [future for future in self._under_way if future.done()]:
+            turns = self._under_way.pop(future)
+            entry = _result(future, turns)
+            turns.before = [*turns.before, entry]
+            if turns.next is not None:
+                self._waiting.append(turns)
+            yield entry
+
+
+def _result(future: Future[Entry], turns: _Turns) -> Entry:
+    """What came of a mission; one that killed every worker that tried it has crashed."""
+    try:
+        return future.result()
+    except KilledWorker:
+        assert turns.next is not None
+        error = ExecutiveError("its worker process died, and so did those of other attempts")
+        return Entry(households.crash(turns.next, turns.household.keys[turns.next], error))
+    except CancelledError:
+        raise ExecutiveError("the scheduler is lost; the same command goes on from here") from None
+
+
+# --- in a worker process of the cluster ---
+
+_turn = threading.Lock()
+_household: Household | None = None
+_so_far = 0
+_missions: Generator[Entry, None, None] | None = None
+
+
+def next_mission(household: Household, before: Sequence[Entry]) -> Entry:
+    """Run the first mission of the household that is not in `before`; one at a time."""
+    global _household, _so_far, _missions
+    with _turn:
+        if _missions is None or (household, len(before)) != (_household, _so_far):
+            if _missions:
+                _missions.close()
+            _missions = households.run(household, before)
+        _household, _so_far = household, len(before) + 1
+        return next(_missions)

@@ -1,0 +1,133 @@
+"""A report as its parts, and two ways to write it: Markdown with pictures beside it, or HTML."""
+
+from base64 import b64encode
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A file or folder, relative to where the report is."""
+
+    text: str
+    target: str
+
+
+Cell = str | Sequence[Link]
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """The title (level 1) or the head of a section."""
+
+    text: str
+    level: int = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A paragraph, plain."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Heads, and rows of as many cells."""
+
+    heads: Sequence[str]
+    rows: Sequence[Sequence[Cell]]
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A drawing (SVG), the name of its file, and what it shows."""
+
+    name: str
+    caption: str
+    svg: str
+
+
+Part = Heading | Text | Table | Figure
+
+STYLE = """
+body { font: 15px/1.5 sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #111 }
+table { border-collapse: collapse; margin: 1em 0; font-size: 13px }
+table { display: block; overflow-x: auto }
+th, td { border-bottom: 1px solid #bbb; padding: 3px 9px; text-align: left; vertical-align: top }
+th { border-bottom: 2px solid #555 }
+figure { margin: 1.5em 0; break-inside: avoid } figure img { max-width: 100%; height: auto }
+figcaption { font-size: 13px; color: #333 }
+"""
+
+
+def to_markdown(parts: Iterable[Part], pictures: str) -> str:
+    """The report in Markdown (GitHub's tables); figures are files in the folder `pictures`."""
+    return "\n\n".join(_markdown(part, pictures) for part in parts) + "\n"
+
+
+def to_html(parts: Sequence[Part]) -> str:
+    """The report as one file of HTML that needs no other."""
+    title = next((part.text for part in parts if isinstance(part, Heading)), "")
+    body = "\n".join(_html(part) for part in parts)
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        f"<title>{escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n"
+        f"<body>\n{body}\n</body>\n</html>\n"
+    )
+
+
+def write_pictures(parts: Iterable[Part], folder: Path) -> None:
+    """Write each figure to a file of its own; nothing if there are none."""
+    for part in parts:
+        if isinstance(part, Figure):
+            folder.mkdir(exist_ok=True)
+            (folder / f"{part.name}.svg").write_text(part.svg, encoding="utf-8")
+
+
+def _markdown(part: Part, pictures: str) -> str:
+    match part:
+        case Heading(text, level):
+            return f"{'#' * level} {text}"
+        case Text(text):
+            return _escaped(text)
+        case Figure(name, caption, _):
+            return f"![{caption}]({pictures}/{name}.svg)\n\n*{caption}*"
+        case Table(heads, rows):
+            lines = [heads, ["---"] * len(heads), *rows]
+            return "\n".join(f"| {' | '.join(map(_markdown_cell, line))} |" for line in lines)
+
+
+def _markdown_cell(cell: Cell) -> str:
+    if isinstance(cell, str):
+        return _escaped(cell).replace("|", "\\|").replace("\n", " ")
+    return " ".join(f"[{link.text}](<{link.target}>)" for link in cell)
+
+
+def _escaped(text: str) -> str:
+    return text.replace("*", "\\*").replace("<", "&lt;")
+
+
+def _html(part: Part) -> str:
+    match part:
+        case Heading(text, level):
+            return f"<h{level}>{escape(text)}</h{level}>"
+        case Text(text):
+            return f"<p>{escape(text)}</p>"
+        case Figure(_, caption, svg):
+            data = b64encode(svg.encode()).decode()
+            drawing = f'<img alt="{escape(caption)}" src="data:image/svg+xml;base64,{data}">'
+            return f"<figure>{drawing}<figcaption>{escape(caption)}</figcaption></figure>"
+        case Table(heads, rows):
+            head = "".join(f"<th>{escape(cell)}</th>" for cell in heads)
+            lines = ("".join(f"<td>{_html_cell(c)}</td>" for c in row) for row in rows)
+            body = "\n".join(f"<tr>{line}</tr>" for line in lines)
+            return f"<table>\n<tr>{head}</tr>\n{body}\n</table>"
+
+
+def _html_cell(cell: Cell) -> str:
+    if isinstance(cell, str):
+        return escape(cell)
+    return " ".join(f'<a href="{escape(link.target)}">{escape(link.text)}</a>' for link in cell)

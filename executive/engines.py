@@ -1,0 +1,134 @@
+"""Who runs the missions of a campaign: this process, a pool of them, or the workers of a cluster.
+
+An engine is given what is left to do, and appends each mission to the journal when it has ended.
+"""
+
+import multiprocessing
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing.synchronize import Event
+from typing import Protocol
+
+from executive import households
+from executive.errors import ExecutiveError
+from executive.households import Household
+from executive.journal import Entry, Journal
+
+POLL_S = 0.5
+"""How often the journal is looked at while workers write it."""
+
+
+class Engine(Protocol):
+    """Runs missions; a KeyboardInterrupt ends it when the missions under way have ended."""
+
+    def run(
+        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+    ) -> None:
+        """Run every mission that is not in the journal; call `progress` now and then."""
+        ...
+
+
+def own(household: Household, entries: Sequence[Entry]) -> list[Entry]:
+    """The household's missions among these."""
+    keys = set(household.keys)
+    return [entry for entry in entries if entry.row.key in keys]
+
+
+class Here:
+    """This process, one mission after the other."""
+
+    def run(
+        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+    ) -> None:
+        """Run what is left."""
+        before = journal.entries()
+        for household in campaign:
+            for entry in households.run(household, own(household, before)):
+                journal.append(entry)
+                progress()
+
+
+class Pool:
+    """Worker processes on this machine, each with one household at a time."""
+
+    def __init__(self, workers: int, interrupted: Callable[[], bool]) -> None:
+        """Use so many; `interrupted` tells whether Ctrl-C was pressed.
+
+        The exception alone does not do: it is lost if it is raised within a callback.
+        """
+        self._workers = workers
+        self._interrupted = interrupted
+
+    def run(
+        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+    ) -> None:
+        """Run what is left; if a worker is killed, go on with the rest.
+
+        Raises:
+            ExecutiveError: if workers die without any mission ending in between.
+        """
+        while True:
+            ended = len(journal.entries())
+            try:
+                return self._run(campaign, journal, progress)
+            except BrokenProcessPool:
+                if self._interrupted():  # it reached a worker that was still starting
+                    raise KeyboardInterrupt from None
+                if len(journal.entries()) == ended:
+                    raise ExecutiveError(
+                        "a worker process died, and the next one, too, before any mission ended; "
+                        "try --workers 1, which shows why"
+                    ) from None
+
+    def _run(
+        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+    ) -> None:
+        before = journal.entries()
+        context = multiprocessing.get_context("spawn")
+        stop = context.Event()
+        pool = ProcessPoolExecutor(
+            self._workers, mp_context=context, initializer=start_worker, initargs=(stop,)
+        )
+        try:
+            left = {
+                pool.submit(work, household, own(household, before), journal)
+                for household in campaign
+            }
+            while left:
+                if self._interrupted():
+                    raise KeyboardInterrupt
+                done, left = wait(left, timeout=POLL_S)
+                for future in done:
+                    future.result()
+                progress()
+        except BaseException:
+            stop.set()
+            print("\nends when the missions under way have ended", file=sys.stderr)
+            raise
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+# --- in a worker process of the pool ---
+
+_stop: Event | None = None
+
+
+def start_worker(stop: Event) -> None:
+    """Leave Ctrl-C to the parent, which sets `stop`."""
+    global _stop
+    _stop = stop
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def work(household: Household, before: Sequence[Entry], journal: Journal) -> None:
+    """Run a household until it ends or all shall stop."""
+    if _stop and _stop.is_set():
+        return
+    for entry in households.run(household, before):
+        journal.append(entry)
+        if _stop and _stop.is_set():
+            return

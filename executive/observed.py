@@ -1,0 +1,91 @@
+"""What a campaign learns of a mission from its records, beyond its outcome."""
+
+from collections import defaultdict
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+from executive.records import LlmCall, Record, Tick, Transforms, TreeShape, Verified
+from executive.types import Replied, Scored
+from logs.recorder import Stamp
+from sim.navigation import Point
+
+ACTIVITIES = {
+    "DriveToCandidate": "driving",
+    "Visit": "driving",
+    "DriveBack": "driving",
+    "LookAtCandidate": "looking",
+    "SeeTarget": "looking",
+    "LookForLost": "looking",
+    "SeeLost": "looking",
+    "PickUp": "handling",
+    "PutDownAt": "handling",
+}
+"""Class of a behaviour -> what the robot does while it is running."""
+
+
+@dataclass
+class Observed:
+    """A sink that counts and adds up."""
+
+    calls: list[Replied | Scored] = field(default_factory=list)
+    """Of the language model, finished."""
+    names: list[str] = field(default_factory=list)
+    """What it wrote as names of places."""
+    unreached: int = 0
+    """Places that the robot could not get to."""
+    seconds: defaultdict[str, float] = field(default_factory=lambda: defaultdict(float))
+    """Mission time by activity."""
+    positions: list[Point] = field(default_factory=list)
+    """Where the robot's base was, in `map` (metres)."""
+    _activities: dict[str, str] = field(default_factory=dict)
+    _doing: str = ""
+    _since_s: float = 0.0
+
+    def write(self, stamp: Stamp, record: Record) -> None:
+        """Take in a record."""
+        match record:
+            case LlmCall(result):
+                self.calls.append(result)
+            case Verified(_, accepted, rooms, dropped):
+                self.names += [*accepted, *rooms, *dropped]
+            case TreeShape(nodes):
+                self._activities = {
+                    node.path: ACTIVITIES[node.class_name]
+                    for node in nodes
+                    if node.class_name in ACTIVITIES
+                }
+            case Tick():
+                self._take_time(stamp.mission_s, record)
+                self.unreached = len(record.situation["unreached"])
+            case Transforms(transforms):
+                self.positions += [
+                    t.pose.position[:2] for t in transforms if t.child == "base_link"
+                ]
+            case _:
+                pass
+
+    def flush(self) -> None:
+        """Nothing to bring to disk."""
+
+    def close(self) -> None:
+        """Nothing to close."""
+
+    def exchanges(self) -> tuple[tuple[str, str], ...]:
+        """Inquiry and reply of each call about places in which the model wrote."""
+        return tuple(
+            (call.request.messages[-1].content, call.text)
+            for call in self.calls
+            if isinstance(call, Replied) and call.request.label != "command"
+        )
+
+    def path_m(self, leg_m: Callable[[Point, Point], float]) -> float:
+        """How far the robot drove (metres), with the length of each leg between two positions."""
+        return sum(leg_m(a, b) for a, b in pairwise(self.positions))
+
+    def _take_time(self, now_s: float, tick: Tick) -> None:
+        """What was running after the last tick has run until this one."""
+        self.seconds[self._doing] += now_s - self._since_s
+        running = (n.path for n in tick.nodes if n.status == "RUNNING")
+        self._doing = next((a for path in running if (a := self._activities.get(path))), "")
+        self._since_s = now_s

@@ -1,0 +1,304 @@
+"""Who says where to look: the executive as it is, baselines to hold it against, and ablations.
+
+A policy changes settings, or puts another part in the place of the language model or the adviser,
+at their protocols. The tree, the robot and the person are the same for all.
+"""
+
+import random
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from itertools import chain
+from types import MappingProxyType
+from typing import Any
+
+from executive.app import Session, build_model
+from executive.config import KnowledgeSystem, Settings
+from executive.events import Inbox
+from executive.interfaces import Advisor, LanguageModel
+from executive.routes import routes_in
+from executive.types import (
+    ChatRequest,
+    Failed,
+    Message,
+    RankRequest,
+    Scored,
+    Usage,
+    Verdict,
+)
+from kb.advisor import PlaceAdvisor
+from kb.names import unique
+from kb.ontology import Ontology
+from kb.prompts import Prompts
+from kb.verification import Reply
+
+Order = Callable[[str, Sequence[str]], Sequence[str]]
+"""An object's name, and the places that are allowed -> the places in the order to visit them."""
+
+WITHOUT_A_HOME = f"""\
+You help a robot that fetches things in a home. It tells you what it is after, and you tell it \
+where that thing is kept, using everyday common sense. Answer with one JSON object and nothing \
+else. It has to follow this JSON schema: {Reply.model_json_schema()}"""
+"""What a model is told that knows nothing of the home."""
+MOST_NAMES = 5
+"""As many as the prompt asks for."""
+
+
+@dataclass(frozen=True)
+class Policy:
+    """One of them.
+
+    Attributes:
+        description: for the person who chooses.
+        settings: what it sets, whatever else was set.
+        model: makes the language model, or what stands in for one.
+        advisor: makes the adviser for a session with that model.
+    """
+
+    description: str
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    model: Callable[[Settings, Inbox], LanguageModel | None] = build_model
+    advisor: Callable[[Session], Advisor | None] = lambda session: session.advisor
+
+
+# --- baselines: an order of places without a language model ---
+
+
+class Indifferent:
+    """Stands in for a language model: all options are alike to it, and their order stays."""
+
+    name = "none"
+    context_tokens = 4096
+    can_rank = True
+
+    def __init__(self, inbox: Inbox) -> None:
+        """Answer at once."""
+        self._inbox = inbox
+
+    def chat(self, request: ChatRequest) -> int:
+        """Fail: it cannot write."""
+        number = self._inbox.open()
+        self._inbox.end(number, Failed("there is no language model"))
+        return number
+
+    def rank(self, request: RankRequest) -> int:
+        """Score all options alike."""
+        number = self._inbox.open()
+        self._inbox.end(number, Scored(request, (0.0,) * len(request.options), Usage()))
+        return number
+
+    def cancel(self, request: int) -> None:
+        """Forget the request."""
+        self._inbox.drop(request)
+
+    def count_tokens(self, text: str) -> int:
+        """How many words the text has."""
+        return len(text.split())
+
+    def close(self) -> None:
+        """Nothing to free."""
+
+
+class Ordered(PlaceAdvisor):
+    """Names the places in a given order, for a model to which they are all alike."""
+
+    def __init__(self, session: Session, model: LanguageModel, order: Order) -> None:
+        """Order the places of the session's home."""
+        super().__init__(session.knowledge, model, remembers=False)
+        self._order = order
+
+    def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
+        """The allowed places, in order."""
+        request = super().ranking(name, among)
+        words = dict(zip(request.places, request.options, strict=True))
+        places = tuple(self._order(name, request.places))
+        return replace(request, places=places, options=tuple(words[place] for place in places))
+
+
+def nearest(session: Session) -> Order:
+    """Always go to the place that is nearest to where the robot is, by the map."""
+    routes = routes_in(session.settings.home)
+
+    def order(name: str, places: Sequence[str]) -> list[str]:
+        here, left, tour = session.home.robot_start[:2], list(places), list[str]()
+        while left:
+            tour.append(min(left, key=lambda place: routes.length(here, routes.stand(place))))
+            left.remove(tour[-1])
+            here = routes.stand(tour[-1])
+        return tour
+
+    return order
+
+
+def by_chance(session: Session) -> Order:
+    """Any order; the same for the same seed and object."""
+
+    def order(name: str, places: Sequence[str]) -> list[str]:
+        chance = random.Random(f"{session.settings.seed} {name}")
+        return chance.sample(list(places), len(places))
+
+    return order
+
+
+@cache
+def the_survey() -> Ontology:
+    """The ontology with the survey's default locations, whatever a mission's situation."""
+    return Ontology(defaults=True)
+
+
+def popular(session: Session | None = None) -> Order:
+    """Where other things usually are, by the survey; equals in the home's order.
+
+    The record that the asked object takes its own default locations from is left out, and with it
+    all that share it. The survey is used in both situations.
+    """
+    survey = the_survey()
+    recorded = survey.recorded_locations()
+
+    def order(name: str, places: Sequence[str]) -> list[str]:
+        own = next((n for n in (name, *survey.classes_of(name)) if n in recorded), None)
+        others = (where for other, where in recorded.items() if other != own)
+        counts = Counter(chain.from_iterable(others))
+        return sorted(places, key=lambda place: -counts[place])
+
+    return order
+
+
+def true_first(session: Session) -> Order:
+    """The place where the thing truly is, then the others: knows the truth, as no robot does."""
+
+    def order(name: str, places: Sequence[str]) -> list[str]:
+        truth = session.home.placement.get(name)
+        return sorted(places, key=lambda place: place != truth)
+
+    return order
+
+
+def baseline(description: str, rule: Callable[[Session], Order]) -> Policy:
+    """A policy that goes by a rule instead of a language model."""
+
+    def model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
+        return None if settings.knowledge == KnowledgeSystem.OKB else Indifferent(inbox)
+
+    def advisor(session: Session) -> Advisor | None:
+        return Ordered(session, session.model, rule(session)) if session.model else None
+
+    return Policy(description, {"llm": "none", "elicit": "rank"}, model, advisor)
+
+
+# --- ablations: a language model that writes, less a part of what is built around it ---
+
+
+class Reworded:
+    """A language model that is asked in other words: implements `LanguageModel` around one."""
+
+    def __init__(self, model: LanguageModel, reword: Callable[[ChatRequest], ChatRequest]) -> None:
+        """Reword what it is asked to write."""
+        self._model = model
+        self._reword = reword
+        self.name = model.name
+        self.context_tokens = model.context_tokens
+        self.can_rank = model.can_rank
+
+    def chat(self, request: ChatRequest) -> int:
+        """Ask in other words, if it is about places."""
+        about_places = request.label != "command"
+        return self._model.chat(self._reword(request) if about_places else request)
+
+    def rank(self, request: RankRequest) -> int:
+        """Ask as it is."""
+        return self._model.rank(request)
+
+    def cancel(self, request: int) -> None:
+        """Call it off."""
+        self._model.cancel(request)
+
+    def count_tokens(self, text: str) -> int:
+        """By the model's tokenizer."""
+        return self._model.count_tokens(text)
+
+    def close(self) -> None:
+        """Free the model."""
+        self._model.close()
+
+
+def any_names(request: ChatRequest) -> ChatRequest:
+    """Hold the reply to its form, but not to the names that exist."""
+    schema = Reply.model_json_schema()
+    schema["properties"]["places"] |= {"minItems": 1, "maxItems": MOST_NAMES}
+    return replace(request, schema=schema)
+
+
+def no_home(request: ChatRequest) -> ChatRequest:
+    """Tell the model nothing of the home."""
+    told = [message for message in request.messages if message.role != "system"]
+    return replace(any_names(request), messages=(Message("system", WITHOUT_A_HOME), *told))
+
+
+class Unverified(PlaceAdvisor):
+    """Takes every name for a place."""
+
+    def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
+        """Let all pass."""
+        return Verdict(unique(names))
+
+
+def reworded(
+    reword: Callable[[ChatRequest], ChatRequest],
+) -> Callable[[Settings, Inbox], LanguageModel | None]:
+    """Makes the model of the settings, to be asked in other words."""
+
+    def model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
+        inner = build_model(settings, inbox)
+        return Reworded(inner, reword) if inner else None
+
+    return model
+
+
+def unverified(session: Session) -> Advisor | None:
+    """Makes an adviser without the existence check."""
+    if session.model is None:
+        return None
+    settings = session.settings
+    return Unverified(
+        session.knowledge,
+        session.model,
+        remembers=settings.remembers,
+        top=settings.top,
+        prompts=Prompts.load(settings.prompts),
+    )
+
+
+WRITES, HELD = {"elicit": "generate", "grammar": False}, {"elicit": "generate", "grammar": True}
+
+POLICIES: Mapping[str, Policy] = MappingProxyType(
+    {
+        "ours": Policy("the executive as the settings make it"),
+        "rank": Policy("the model scores the places that exist", {"elicit": "rank"}),
+        "generate": Policy("the model writes a list, which is verified: the paper's way", WRITES),
+        "generate-form": Policy("the same, held to the list's form", HELD, reworded(any_names)),
+        "generate-grammar": Policy("the same, held to the list's form and to real names", HELD),
+        "unverified": Policy(
+            "generate-form without the verification: the robot sets out for invented places",
+            HELD,
+            reworded(any_names),
+            unverified,
+        ),
+        "llm-alone": Policy(
+            "unverified, and the model is told nothing of the home, nor of default locations",
+            {**HELD, "defaults": False},
+            reworded(no_home),
+            unverified,
+        ),
+        "nearest": baseline("the nearest furniture first", nearest),
+        "random": baseline("any order", by_chance),
+        "popularity": baseline("where most other things are by the survey", popular),
+        "true-first": baseline("the bound: a stand-in that knows where the thing is", true_first),
+        "always-asks": Policy(
+            "a fault put in by hand: neither default locations nor a model, so the person is asked",
+            {"llm": "none", "defaults": False},
+        ),
+    }
+)
+"""By name."""

@@ -1,0 +1,57 @@
+"""How far it is from here to there for the robot, by the map of one home."""
+
+from functools import cache, cached_property
+from itertools import pairwise
+from math import dist, inf
+
+import numpy as np
+
+from sim.home import Home, load_home
+from sim.navigation import Floats, OccupancyGrid, Point, Unreachable, plan
+
+
+class Lengths(OccupancyGrid):
+    """A grid on which a metre costs a metre, however tight it is: the cheapest way is shortest."""
+
+    @cached_property
+    def price(self) -> Floats:
+        """(columns, rows) 1 where the robot can be, else infinite."""
+        return np.where(self.free, 1.0, np.inf)
+
+
+class Routes:
+    """Shortest ways in a home."""
+
+    def __init__(self, home: Home) -> None:
+        """Draw up the map."""
+        self._home = home
+        self._grid = Lengths.from_home(home)
+        self._known: dict[tuple[Point, Point], float] = {}
+
+    def stand(self, place: str) -> Point:
+        """Where the robot stands to use a piece of furniture, or to talk to the `person`."""
+        x, y, _ = self._home.stand(place)
+        return x, y
+
+    def length(self, start: Point, goal: Point) -> float:
+        """Length of the shortest way (metres); infinite if there is none."""
+        if (start, goal) not in self._known:
+            self._known[start, goal] = self._measure(start, goal)
+        return self._known[start, goal]
+
+    def tour(self, points: tuple[Point, ...]) -> float:
+        """Length of the shortest way through these points, in this order (metres)."""
+        return sum(self.length(a, b) for a, b in pairwise(points))
+
+    def _measure(self, start: Point, goal: Point) -> float:
+        try:
+            way = plan(self._grid, start, goal)
+        except Unreachable:
+            return inf
+        return sum(dist(a, b) for a, b in pairwise(way))
+
+
+@cache
+def routes_in(home: str) -> Routes:
+    """The routes of a home, by its name or file; drawn up once in a process."""
+    return Routes(load_home(home))

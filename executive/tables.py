@@ -1,0 +1,331 @@
+"""The tables of a report: the paper's with ours beside its figures, and those that it lacks."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from os.path import relpath
+from pathlib import Path
+from statistics import fmean
+
+from executive import paper
+from executive.config import KnowledgeSystem
+from executive.document import Cell, Link, Table
+from executive.journal import Row
+from executive.paper import Condition
+from executive.statistics import Comparison, Summary, compare, pairwise, stars
+from executive.types import Status
+from executive.variants import Column, Variant, by_command, by_mission, of, summary_of
+
+Lines = list[list[str]]
+
+MEASURES: Mapping[str, tuple[Column, dict[Condition, tuple[float, float]]]] = {
+    "inquiries": (lambda row: row.inquiries, paper.INQUIRIES),
+    "visits": (lambda row: row.visits, paper.VISITS),
+}
+"""What the paper reports by mean and SD, with stars."""
+
+COST: Mapping[str, Callable[[Sequence[Row]], float]] = {
+    "list generation [s]": lambda rows: fmean(r.thinking_time_s for r in rows),
+    "calls of the LLM": lambda rows: fmean(r.llm_calls for r in rows),
+    "each LLM output [s]": lambda rows: sum(r.llm_s for r in rows) / sum(r.llm_calls for r in rows),
+    "generated tokens": lambda rows: (
+        sum(r.generated_tokens for r in rows) / sum(r.llm_calls for r in rows)
+    ),
+}
+
+ACTIVITIES: Mapping[str, Column] = {
+    "thinking": lambda row: row.thinking_time_s,
+    "driving": lambda row: row.driving_s,
+    "looking": lambda row: row.looking_s,
+    "handling": lambda row: row.handling_s,
+    "other": lambda row: max(0.0, row.mission_time_s - sum(_known_s(row))),
+}
+"""What a mission's time (s) goes into."""
+
+
+def _known_s(row: Row) -> tuple[float, ...]:
+    return row.thinking_time_s, row.driving_s, row.looking_s, row.handling_s
+
+
+def overview(found: Sequence[Variant]) -> Table:
+    """What matters most, at a glance."""
+
+    def lines(variant: Variant) -> Lines:
+        table = []
+        for title, (column, figures) in MEASURES.items():
+            for defaults in (False, True):
+                cells = (
+                    _mean_cell(
+                        of(variant.rows, (system, defaults)), column, figures[system, defaults][0]
+                    )
+                    for system in paper.SYSTEMS
+                )
+                table.append([f"{title}, {situation(defaults)}", *cells])
+        figures_s = paper.COST["list generation [s]"]
+        for defaults in (False, True) if asked(variant.rows) else ():
+            thinking = [
+                _mean_cell(
+                    asked(of(variant.rows, (system, defaults))),
+                    lambda row: row.thinking_time_s,
+                    figures_s.get((system, defaults)),
+                )
+                for system in paper.SYSTEMS
+            ]
+            table.append([f"list generation, {situation(defaults)} [s]", *thinking])
+        return table
+
+    return _each(found, ["", *map(str, paper.SYSTEMS)], lines)
+
+
+def completion(found: Sequence[Variant]) -> Table:
+    """How many missions were done by the simulator's truth, and by what the robot said; SPL."""
+
+    def lines(variant: Variant) -> Lines:
+        table = []
+        for system in paper.SYSTEMS:
+            mine = [row for row in variant.own if row.key.system == system]
+            done = summary_of(mine, lambda row: 100.0 * row.completed)
+            said = summary_of(mine, lambda row: 100.0 * (row.status == Status.DONE))
+            spl = summary_of(mine, lambda row: row.spl)
+            if done and said and spl:
+                table.append(
+                    [
+                        system,
+                        f"{done.mean:.1f} % ({100 * paper.COMPLETION[system]:.1f} %)",
+                        interval(done, 1),
+                        f"{said.mean:.1f} %",
+                        f"{spl.mean:.2f}",
+                        interval(spl, 2),
+                        str(done.n),
+                    ]
+                )
+        return table
+
+    heads = ["system", "completed", "95 %", "said to be done", "SPL", "95 %", "n"]
+    return _each(found, heads, lines)
+
+
+def times(found: Sequence[Variant]) -> Table:
+    """Mission time of completed missions, by kind and condition."""
+
+    def lines(variant: Variant) -> Lines:
+        done = [row for row in variant.rows if row.completed]
+        return [
+            [
+                kind,
+                *(
+                    _mean_cell(of(done, condition, kind), lambda row: row.mission_time_s, t, 1)
+                    for condition, t in figures.items()
+                ),
+            ]
+            for kind, figures in paper.TIME_S.items()
+        ]
+
+    return _each(found, ["", *map(name, paper.CONDITIONS)], lines)
+
+
+def time_split(found: Sequence[Variant]) -> Table:
+    """What the time of a mission went into, by condition."""
+
+    def lines(variant: Variant) -> Lines:
+        return [
+            [
+                name(condition),
+                *(f"{fmean(map(column, mine)):.1f}" for column in ACTIVITIES.values()),
+            ]
+            for condition in paper.CONDITIONS
+            if (mine := of(variant.own, condition))
+        ]
+
+    return _each(found, ["condition", *(f"{activity} [s]" for activity in ACTIVITIES)], lines)
+
+
+def measure(found: Sequence[Variant], title: str) -> Table:
+    """Mean, interval and SD of each condition."""
+    column, figures = MEASURES[title]
+
+    def lines(variant: Variant) -> Lines:
+        table = []
+        for condition, (mean, sd) in figures.items():
+            if summary := summary_of(of(variant.own, condition), column):
+                table.append(
+                    [
+                        name(condition),
+                        f"{summary.mean:.2f} ({mean:.2f})",
+                        interval(summary, 2),
+                        f"{summary.sd:.2f} ({sd:.2f})",
+                        str(summary.n),
+                    ]
+                )
+        return table
+
+    return _each(found, ["condition", "mean", "95 %", "SD", "n"], lines)
+
+
+def differences(found: Sequence[Variant], title: str) -> Table:
+    """Wilcoxon's signed-rank test of each two systems, in each situation."""
+    column, _ = MEASURES[title]
+
+    def lines(variant: Variant) -> Lines:
+        table = []
+        for defaults in (False, True):
+            commands, missions = system_tests(variant.rows, column, defaults)
+            for command, mission in zip(commands, missions, strict=True):
+                table.append(
+                    [
+                        situation(defaults),
+                        f"{command.a} - {command.b}",
+                        f"{command.difference:+.2f}",
+                        _p(command),
+                        _p(mission),
+                    ]
+                )
+        return table
+
+    heads = ["situation", "systems", "difference", "p by command", "p by mission"]
+    return _each(found, heads, lines)
+
+
+Tests = list[Comparison[KnowledgeSystem]]
+
+
+def system_tests(rows: Iterable[Row], column: Column, defaults: bool) -> tuple[Tests, Tests]:
+    """Each two systems compared in a situation: by command, and by mission."""
+    mine = {
+        system: one
+        for system in paper.SYSTEMS
+        if (one := of(rows := list(rows), (system, defaults)))
+    }
+    return (
+        pairwise({system: by_command(one, column) for system, one in mine.items()}),
+        pairwise({system: by_mission(one, column) for system, one in mine.items()}),
+    )
+
+
+def policies(found: Sequence[Variant]) -> Table:
+    """Every variant beside the first, in each condition with a language model."""
+    lines: Lines = []
+    for condition in paper.CONDITIONS:
+        mine = {v.name: one for v in found if (one := of(v.own, condition))}
+        if len(mine) < 2:
+            continue
+        p = {title: _against_first(mine, column) for title, (column, _) in MEASURES.items()}
+        for variant, rows in mine.items():
+            lines.append(
+                [
+                    name(condition),
+                    variant,
+                    *(_mean(rows, MEASURES[t][0]) + p[t].get(variant, "") for t in MEASURES),
+                    _mean(rows, lambda row: row.failed_visits),
+                    f"{sum(row.invented for row in rows)} of {sum(row.named for row in rows)}",
+                    f"{100 * fmean(row.completed for row in rows):.1f} %",
+                    _mean(rows, lambda row: row.spl),
+                    str(len(rows)),
+                ]
+            )
+    heads = [
+        "condition",
+        "variant",
+        *MEASURES,
+        "failed visits",
+        "invented names",
+        "completed",
+        "SPL",
+    ]
+    return Table([*heads, "n"], lines)
+
+
+def cost(found: Sequence[Variant]) -> Table:
+    """What consulting the language model cost, of missions that did."""
+
+    def lines(variant: Variant) -> Lines:
+        consulted = asked(variant.own)
+        if not consulted:
+            return []
+        table = []
+        for title, figures in paper.COST.items():
+            cells = []
+            for condition, figure in figures.items():
+                mine = of(consulted, condition)
+                ours = f"{COST[title](mine):.2f}" if mine else "-"
+                cells.append(f"{ours} ({figure:.2f})")
+            table.append([title, *cells])
+        return table
+
+    return _each(found, ["", *map(name, next(iter(paper.COST.values())))], lines)
+
+
+def failures(rows: Iterable[Row], folder: Path) -> Table:
+    """Why missions were not completed, commonest first, with their recordings."""
+    causes: dict[tuple[str, str, str, str], list[Row]] = {}
+    for row in rows:
+        if not row.completed:
+            where = name((row.key.system, row.defaults))
+            causes.setdefault((row.status, _reason(row), row.policy, where), []).append(row)
+    lines: list[list[Cell]] = []
+    for cause, failed in sorted(causes.items(), key=lambda item: -len(item[1])):
+        links = [
+            Link(f"{row.command.rstrip('.')} (seed {row.seed})", relpath(row.run_dir, folder))
+            for row in failed
+            if row.run_dir
+        ]
+        lines.append([*cause, str(len(failed)), links or "not recorded"])
+    return Table(["status", "reason", "policy", "condition", "missions", "recordings"], lines)
+
+
+def name(condition: Condition) -> str:
+    """A condition as the head of a column."""
+    system, defaults = condition
+    return f"{system}, {situation(defaults)}"
+
+
+def situation(defaults: bool) -> str:
+    """Whether the ontology knows default locations."""
+    return "defaults" if defaults else "no defaults"
+
+
+def asked(rows: Iterable[Row]) -> list[Row]:
+    """The missions in which a language model was asked."""
+    return [row for row in rows if row.llm_calls and row.llm != "none"]
+
+
+def interval(summary: Summary, digits: int) -> str:
+    """From the low to the high end."""
+    return f"{summary.low:.{digits}f} to {summary.high:.{digits}f}"
+
+
+def _each(
+    found: Sequence[Variant], heads: Sequence[str], lines: Callable[[Variant], Lines]
+) -> Table:
+    """One table of all variants, named in a column of their own if there are several."""
+    if len(found) == 1:
+        return Table(heads, lines(found[0]))
+    named = [[variant.name, *line] for variant in found for line in lines(variant)]
+    return Table(["variant", *heads], named)
+
+
+def _mean(rows: Sequence[Row], column: Column) -> str:
+    return f"{fmean(map(column, rows)):.2f}"
+
+
+def _mean_cell(rows: Sequence[Row], column: Column, theirs: float | None, digits: int = 2) -> str:
+    """Our mean, and the paper's in brackets; empty if neither is known."""
+    ours = f"{fmean(map(column, rows)):.{digits}f}" if rows else "" if theirs is None else "-"
+    return ours + (f" ({theirs:.{digits}f})" if theirs is not None else "")
+
+
+def _against_first(rows: Mapping[str, Sequence[Row]], column: Column) -> dict[str, str]:
+    """The stars of each variant's difference from the first, by command."""
+    columns = {variant: by_command(mine, column) for variant, mine in rows.items()}
+    first, *others = columns
+    tests = compare(columns, [(first, other) for other in others])
+    return {str(test.b): f" {stars(test.p)}".rstrip() for test in tests}
+
+
+def _reason(row: Row) -> str:
+    if row.status != Status.DONE:
+        return row.reason
+    return f"said to be done, but the {row.object} is truly {row.truth or 'on no furniture'}"
+
+
+def _p(comparison: Comparison[KnowledgeSystem]) -> str:
+    p = "< 0.001" if comparison.p < 0.001 else f"{comparison.p:.3f}"
+    return f"{p} {stars(comparison.p)} (n = {comparison.pairs})".replace("  ", " ")

@@ -1,0 +1,81 @@
+"""The missions of a campaign, apart by policy, home and model, and by what they measure."""
+
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from dataclasses import dataclass
+from statistics import fmean
+
+from executive.config import KnowledgeSystem
+from executive.journal import Row
+from executive.paper import Condition
+from executive.statistics import Summary, grouped, summarize
+from executive.types import Kind
+
+OKB = KnowledgeSystem.OKB
+Column = Callable[[Row], float]
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """What one policy did in one home with one model.
+
+    Attributes:
+        name: what it is called: in what it differs from the others; empty if it is the only one.
+        rows: its missions, and those of okb in the same home.
+        own: the same, less those of okb if an earlier variant has them.
+    """
+
+    name: str
+    rows: Sequence[Row]
+    own: Sequence[Row]
+
+
+def variants(rows: Sequence[Row]) -> list[Variant]:
+    """In the order of the rows; okb, which asks no model, belongs to every variant of its home."""
+    asking = [row for row in rows if row.key.system != OKB] or rows
+    which = list(dict.fromkeys((row.policy, row.home, row.llm) for row in asking))
+    differs = [len({one[part] for one in which} - {"none"}) > 1 for part in range(3)]
+    found, homes = list[Variant](), set[str]()
+    for one in which:
+        own = [row for row in asking if (row.policy, row.home, row.llm) == one]
+        shared = [] if own[0].key.system == OKB else _of_okb(rows, home=one[1])
+        name = ", ".join(part for part, shown in zip(one, differs, strict=True) if shown)
+        found.append(Variant(name, [*shared, *own], own if one[1] in homes else [*shared, *own]))
+        homes.add(one[1])
+    return found
+
+
+def _of_okb(rows: Iterable[Row], home: str) -> list[Row]:
+    return [row for row in rows if row.key.system == OKB and row.home == home]
+
+
+def of(rows: Iterable[Row], condition: Condition, kind: Kind | None = None) -> list[Row]:
+    """The missions of a system in a situation, of one kind or all."""
+    return [
+        row
+        for row in rows
+        if (row.key.system, row.defaults) == condition and kind in (None, row.kind)
+    ]
+
+
+def summary_of(rows: Iterable[Row], column: Column) -> Summary | None:
+    """The column's summary, with its interval over the commands."""
+    return summarize(grouped((row.command, column(row)) for row in rows))
+
+
+def by_command(rows: Iterable[Row], column: Column) -> dict[Hashable, float]:
+    """Of each command the mean over its missions."""
+    return _by(rows, column, lambda row: row.command)
+
+
+def by_mission(rows: Iterable[Row], column: Column) -> dict[Hashable, float]:
+    """Of each command with each seed its value."""
+    return _by(rows, column, lambda row: (row.command, row.seed))
+
+
+def _by(
+    rows: Iterable[Row], column: Column, unit: Callable[[Row], Hashable]
+) -> dict[Hashable, float]:
+    values: dict[Hashable, list[float]] = {}
+    for row in rows:
+        values.setdefault(unit(row), []).append(column(row))
+    return {key: fmean(several) for key, several in values.items()}
