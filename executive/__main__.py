@@ -153,6 +153,7 @@ def parser() -> argparse.ArgumentParser:
         help="where a thing truly is; repeatable (default: as in the home file)",
     )
     option("--world", choices=["physics", "fake"])
+    option("--detector", metavar="learned, simulated or FILE.onnx")
     option("--camera-hz", type=float, metavar="RATE")
     option("--fault", action="append", metavar="FAULT[=VALUE][@FROM[-TO]]")
     option("--ycb", type=Path, metavar="DIR")

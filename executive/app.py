@@ -16,12 +16,14 @@ from typing import TextIO
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
 from executive.config import Settings
+from executive.detector import LEARNED, OnnxDetector
 from executive.errors import InputError
 from executive.events import Ended, Inbox, Started, StopRequested
 from executive.interfaces import (
     Advisor,
     Camera,
     Detector,
+    Knowledge,
     LanguageModel,
     Recorder,
     Robot,
@@ -103,7 +105,7 @@ class Session:
         self.recorder = FanOut(lambda: self.clock.now())
         self.mishaps = build_mishaps(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
-            settings, self.home, self.inbox, self.recorder, gui, self.mishaps
+            settings, self.home, self.inbox, self.recorder, self.knowledge, gui, self.mishaps
         )
         self.clock = SimulatedClock(self.inbox, self.world)
         self.eyes = Eyes(camera, detector, self.inbox, self.recorder)
@@ -273,6 +275,7 @@ def build_simulation(
     home: Home,
     inbox: Inbox,
     recorder: Recorder,
+    knowledge: Knowledge,
     gui: bool = False,
     mishaps: Mishaps | None = None,
 ) -> tuple[SimulatedHome, Robot, Camera, Detector]:
@@ -301,6 +304,9 @@ def build_simulation(
             mishaps=mishaps,
         )
         robot, camera, detector = physics.robot, physics.camera, physics.detector
+        if settings.detector != "simulated":
+            file = LEARNED if settings.detector == "learned" else Path(settings.detector)
+            detector = OnnxDetector(file, knowledge.objects_named)
     if mishaps:
         detector = FaultyDetector(detector, mishaps, tuple(home.objects))
     return world, robot, camera, detector

@@ -47,6 +47,10 @@ class Settings(BaseSettings):
         default_factory=dict, description="where things truly are, beside the home file"
     )
     world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
+    detector: str = Field(
+        "learned",
+        description="learned, simulated (never wrong), or FILE.onnx; the fake world has its own",
+    )
     fault: tuple[str, ...] = Field((), description="what goes wrong in the simulated world")
     ycb: Path | None = Field(
         None, description="folder of YCB models to see instead of the packaged meshes"
@@ -72,6 +76,9 @@ class Settings(BaseSettings):
     answer_timeout_s: float = Field(120.0, gt=0, description="how long to wait for the person")
     llm_timeout_s: float = Field(60.0, gt=0, description="how long to wait for the model")
     action_timeout_s: float = Field(120.0, gt=0, description="how long an action may take")
+    sure: float = Field(
+        0.5, gt=0, le=1, description="confidence from which what is seen is believed"
+    )
     camera_hz: float = Field(1.0, ge=0, description="pictures for the log while the robot moves")
 
     @field_validator("llm")
@@ -82,6 +89,13 @@ class Settings(BaseSettings):
         if value.startswith(("http://", "https://")):
             return value
         raise ValueError("should be embedded, none, a FILE.gguf or http://host:port/v1")
+
+    @field_validator("detector")
+    @classmethod
+    def _known_detector(cls, value: str) -> str:
+        if value in ("learned", "simulated") or value.endswith(".onnx"):
+            return value
+        raise ValueError("should be learned, simulated or a FILE.onnx")
 
     @property
     def uses_llm(self) -> bool:

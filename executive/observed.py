@@ -16,6 +16,7 @@ ACTIVITIES = {
     "DriveBack": "driving",
     "LookAtCandidate": "looking",
     "SeeTarget": "looking",
+    "LookCloser": "looking",
     "LookForLost": "looking",
     "SeeLost": "looking",
     "PickUp": "handling",

@@ -72,6 +72,15 @@ def back_project(
     return transform(frame.pose, in_camera).astype(np.float32)
 
 
+def back_project_grid(frame: Frame, rows: slice, columns: slice) -> NDArray[np.float64]:
+    """Points in `map` (h, w, 3; metres) seen in a part of the picture; NaN without depth."""
+    row, column = np.mgrid[rows, columns]
+    depth = frame.depth[rows, columns].astype(np.float64).ravel()
+    depth[~np.isfinite(depth)] = np.nan
+    in_camera = rays(frame.intrinsics, row.ravel(), column.ravel()) * depth[:, None]
+    return transform(frame.pose, in_camera).reshape(*row.shape, 3)
+
+
 def rays(
     intrinsics: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.intp]
 ) -> NDArray[np.float64]:

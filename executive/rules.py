@@ -12,4 +12,5 @@ def rules(settings: Settings) -> Rules:
         answer_s=settings.answer_timeout_s,
         model_s=settings.llm_timeout_s,
         action_s=settings.action_timeout_s,
+        sure=settings.sure,
     )

@@ -64,6 +64,8 @@ class Situation:
     visited: list[str] = field(default_factory=list)
     unreached: dict[str, str] = field(default_factory=dict)
     """Places that the robot could not get to, and why."""
+    doubtful: Detection | None = None
+    """What may be the thing, in the last picture; None if nothing, or if it surely is."""
     unseen: dict[str, str] = field(default_factory=dict)
     """Places that the robot got to but could not look at, and why."""
     detection: Detection | None = None

@@ -135,11 +135,13 @@ class DriveTo:
 class LookAt:
     """Point the head at a place, `delivery` or the `floor`.
 
-    `view` counts from 0 to `Robot.views(place) - 1`.
+    `view` counts from 0 to `Robot.views(place) - 1`. With a `point` of `map` (metres) given, that
+    is in the middle of the picture instead.
     """
 
     place: str
     view: int = 0
+    point: Vector3 | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

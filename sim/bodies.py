@@ -31,7 +31,7 @@ ROLLING_FRICTION = 5e-4
 """Resistance of round things (metres, as PyBullet has it): a ball left alone comes to rest."""
 SETTLING_STEPS = 120
 
-_PERSON = (
+PERSON_SHAPES = (
     Shape("cylinder", (0.30, 0.30, 0.80), (0.22, 0.25, 0.33, 1.0), Pose((0.0, 0.0, 0.40))),
     Shape("cylinder", (0.38, 0.38, 0.62), (0.30, 0.48, 0.42, 1.0), Pose((0.0, 0.0, 1.11))),
     Shape("sphere", (0.23, 0.23, 0.23), (0.85, 0.66, 0.53, 1.0), Pose((0.0, 0.0, 1.55))),
@@ -129,20 +129,23 @@ def place_objects(
     """
     names = {}
     for name in home.objects:
-        model = models[name]
-        body = create_body(
-            client,
-            model.shapes,
-            home.object_pose(name),
-            model.mass_kg,
-            model.friction,
-            model.center_of_mass,
-            model.look,
-        )
-        names[body] = name
+        names[create_object(client, models[name], home.object_pose(name))] = name
     for _ in range(SETTLING_STEPS):
         client.stepSimulation()
     return names
+
+
+def create_object(client: BulletClient, model: ObjectModel, pose: Pose) -> int:
+    """Build one of the objects, its frame at `pose` in `map`, and return its id."""
+    return create_body(
+        client,
+        model.shapes,
+        pose,
+        model.mass_kg,
+        model.friction,
+        model.center_of_mass,
+        model.look,
+    )
 
 
 def home_entities(home: Home, models: Mapping[str, ObjectModel]) -> tuple[Entity, ...]:
@@ -169,7 +172,7 @@ def _fixtures(home: Home) -> Iterator[tuple[str, tuple[Shape, ...], Pose]]:
         yield f"wall_{number}", (shape,), Pose((*wall.center, 0.0))
     for piece in (*home.furniture, home.delivery):
         yield piece.name, piece.shapes(), piece.frame()
-    yield PERSON, _PERSON, Pose((home.person[0], home.person[1], 0.0))
+    yield PERSON, PERSON_SHAPES, Pose((home.person[0], home.person[1], 0.0))
 
 
 def _moved(shape: Shape, pose: Pose) -> Shape:

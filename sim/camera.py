@@ -4,8 +4,9 @@ Pictures come from PyBullet's TinyRenderer, which computes on the CPU.
 """
 
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 import pybullet as p
@@ -13,14 +14,35 @@ from numpy.typing import NDArray
 from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
-from executive.types import Box, Detection, Frame, Intrinsics, Pose
+from executive.types import Box, Detection, Frame, Intrinsics, Pose, Vector3
 
 NEAR_M, FAR_M = 0.05, 15.0
-LIGHT_DIRECTION = (-0.4, -0.3, 1.0)
 BACKGROUND = -1
-KEPT_SEGMENTATIONS = 32
+KEPT_SEGMENTATIONS = 4
 _OPTICAL_TO_OPENGL = np.diag([1.0, -1.0, -1.0, 1.0])
 """OpenGL cameras look along -z with y up, optical frames along z with y down."""
+
+
+@dataclass(frozen=True, slots=True)
+class Light:
+    """One lamp at infinity, and what comes from everywhere.
+
+    Attributes:
+        direction: towards the lamp, in `map`.
+        color: of the lamp; red, green, blue in [0, 1].
+        ambient: share of a surface's colour that it shows without the lamp.
+        diffuse: share that the lamp adds where it shines straight on it.
+        specular: strength of reflections.
+    """
+
+    direction: Vector3 = (-0.4, -0.3, 1.0)
+    color: Vector3 = (1.0, 1.0, 1.0)
+    ambient: float = 0.65
+    diffuse: float = 0.4
+    specular: float = 0.02
+
+
+DAYLIGHT = Light()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,14 +60,24 @@ class Rendering:
     segmentation: NDArray[np.int32]
 
 
-def pinhole(width: int = 320, height: int = 240, hfov: float = np.radians(65.0)) -> Intrinsics:
+def pinhole(width: int, height: int, hfov: float = np.radians(65.0)) -> Intrinsics:
     """A camera with square pixels and a horizontal field of view (radians)."""
     focal = width / 2 / float(np.tan(hfov / 2))
     return Intrinsics(width, height, focal, focal, (width - 1) / 2, (height - 1) / 2)
 
 
+LOOKING = pinhole(640, 480)
+"""The camera that things are recognised with."""
+GLANCING = pinhole(320, 240)
+"""The same with pixels four times as large, where a picture must cost little."""
+
+
 def render(
-    client: BulletClient, pose: Pose, intrinsics: Intrinsics, far: float = FAR_M
+    client: BulletClient,
+    pose: Pose,
+    intrinsics: Intrinsics,
+    far: float = FAR_M,
+    light: Light = DAYLIGHT,
 ) -> Rendering:
     """Draw the world, up to `far` metres, as a camera sees it whose optical frame is at `pose`."""
     width, height = intrinsics.width, intrinsics.height
@@ -54,10 +86,11 @@ def render(
         height,
         _view_matrix(pose),
         _projection_matrix(intrinsics, far),
-        lightDirection=LIGHT_DIRECTION,
-        lightAmbientCoeff=0.65,
-        lightDiffuseCoeff=0.4,
-        lightSpecularCoeff=0.02,
+        lightDirection=light.direction,
+        lightColor=light.color,
+        lightAmbientCoeff=light.ambient,
+        lightDiffuseCoeff=light.diffuse,
+        lightSpecularCoeff=light.specular,
         shadow=0,
         renderer=p.ER_TINY_RENDERER,
     )
@@ -76,21 +109,24 @@ class SimulatedCamera:
         self,
         client: BulletClient,
         pose: Callable[[], Pose],
-        intrinsics: Intrinsics | None = None,
+        lens: Intrinsics = LOOKING,
+        numbers: Iterator[int] | None = None,
     ) -> None:
-        """Look through the camera whose optical frame in `map` is given by `pose`."""
+        """Look through the camera whose optical frame in `map` is given by `pose`.
+
+        Cameras that share `numbers` count their pictures together.
+        """
         self._client = client
         self._pose = pose
-        self.intrinsics = intrinsics or pinhole()
+        self._lens = lens
+        self._numbers = count() if numbers is None else numbers
         self._segmentations: OrderedDict[int, NDArray[np.int32]] = OrderedDict()
-        self._taken = 0
 
     def capture(self) -> Frame:
         """The picture of this moment."""
         pose = self._pose()
-        seen = render(self._client, pose, self.intrinsics)
-        frame = Frame(self._taken, seen.color, seen.depth, self.intrinsics, pose)
-        self._taken += 1
+        seen = render(self._client, pose, self._lens)
+        frame = Frame(next(self._numbers), seen.color, seen.depth, self._lens, pose)
         self._segmentations[frame.number] = seen.segmentation
         if len(self._segmentations) > KEPT_SEGMENTATIONS:
             self._segmentations.popitem(last=False)
@@ -113,7 +149,7 @@ class SimulatedDetector:
     """
 
     def __init__(
-        self, camera: SimulatedCamera, names: Mapping[int, str], minimum_pixels: int = 40
+        self, camera: SimulatedCamera, names: Mapping[int, str], minimum_pixels: int = 160
     ) -> None:
         """Recognise the bodies in `names` (name by body id) that show `minimum_pixels`."""
         self._camera = camera

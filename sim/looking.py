@@ -16,10 +16,7 @@ def look_at(hardware: Hardware, target: Vector3) -> Skill:
     Raises:
         CannotError: if the head does not get there.
     """
-    x, y, z = hardware.link_pose("camera_link").position
-    ahead, left = target[0] - x, target[1] - y
-    pan = math.remainder(math.atan2(left, ahead) - float(hardware.base_pose[2]), math.tau)
-    tilt = math.atan2(z - target[2], math.hypot(ahead, left))
+    pan, tilt = aim(hardware, target)
     hardware.command_head(pan, tilt)
 
     def aimed() -> bool:
@@ -28,3 +25,11 @@ def look_at(hardware: Hardware, target: Vector3) -> Skill:
 
     if not (yield from wait_until(aimed, _AT_MOST_S)):
         raise CannotError("I cannot turn my head that far")
+
+
+def aim(hardware: Hardware, target: Vector3) -> tuple[float, float]:
+    """Pan and tilt (radians) that bring a point in `map` to the middle of the picture."""
+    x, y, z = hardware.link_pose("camera_link").position
+    ahead, left = target[0] - x, target[1] - y
+    pan = math.remainder(math.atan2(left, ahead) - float(hardware.base_pose[2]), math.tau)
+    return pan, math.atan2(z - target[2], math.hypot(ahead, left))

@@ -127,8 +127,8 @@ class SimulatedRobot:
         match goal:
             case DriveTo(place):
                 return self._drive(place)
-            case LookAt(place, view):
-                return self._look(place, view)
+            case LookAt(place, view, point):
+                return self._look(place, view, point)
             case Pick(detection):
                 return self._manipulator.pick(detection)
             case PutDown(place):
@@ -154,11 +154,11 @@ class SimulatedRobot:
             raise CannotError(reason.clause(place)) from reason
         self._at = place
 
-    def _look(self, place: str, view: int) -> Skill:
+    def _look(self, place: str, view: int, point: Vector3 | None) -> Skill:
         targets = self._targets(place)
         if not 0 <= view < len(targets):
             raise CannotError(f"there are only {len(targets)} views of the {place}")
-        yield from look_at(self._hardware, targets[view])
+        yield from look_at(self._hardware, point or targets[view])
 
     def _targets(self, place: str) -> Sequence[Vector3]:
         """Points of `map` to look at, to see all of a place."""

@@ -1,6 +1,7 @@
 """The home, its things and the robot in PyBullet: advances physics and writes down what moves."""
 
 from collections.abc import Mapping
+from itertools import count
 
 import numpy as np
 import pybullet
@@ -11,7 +12,7 @@ from executive.interfaces import Camera, Recorder
 from executive.records import Picture, Scene, Transforms
 from executive.types import Pose
 from sim.bodies import build_home, frame_pose, home_entities, place_objects
-from sim.camera import SimulatedCamera, SimulatedDetector
+from sim.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
 from sim.client import aim_window, connect
 from sim.faulty_hardware import FaultyHardware
 from sim.hardware import Floats, Hardware
@@ -81,8 +82,11 @@ class PhysicsWorld:
         self._let_sleep()
         self._planning = PlanningWorld(home)
         self._hardware, self._poltergeist = self._haunted(mishaps)
-        camera = SimulatedCamera(self._client, self._camera_pose)
+        numbers = count()
+        camera = SimulatedCamera(self._client, self._camera_pose, LOOKING, numbers)
+        glancing = SimulatedCamera(self._client, self._camera_pose, GLANCING, numbers)
         self.camera: Camera = FaultyCamera(camera, mishaps) if mishaps else camera
+        self._glancing: Camera = FaultyCamera(glancing, mishaps) if mishaps else glancing
         self.detector = SimulatedDetector(camera, self._things)
         laser = Laser(self._client, self._hardware)
         grid = OccupancyGrid.from_home(home)
@@ -128,7 +132,7 @@ class PhysicsWorld:
         self._recorder.record(Scene(entities))
         self._recorder.record(Transforms(self._frames.all()))
         if self._picture_every:
-            self._recorder.record(Picture(self.camera.capture()))
+            self._recorder.record(Picture(self._glancing.capture()))
 
     def resting_place(self, name: str) -> str | None:
         """The furniture that an object rests on, by the simulator's truth; None if on none."""
@@ -169,7 +173,7 @@ class PhysicsWorld:
         if self._periods % TRANSFORMS_EVERY == 0:
             self._write_moved()
         if self._picture_every and self._periods % self._picture_every == 0:
-            self._recorder.record(Picture(self.camera.capture()))
+            self._recorder.record(Picture(self._glancing.capture()))
 
     def _use_steps(self, steps: int) -> None:
         if steps != self._steps:
@@ -192,7 +196,7 @@ class PhysicsWorld:
 
     def _scan(self) -> Floats:
         """Points in `map` (n, 3) that the depth camera sees now."""
-        frame = self.camera.capture()
+        frame = self._glancing.capture()
         lens, depth = frame.intrinsics, frame.depth.astype(np.float64)
         rows, columns = np.nonzero(np.isfinite(depth))
         far = depth[rows, columns]

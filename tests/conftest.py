@@ -11,7 +11,7 @@ import pytest
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Facts, User
+from executive.interfaces import Detector, Facts, User
 from executive.loop import Executive
 from executive.perception import Eyes
 from executive.records import Record, Tick, Verified
@@ -99,6 +99,7 @@ def run_mission(
     first: Iterable[Event] = (),
     notebook: Notebook | None = None,
     facts: Facts | None = None,
+    detector: Callable[[FakeWorld], Detector] = FakeDetector,
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
@@ -109,13 +110,14 @@ def run_mission(
     home = four_rooms().with_placement(place or {})
     world = FakeWorld(home, inbox, notebook, fault)
     clock = SimulatedClock(inbox, world)
-    camera, detector, goals = FakeCamera(world), FakeDetector(world), []
+    camera, goals = FakeCamera(world), []
+    recogniser = detector(world)
     robot = FakeRobot(world)
     if mishaps:
         faults = Mishaps(parse_faults(mishaps, home), notebook, clock.now, seed)
         robot = FaultyFakeRobot(world, faults)
         camera = FaultyCamera(camera, faults)  # type: ignore[assignment]
-        detector = FaultyDetector(detector, faults, tuple(home.objects))  # type: ignore[assignment]
+        recogniser = FaultyDetector(recogniser, faults, tuple(home.objects))
     start = robot.start
 
     def start_and_note(goal: Goal) -> int:
@@ -143,7 +145,7 @@ def run_mission(
         interpreter=EnglishInterpreter(),
         knowledge=knowledge,
         robot=robot,
-        eyes=Eyes(camera, detector, inbox, notebook),
+        eyes=Eyes(camera, recogniser, inbox, notebook),
         user=user,
         model=thinker,
         advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,

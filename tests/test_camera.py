@@ -11,7 +11,7 @@ from executive.perception import locate, rays, transform
 from executive.types import Pose, Vector3
 from sim.__main__ import HEIGHT, WIDTH, main
 from sim.bodies import build_home, frame_pose, place_objects
-from sim.camera import KEPT_SEGMENTATIONS, SimulatedCamera, SimulatedDetector, pinhole, render
+from sim.camera import GLANCING, KEPT_SEGMENTATIONS, SimulatedCamera, SimulatedDetector, render
 from sim.client import connect
 from sim.home import load_home
 from sim.objects import load_objects
@@ -57,7 +57,7 @@ def test_every_object_is_visible_from_a_view_of_its_furniture(scene: Scene, plac
     found = set()
     for target in HOME.view_targets(place):
         camera = camera_at(scene, view(place, target))
-        detector = SimulatedDetector(camera, scene.names, minimum_pixels=40)
+        detector = SimulatedDetector(camera, scene.names, minimum_pixels=160)
         found |= {detection.label for detection in detector.detect(camera.capture())}
     assert expected <= found
 
@@ -76,10 +76,10 @@ def test_the_front_of_every_surface_is_in_sight_of_its_view(scene: Scene, place:
 @pytest.mark.parametrize("place", ["dining_table", "shelf_lobby", "sofa"])
 def test_depth_meets_the_surface_that_a_ray_meets(scene: Scene, place: str):
     pose = view(place, HOME.view_targets(place)[0])
-    seen = render(scene.client, pose, pinhole())
+    seen = render(scene.client, pose, GLANCING)
     rows, columns = (grid.ravel() for grid in np.mgrid[4:240:12, 4:320:12])
     reach = 8.0
-    ends = transform(pose, reach * rays(pinhole(), rows, columns))
+    ends = transform(pose, reach * rays(GLANCING, rows, columns))
     hits = scene.client.rayTestBatch([pose.position] * len(rows), ends.tolist())
     same = np.array([hit[0] for hit in hits]) == seen.segmentation[rows, columns]
     true_depth = reach * np.array([hit[2] for hit in hits])
@@ -93,7 +93,7 @@ def test_depth_meets_the_surface_that_a_ray_meets(scene: Scene, place: str):
 
 def test_depth_is_infinite_where_nothing_is(scene: Scene):
     up = Pose((7.0, 5.6, 1.0))
-    seen = render(scene.client, up, pinhole())
+    seen = render(scene.client, up, GLANCING)
     assert np.isinf(seen.depth).all()
     assert (seen.segmentation == -1).all()
 
@@ -129,7 +129,7 @@ def test_late_pictures_can_be_recognised_and_very_old_ones_are_forgotten(scene: 
 def test_things_with_too_few_pixels_are_not_detected(scene: Scene):
     camera = camera_at(scene, view("dining_table", HOME.view_targets("dining_table")[0]))
     frame = camera.capture()
-    few = SimulatedDetector(camera, scene.names, minimum_pixels=1000).detect(frame)
+    few = SimulatedDetector(camera, scene.names, minimum_pixels=4000).detect(frame)
     assert [detection.label for detection in few] == ["cracker_box"]
 
 

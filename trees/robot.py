@@ -103,6 +103,17 @@ class LookAtCandidate(RobotAction):
         return LookAt(self.situation.candidate.place, self.situation.view)
 
 
+class LookCloser(RobotAction):
+    """Brings what may be the thing to the middle of the picture."""
+
+    def goal(self) -> Goal:
+        """Look at the doubtful detection."""
+        assert self.situation.candidate
+        assert self.situation.doubtful
+        point = self.situation.doubtful.position
+        return LookAt(self.situation.candidate.place, self.situation.view, point)
+
+
 class LookForLost(RobotAction):
     """Points the head at where the thing may have fallen."""
 
@@ -172,10 +183,15 @@ class SeeTarget(Action):
             return status
         self.situation.unseen.pop(place, None)
         self._remember(result.detections)
+        self.situation.doubtful = None
         seen = self._surest(result)
         if seen is None:
             self.situation.views_without += 1
             self.feedback_message = f"no {self.situation.object} in view"
+            return Status.FAILURE
+        if seen.confidence < self.team.rules.sure:
+            self.situation.doubtful = seen
+            self.feedback_message = f"perhaps {seen.label}, confidence {seen.confidence:.2f}"
             return Status.FAILURE
         self.situation.detection = seen
         self.situation.found = self.situation.candidate
@@ -193,6 +209,8 @@ class SeeTarget(Action):
         """A thing may be on furniture behind this place; with none below it, it counts as here."""
         assert self.situation.candidate
         for seen in detections:
+            if seen.confidence < self.team.rules.sure:
+                continue
             below = self.team.place_at(seen.position) if seen.position else None
             self.team.facts.saw((seen.label,), below or self.situation.candidate.place)
 

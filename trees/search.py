@@ -7,7 +7,7 @@ from executive.types import Candidate
 from trees.location import MemoryKnowsPlaces, resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Announce, AskWhere
-from trees.robot import LookAtCandidate, SeeTarget, Visit
+from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
 from trees.team import Team
 
 
@@ -70,9 +70,23 @@ def look_over(team: Team) -> Behaviour:
             "each view",
             views,
             choose,
-            sequence("glance", LookAtCandidate("aim", team), SeeTarget("see", team)),
+            sequence("glance", LookAtCandidate("aim", team), see(team)),
         ),
         NotHere("not here", team),
+    )
+
+
+def see(team: Team) -> Behaviour:
+    """Look for the thing; what may be it, but is not sure, is looked at more closely."""
+    return fallback(
+        "look hard",
+        SeeTarget("see", team),
+        sequence(
+            "look twice",
+            Check("perhaps it is", team, lambda: team.situation.doubtful is not None),
+            LookCloser("aim closer", team),
+            SeeTarget("see closer", team),
+        ),
     )
 
 

@@ -29,6 +29,8 @@ class Rules:
         answer_s: how long to wait for the person (mission time, s).
         model_s: how long to wait for one call of the model (mission time, s).
         action_s: how long one action of the robot may take (mission time, s).
+        sure: confidence from which a detection is believed and remembered; what may be the thing
+            but is less sure is looked at more closely.
         grasps: how often the robot tries to grasp a thing, each time after another look.
         questions: how often an answer that makes no sense is followed by the question again.
     """
@@ -38,6 +40,7 @@ class Rules:
     answer_s: float = 120.0
     model_s: float = 60.0
     action_s: float = 120.0
+    sure: float = 0.5
     grasps: int = 3
     questions: int = 3
 

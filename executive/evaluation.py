@@ -1,0 +1,243 @@
+"""How good a detector is in scenes that it never learned from: `python -m executive.evaluation`.
+
+Renders scenes of seeds that training may not use, and prints a report in Markdown; `--picture`
+draws which things are taken for which.
+"""
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import islice
+from multiprocessing import get_context
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from executive.detector import LEARNED, LEAST_CONFIDENCE, Found, OnnxDetector
+from executive.errors import ExecutiveError, InputError
+from executive.metrics import ClassReport, Ints, Judged, by_class, confusion, match
+from executive.perception import locate
+from executive.segmentation import segment
+from executive.types import Box, Detection, Frame
+from sim.learning.frames import EVALUATION_SEED, class_names
+from sim.learning.scenes import Scene, SceneMaker
+from sim.objects import load_objects
+from sim.registration import locate as fit
+
+LEAST_REPORTED = 0.02
+"""Confidence from which boxes count for average precision."""
+LOCATED = 1
+"""Things in each scene, the surest, whose position is measured, too."""
+TIMED = 40
+"""Pictures over which the time of one is taken."""
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """One scene: what was found and is there, and how far off some things were located (mm)."""
+
+    picture: Judged
+    errors_mm: tuple[float, ...]
+
+
+def judge(detector: OnnxDetector, scene: Scene) -> Judgement:
+    """Let the detector look at a scene."""
+    color = scene.photograph()
+    found = detector.find(color, LEAST_REPORTED)
+    picture = _judged(found, detector.names, scene)
+    frame = Frame(scene.seed, color, scene.frame.depth, scene.frame.intrinsics, scene.frame.pose)
+    return Judgement(picture, tuple(islice(_errors(picture, frame, scene), LOCATED)))
+
+
+def _judged(found: Found, names: Sequence[str], scene: Scene) -> Judged:
+    """What was found, in the order of our classes; others are left out."""
+    numbers = {name: number for number, name in enumerate(class_names())}
+    ours = np.array([numbers.get(name, -1) for name in names], np.int64)[found.classes]
+    truths = scene.truths
+    edges = [(b.left, b.top, b.left + b.width, b.top + b.height) for b in (t.box for t in truths)]
+    return Judged(
+        found.boxes[ours >= 0].astype(np.float64),
+        found.scores[ours >= 0].astype(np.float64),
+        ours[ours >= 0],
+        np.array(edges, np.float64).reshape(-1, 4),
+        np.array([numbers[truth.name] for truth in truths], np.int64),
+        np.array([truth.counts for truth in truths], np.bool_),
+    )
+
+
+def _errors(picture: Judged, frame: Frame, scene: Scene) -> Iterator[float]:
+    """Horizontal distance (mm) of each thing found from where it truly is, by depth in its box."""
+    height, width = frame.depth.shape
+    for edges, score, thing in zip(picture.boxes, picture.scores, match(picture), strict=True):
+        if thing < 0 or score < LEAST_CONFIDENCE or not picture.counts[thing]:
+            continue
+        left, top = np.floor(edges[:2].clip(0, (width, height))).astype(int).tolist()
+        right, bottom = np.ceil(edges[2:].clip(0, (width, height))).astype(int).tolist()
+        box = Box(left, top, right - left, bottom - top)
+        truth = scene.truths[thing]
+        seen = locate(Detection(truth.name, score, box, segment(frame, box)), frame)
+        pose = fit(load_objects()[truth.name], np.asarray(seen.points, np.float64))
+        off = np.subtract(pose.position, truth.pose.position)
+        yield 1000 * float(np.hypot(off[0], off[1]))
+
+
+# --- the scenes, in processes of their own ---
+
+
+def judge_all(path: Path, scenes: int, workers: int) -> Iterator[Judgement]:
+    """Judge so many scenes, in the order of their seeds."""
+    seeds = range(EVALUATION_SEED, EVALUATION_SEED + scenes)
+    with get_context("spawn").Pool(workers) as pool:
+        yield from pool.imap(_judge_seed, ((path, seed) for seed in seeds), chunksize=2)
+
+
+def _judge_seed(job: tuple[Path, int]) -> Judgement:
+    path, seed = job
+    return judge(_detector(path), _maker()[0].make(seed))
+
+
+@cache
+def _detector(path: Path) -> OnnxDetector:
+    """The detector of this process, which shares the cores with others."""
+    cv2.setNumThreads(1)
+    return OnnxDetector(path, lambda name: (name,))
+
+
+@cache
+def _maker() -> tuple[SceneMaker, tempfile.TemporaryDirectory[str]]:
+    """The simulator of this process, and the folder of its patterns."""
+    folder = tempfile.TemporaryDirectory()
+    return SceneMaker(load_objects(), Path(folder.name)), folder
+
+
+# --- the report ---
+
+
+def report(judgements: Sequence[Judgement], milliseconds: float, about: str) -> str:
+    """The figures, in Markdown."""
+    pictures = [judgement.picture for judgement in judgements]
+    classes = by_class(pictures, len(class_names()), LEAST_CONFIDENCE)
+    errors = np.array([error for one in judgements for error in one.errors_mm])
+    asked = [one for one in classes if one.asked]
+    recalls = np.array([one.recall for one in asked])
+    lines = [
+        f"{about}: {len(pictures)} scenes, {sum(one.asked for one in classes)} things",
+        "",
+        "| what | figure |",
+        "|---|---|",
+        f"| mAP at IoU 0.5 | {np.mean([one.average_precision for one in asked]):.3f} |",
+        f"| recall, all things, at confidence {LEAST_CONFIDENCE} | {_recall(classes):.3f} |",
+        f"| recall of the worst class | {recalls.min():.3f} |",
+        f"| classes with a recall of at least 0.9 | {(recalls >= 0.9).sum()} of {len(asked)} |",
+        f"| a 640 x 480 picture | {milliseconds:.0f} ms |",
+        f"| position by depth, error: median | {np.median(errors):.1f} mm |",
+        f"| 90 of 100 within | {np.quantile(errors, 0.9):.1f} mm |",
+        "",
+        "| class | asked | AP | recall | precision |",
+        "|---|---|---|---|---|",
+        *(
+            f"| {name} | {one.asked} | {one.average_precision:.3f} | {one.recall:.3f} "
+            f"| {one.precision:.3f} |"
+            for name, one in zip(class_names(), classes, strict=True)
+        ),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _recall(classes: Sequence[ClassReport]) -> float:
+    asked = [one for one in classes if one.asked]
+    return sum(one.recall * one.asked for one in asked) / sum(one.asked for one in asked)
+
+
+def time_of_one(detector: OnnxDetector) -> float:
+    """Median time (ms) of recognising in one 640 x 480 picture, with all cores."""
+    picture = np.random.default_rng(0).integers(0, 255, (480, 640, 3), np.uint8)
+    times = []
+    for _ in range(TIMED):
+        began = time.perf_counter()
+        detector.find(picture)
+        times.append(time.perf_counter() - began)
+    return 1000 * float(np.median(times))
+
+
+def draw_confusion(table: Ints, names: Sequence[str]) -> str:
+    """The table of `metrics.confusion` as an SVG: rows what is there, columns what it is taken for.
+
+    Shades are shares of the row.
+    """
+    labels = [*names, "nothing"]
+    side, left, top = 24, 150, 150
+    width = left + side * len(labels) + 10
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {width}" '
+        'font-family="sans-serif" font-size="11">',
+        f'<rect width="{width}" height="{width}" fill="white"/>',
+    ]
+    for row, name in enumerate(labels):
+        y = top + row * side
+        parts.append(f'<text x="{left - 6}" y="{y + 16}" text-anchor="end">{name}</text>')
+        place = f"translate({left + row * side + 16} {top - 6}) rotate(-60)"
+        parts.append(f'<text transform="{place}">{name}</text>')
+        total = max(1, int(table[row].sum()))
+        for column, count in enumerate(table[row]):
+            share = float(count) / total
+            blue = f"rgb({255 - round(225 * share)},{255 - round(160 * share)},255)"
+            x = left + column * side
+            parts.append(
+                f'<rect x="{x}" y="{y}" width="{side}" height="{side}" '
+                f'fill="{blue if count else "white"}" stroke="#ddd"/>'
+            )
+            if count:
+                ink = "white" if share > 0.6 else "black"
+                parts.append(
+                    f'<text x="{x + side / 2}" y="{y + 16}" text-anchor="middle" '
+                    f'font-size="9" fill="{ink}">{count}</text>'
+                )
+    return "\n".join([*parts, "</svg>"]) + "\n"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command; returns its exit status."""
+    parser = argparse.ArgumentParser(prog="python -m executive.evaluation", description=__doc__)
+    parser.add_argument("--detector", default="learned", help="learned, or a FILE.onnx")
+    parser.add_argument("--scenes", type=int, default=500)
+    parser.add_argument("--workers", type=int, default=os.cpu_count())
+    parser.add_argument("--picture", type=Path, metavar="FILE.svg", help="draw confusions")
+    options = parser.parse_args(arguments)
+    path = LEARNED if options.detector == "learned" else Path(options.detector)
+    try:
+        milliseconds = time_of_one(OnnxDetector(path, lambda name: (name,)))
+        judgements = []
+        for judgement in judge_all(path, options.scenes, options.workers):
+            judgements.append(judgement)
+            print(f"\r{len(judgements)} of {options.scenes} scenes", end="", file=sys.stderr)
+        print(file=sys.stderr)
+        print(report(judgements, milliseconds, path.name), end="")
+        if options.picture:
+            pictures = [one.picture for one in judgements]
+            table = confusion(pictures, len(class_names()), LEAST_CONFIDENCE)
+            _write(options.picture, draw_confusion(table, class_names()))
+    except ExecutiveError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        right = "give a file in a folder that exists"
+        raise InputError(f"--picture {path}", f"cannot write: {error.strerror}", right) from None
+
+
+if __name__ == "__main__":
+    sys.exit(main())

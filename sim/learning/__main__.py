@@ -1,0 +1,80 @@
+"""Teaching the detector: `frames` renders what it learns from, `train` makes an ONNX file of it."""
+
+import argparse
+import os
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+from executive.errors import ExecutiveError, InputError
+from sim.learning.frames import SHARD, make_shards
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command; returns its exit status (0 done, 2 bad input, 130 stopped)."""
+    parser = argparse.ArgumentParser(prog="python -m sim.learning", description=__doc__)
+    commands = parser.add_subparsers(required=True, metavar="command")
+    frames = commands.add_parser("frames", help="render scenes drawn by chance")
+    frames.add_argument("folder", type=Path, help="where the shards go, or some are already")
+    frames.add_argument("--frames", type=int, default=3000)
+    frames.add_argument("--seed", type=int, default=0, help="of the first frame (default: 0)")
+    frames.add_argument("--workers", type=int, default=os.cpu_count())
+    frames.add_argument("--ycb", type=Path, metavar="DIR", help="scans to show instead of ours")
+    frames.set_defaults(run=_frames)
+    train = commands.add_parser("train", help="train on them (needs the train extra)")
+    train.add_argument("folder", type=Path, help="the frames")
+    train.add_argument("--out", type=Path, default=Path("detector.onnx"))
+    train.add_argument("--checkpoint", type=Path, default=Path("detector.pt"))
+    train.add_argument("--start", type=Path, help="checkpoint whose weights to start with")
+    train.add_argument("--crops", type=int, default=160_000, help="to learn from, in all")
+    train.add_argument("--batch", type=int, default=32)
+    train.add_argument("--rate", type=float, default=2e-3, help="of learning, at most")
+    train.add_argument("--seed", type=int, default=0)
+    train.add_argument("--threads", type=int, help="default: one for each core")
+    train.set_defaults(run=_train)
+    options = parser.parse_args(arguments)
+    try:
+        options.run(options)
+    except ExecutiveError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("\nstopped; the same command goes on from here", file=sys.stderr)
+        return 130
+    return 0
+
+
+def _frames(options: argparse.Namespace) -> None:
+    total = -(-options.frames // SHARD)
+    folder, workers = options.folder, options.workers
+    for path in make_shards(folder, options.frames, options.seed, workers, options.ycb):
+        done = len(list(folder.glob("*.parquet")))
+        print(f"\r{done} of {total} shards, the last {path.name}", end="", file=sys.stderr)
+    print(file=sys.stderr)
+
+
+def _train(options: argparse.Namespace) -> None:
+    if find_spec("torch") is None or find_spec("onnx") is None:
+        raise InputError("train", "PyTorch and onnx are not installed", "pip install '.[train]'")
+    import torch
+
+    from sim.learning.training import Plan, train
+
+    if options.threads:
+        torch.set_num_threads(options.threads)
+    plan = Plan(
+        frames=options.folder,
+        out=options.out,
+        checkpoint=options.checkpoint,
+        start=options.start,
+        crops=options.crops,
+        batch=options.batch,
+        rate=options.rate,
+        seed=options.seed,
+    )
+    for line in train(plan):
+        print(line, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,310 @@
+"""Scenes drawn by chance, as the robot's camera may see them, and the truth about what is in them.
+
+A scene is a piece of furniture with things on it, before a wall or not, with other furniture
+around. The camera looks as the robot does when it searches, or from anywhere. One seed gives one
+scene.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.random import Generator
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from executive.records import Shape
+from executive.types import Box, Frame, Pose, Vector3
+from sim.bodies import PERSON_SHAPES, create_body, create_object
+from sim.camera import LOOKING, Rendering, pinhole, render
+from sim.client import connect
+from sim.furniture import Furniture, Surface, box
+from sim.generation import SIZES
+from sim.hardware import Hardware
+from sim.home import STAND_OFF_M, VIEW_DEPTH_M, VIEW_HEIGHT_M
+from sim.learning.decor import draw_light, dress, through_the_lens, write_patterns
+from sim.looking import aim
+from sim.objects import ObjectModel
+
+FEWEST_PIXELS = 120
+"""A thing of which fewer pixels show is not asked for."""
+LEAST_SHARE = 0.35
+"""Nor is one of which a smaller share shows: the rest is covered or outside of the picture."""
+WIDE = pinhole(320, 240, 2 * float(np.arctan(2 * np.tan(np.radians(65.0) / 2))))
+"""Sees twice as far to each side as LOOKING, a pixel of it being 4 x 4 of that camera's."""
+_WIDE_PIXEL = (LOOKING.fx / WIDE.fx) ** 2
+_GAPS_M = (0.005, 0.08)
+_TRIES = 30
+_ROOM = 9.0
+_WALL_M = 2.6
+
+
+@dataclass(frozen=True, slots=True)
+class Truth:
+    """One thing in a picture: its visible pixels, and how many there would be of it alone."""
+
+    name: str
+    box: Box
+    visible: int
+    alone: int
+    pose: Pose
+
+    @property
+    def counts(self) -> bool:
+        """Whether a detector is asked for it; the same rule in training and evaluation."""
+        return self.visible >= FEWEST_PIXELS and self.visible >= LEAST_SHARE * self.alone
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scene:
+    """A picture and what is in it.
+
+    Attributes:
+        seed: draws it again.
+        frame: with the colours as rendered, without the camera's flaws.
+        truths: of every thing of which at least one pixel shows.
+        bodies: (height, width) int32, one plus the index into `truths`; 0 is anything else.
+    """
+
+    seed: int
+    frame: Frame
+    truths: tuple[Truth, ...]
+    bodies: NDArray[np.int32]
+
+    def photograph(self) -> NDArray[np.uint8]:
+        """The colours as a real camera might give them, with its flaws drawn by the seed."""
+        return through_the_lens(self.frame.color, np.random.default_rng((self.seed, 1)))
+
+
+class SceneMaker:
+    """Draws scenes in a simulator of its own."""
+
+    def __init__(self, models: Mapping[str, ObjectModel], folder: Path) -> None:
+        """Use these things; patterns are written into the folder."""
+        self._models = models
+        self._patterns = write_patterns(folder)
+        self._client = connect()
+
+    def make(self, seed: int) -> Scene:
+        """Draw one scene."""
+        chance = np.random.default_rng(seed)
+        self._client.resetSimulation()
+        piece = _draw_piece(chance, (0.0, 0.0, 0.0))
+        self._build_room(piece, chance)
+        standing = dict(self._scatter(piece, chance))
+        by_body = {
+            create_object(self._client, self._models[name], pose): name
+            for name, pose in standing.items()
+        }
+        target = self._target(piece, list(standing.values()), chance)
+        pose = self._camera_pose(piece, target, chance)
+        seen = render(self._client, pose, LOOKING, light=draw_light(chance))
+        frame = Frame(seed, seen.color, seen.depth, LOOKING, pose)
+        return Scene(seed, frame, *self._truths(seen, pose, by_body, standing))
+
+    def close(self) -> None:
+        """Free the simulator."""
+        self._client.disconnect()
+
+    # --- what is there ---
+
+    def _build_room(self, piece: Furniture, chance: Generator) -> None:
+        """Floor, walls, the furniture and what stands beside and behind it."""
+        back = -piece.size[0] / 2 - (chance.uniform(0.03, 0.1) if chance.random() < 0.6 else 2.5)
+        floor = box((_ROOM, _ROOM, 0.1), (back + _ROOM / 2, 0.0, -0.05), (0.0, 0.0, 0.0, 1.0))
+        fixtures: list[tuple[Shape, ...]] = [(floor,), (_wall((0.1, _ROOM), back - 0.05, 0.0),)]
+        side = chance.choice([-1, 1]) * chance.uniform(piece.size[1] / 2 + 0.05, 3.0)
+        if chance.random() < 0.5:
+            fixtures.append((_wall((_ROOM, 0.1), back + _ROOM / 2, side),))
+        if chance.random() < 0.15:
+            fixtures.append(PERSON_SHAPES)
+        for index, shapes in enumerate(fixtures):
+            away = Pose((back + 0.4, 1.7 * float(np.sign(side)), 0.0)) if index > 2 else Pose()
+            self._put(shapes, away, chance)
+        self._put(piece.shapes(), piece.frame(), chance)
+        for left in (-1, 1):
+            if chance.random() < 0.5:
+                beside = _draw_piece(chance, (0.0, 0.0, 0.0))
+                gap = chance.uniform(0.05, 0.6) + (piece.size[1] + beside.size[1]) / 2
+                x = back + beside.size[0] / 2 + chance.uniform(0.03, 0.3)
+                self._put(beside.shapes(), Pose((x, left * gap, 0.0)), chance)
+
+    def _put(self, shapes: tuple[Shape, ...], pose: Pose, chance: Generator) -> None:
+        """A fixture, three times of four in other colours than its own."""
+        body = create_body(self._client, shapes, pose)
+        if shapes[0].color[0] == 0.0 or chance.random() < 0.75:
+            dress(self._client, body, len(shapes), self._patterns, chance)
+
+    def _scatter(self, piece: Furniture, chance: Generator) -> Iterator[tuple[str, Pose]]:
+        """Names and poses of things on all surfaces, some close together; and foreign things."""
+        names = list(chance.permutation(sorted(self._models)))
+        for surface in piece.surfaces():
+            taken: list[tuple[float, float, float]] = []
+            for _ in range(chance.integers(0, 3)):
+                self._put_foreign(piece, surface, taken, chance)
+            for _ in range(min(len(names), int(chance.integers(1, 8)))):
+                model = self._models[names.pop()]
+                if model.size[2] + 0.01 > surface.clearance:
+                    continue
+                radius = float(np.hypot(*model.size[:2])) / 2
+                spot = _free_spot(surface, taken, radius, chance)
+                if spot is not None:
+                    taken.append((*spot, radius))
+                    yaw = chance.uniform(-np.pi, np.pi)
+                    turn = (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2)))
+                    yield model.name, Pose(piece.to_map((*spot, surface.center[2])), turn)
+
+    def _put_foreign(
+        self,
+        piece: Furniture,
+        surface: Surface,
+        taken: list[tuple[float, float, float]],
+        chance: Generator,
+    ) -> None:
+        """A thing that no detector should know: a plate, a vase or a book."""
+        kind = chance.choice(["plate", "vase", "book"])
+        low, high = {
+            "plate": ((0.16, 0.16, 0.012), (0.28, 0.28, 0.03)),
+            "vase": ((0.09, 0.09, 0.13), (0.16, 0.16, 0.32)),
+            "book": ((0.12, 0.16, 0.012), (0.22, 0.30, 0.04)),
+        }[kind]
+        x, y, height = chance.uniform(low, high)
+        if height + 0.01 > surface.clearance:
+            return
+        radius = float(np.hypot(x, y)) / 2 if kind == "book" else float(x) / 2
+        spot = _free_spot(surface, taken, radius, chance)
+        if spot is None:
+            return
+        taken.append((*spot, radius))
+        size = (float(x), float(y) if kind == "book" else float(x), float(height))
+        shape = Shape(
+            "box" if kind == "book" else "cylinder",
+            size,
+            (0.0, 0.0, 0.0, 1.0),
+            Pose((0.0, 0.0, float(height) / 2)),
+        )
+        yaw = chance.uniform(-np.pi, np.pi)
+        turn = (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2)))
+        self._put((shape,), Pose(piece.to_map((*spot, surface.center[2])), turn), chance)
+
+    # --- who looks ---
+
+    def _target(self, piece: Furniture, things: list[Pose], chance: Generator) -> Vector3:
+        """Where to look: where the robot does when it searches, or at a thing."""
+        surface = piece.surfaces()[chance.integers(len(piece.surfaces()))]
+        x, _, z = surface.center
+        usual = (x + surface.length_x / 2 - VIEW_DEPTH_M, 0.0, z + VIEW_HEIGHT_M)
+        if things and chance.random() < 0.4:
+            usual = things[chance.integers(len(things))].position
+        x, y, z = np.asarray(usual) + chance.normal(0.0, 0.06, 3)
+        return float(x), float(y), float(z)
+
+    def _camera_pose(self, piece: Furniture, target: Vector3, chance: Generator) -> Pose:
+        """Two times of three as the robot's; then the robot is there, and may be in the picture."""
+        if chance.random() < 0.33:
+            return _free_pose(target, chance)
+        ahead = piece.size[0] / 2 + STAND_OFF_M + chance.normal(0.0, 0.04)
+        aside = chance.normal(0.0, 0.06 if chance.random() < 0.8 else 0.4)
+        yaw = np.pi + chance.normal(0.0, 0.05)
+        hardware = Hardware(self._client, (float(ahead), float(aside), float(yaw)))
+        for link, angle in zip(("head", "camera_link"), aim(hardware, target), strict=True):
+            self._client.resetJointState(hardware.body, hardware.links[link], angle)
+        return hardware.link_pose("camera_optical")
+
+    # --- the truth ---
+
+    def _truths(
+        self,
+        seen: Rendering,
+        pose: Pose,
+        by_body: Mapping[int, str],
+        standing: Mapping[str, Pose],
+    ) -> tuple[tuple[Truth, ...], NDArray[np.int32]]:
+        self._client.resetSimulation()
+        truths: list[Truth] = []
+        bodies = np.zeros(seen.segmentation.shape, np.int32)
+        for body, name in by_body.items():
+            mask = seen.segmentation == body
+            if mask.any():
+                alone = self._pixels_alone(self._models[name], standing[name], pose)
+                visible = int(mask.sum())
+                truths.append(Truth(name, extent(mask), visible, alone, standing[name]))
+                bodies[mask] = len(truths)
+        return tuple(truths), bodies
+
+    def _pixels_alone(self, model: ObjectModel, pose: Pose, eye: Pose) -> int:
+        """How many pixels it would have if nothing were before it and the picture were larger."""
+        body = create_object(self._client, model, pose)
+        seen = render(self._client, eye, WIDE)
+        self._client.removeBody(body)
+        return round(float((seen.segmentation == body).sum()) * _WIDE_PIXEL)
+
+
+def extent(mask: NDArray[np.bool_]) -> Box:
+    """The smallest box around the pixels of a mask that has some."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    top, left = int(rows[0]), int(columns[0])
+    return Box(left, top, int(columns[-1]) - left + 1, int(rows[-1]) - top + 1)
+
+
+def looking_at(eye: Vector3, target: Vector3, roll: float = 0.0) -> Pose:
+    """The pose in `map` of an optical frame at `eye` that has `target` in the middle."""
+    forward = np.subtract(target, eye) / np.linalg.norm(np.subtract(target, eye))
+    right = np.cross(forward, (0.0, 0.0, 1.0))
+    right /= np.linalg.norm(right)
+    axes = Rotation.from_matrix(np.column_stack((right, np.cross(forward, right), forward)))
+    x, y, z, w = (float(v) for v in (axes * Rotation.from_euler("z", roll)).as_quat())
+    return Pose(eye, (x, y, z, w))
+
+
+def _free_pose(target: Vector3, chance: Generator) -> Pose:
+    """Somewhere before a target, at the height of a robot's or a person's eyes."""
+    away, around = chance.uniform(0.55, 1.9), chance.uniform(-1.2, 1.2)
+    eye = (
+        target[0] + float(away * np.cos(around)),
+        target[1] + float(away * np.sin(around)),
+        max(target[2] + 0.1, float(chance.uniform(0.8, 1.6))),
+    )
+    return looking_at(eye, target, float(chance.normal(0.0, 0.05)))
+
+
+def _draw_piece(chance: Generator, pose: Vector3) -> Furniture:
+    kinds = sorted(SIZES)
+    kind = kinds[chance.integers(len(kinds))]
+    size, boards = SIZES[kind]
+    x, y, z = np.asarray(size) * chance.uniform(0.9, 1.12, 3)
+    low = z / size[2]
+    return Furniture(
+        name="piece",
+        kind=kind,
+        room="room",
+        pose=pose,
+        size=(float(x), float(y), float(z)),
+        boards=tuple(float(board * low) for board in boards),
+    )
+
+
+def _wall(outline: tuple[float, float], x: float, y: float) -> Shape:
+    return box((*outline, _WALL_M), (x, y, _WALL_M / 2), (0.0, 0.0, 0.0, 1.0))
+
+
+def _free_spot(
+    surface: Surface,
+    taken: list[tuple[float, float, float]],
+    radius: float,
+    chance: Generator,
+) -> tuple[float, float] | None:
+    """Where on the surface a circle of `radius` (metres) fits beside those that are taken."""
+    reach = np.array([surface.length_x, surface.length_y]) / 2 - min(radius, 0.08)
+    middle = np.array(surface.center[:2])
+    if (reach <= 0).any():
+        return None
+    for _ in range(_TRIES):
+        offset = chance.uniform(-reach, reach)
+        offset[1] = np.clip(offset[1], -0.7, 0.7)
+        x, y = middle + offset
+        gap = chance.uniform(*_GAPS_M)
+        if all(np.hypot(x - a, y - b) > r + radius + gap for a, b, r in taken):
+            return float(x), float(y)
+    return None
