@@ -36,7 +36,7 @@ def mission_blueprint(entities: Iterable[Entity] = ()) -> rrb.Blueprint:
                 rrb.StateTimelineView(origin=tree.LANES, name="What ran when"),
                 rrb.StateTimelineView(origin=tree.EVERY, name="Every behaviour"),
             ),
-            row_shares=[5, 2],
+            row_shares=[2, 1],
         ),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
