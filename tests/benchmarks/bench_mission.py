@@ -48,13 +48,13 @@ def whole_command(words: str, runs: Path) -> float:
 def parts(words: str, runs: Path) -> tuple[dict[str, float], float]:
     """Seconds of each part of a mission in this process, and its mission time."""
     import sim.camera
-    import sim.world
     from executive.app import Session
     from executive.config import load_settings
+    from executive.detector import OnnxDetector
 
     watch = Stopwatch()
-    watch.around(sim.world, "render", "rendering")
     watch.around(sim.camera, "render", "rendering")
+    watch.around(OnnxDetector, "detect", "recognition")
     session = Session(load_settings(user="oracle", runs=runs))
     watch.around(session.world._client, "stepSimulation", "physics")
     watch.around(session.recorder, "record", "logging, ticking thread")
