@@ -49,9 +49,9 @@ class Kinematics:
         self._all = np.zeros(len(movable))
 
     @property
-    def highest_lift(self) -> float:
-        """The upper end of the lift (metres)."""
-        return float(self._upper[0])
+    def limits(self) -> tuple[Floats, Floats]:
+        """The lowest and the highest positions of the joints of `ARM`."""
+        return self._lower, self._upper
 
     def close(self) -> None:
         """Free the world."""

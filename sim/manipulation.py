@@ -5,7 +5,7 @@ home. What comes of it is up to physics.
 """
 
 from collections.abc import Callable, Generator, Mapping
-from functools import cache
+from functools import cache, partial
 from itertools import product
 
 import numpy as np
@@ -39,6 +39,8 @@ RISE_M = 0.10
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 """How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
 FEWEST_POINTS = 30
+SAMPLES = 300
+"""Random arm postures that are tried to find a roundabout way, where there is no simple one."""
 _GRASPS_TRIED = 8
 _SPOTS_TRIED = 12
 _FOLDED_WITHIN = 0.05
@@ -100,8 +102,7 @@ class Manipulator:
         grasp, way, stance = self._choose_grasp(model, pose, points, piece)
         yield from self._creep(stance)
         tare = yield from self.hand.weigh()
-        taken = Held.taken(model, pose, grasp, float(stance[-1][2]))
-        failure = yield from attempt(self._grasp(taken, grasp, way))
+        failure = yield from attempt(self._grasp(model, pose, grasp, way))
         self._planning.forget_target()
         yield from self.stow()
         failure = failure or (yield from attempt(self._check_lifted(model, tare)))
@@ -146,7 +147,7 @@ class Manipulator:
         arm = hardware.arm_positions
         folded = FOLDED.copy()
         folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
-        path = clear_path(self._planning, hardware.base_pose, arm, folded)
+        path = clear_path(self._planning, hardware.base_pose, arm, folded, SAMPLES)
         yield from follow(hardware, path or [folded])
 
     # --- steps of a pick ---
@@ -184,30 +185,31 @@ class Manipulator:
             new_first = sorted(found, key=lambda grasp: self._has_missed(model, grasp))
             return varied(new_first, _GRASPS_TRIED)
 
-        for tilt, stance in product(TILTS, stances):
+        for samples, tilt, stance in product((0, SAMPLES), TILTS, stances):
             found = grasps(float(stance[-1][2]), tilt)
             for grasp, length in product(found, APPROACH_M):
                 way = length * grasp.hand.approach
-                if plan_reach(self._planning, stance[-1], FOLDED, grasp.hand, way):
+                if plan_reach(self._planning, stance[-1], FOLDED, grasp.hand, way, samples):
                     return grasp, way, stance
         if stances and not any(grasps(float(stances[0][-1][2]), tilt) for tilt in TILTS):
             raise CannotError(f"I cannot grasp the {model.name} as it lies")
         raise CannotError(f"I cannot reach the {model.name}")
 
-    def _grasp(self, thing: Held, grasp: Grasp, way: Floats) -> Skill:
-        hardware, name = self._hardware, thing.model.name
+    def _grasp(self, model: ObjectModel, pose: Pose, grasp: Grasp, way: Floats) -> Skill:
+        hardware, name = self._hardware, model.name
         reach = self._reach(grasp.hand, way, f"I cannot reach the {name}")
         hardware.open_fingers(grasp.gap)
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
-        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * thing.model.mass_kg)
+        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg)
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
         if not self.hand.holding:
             hardware.open_fingers(grasp.gap)
             yield from follow(hardware, reach.way_back, SLOW)
             raise CannotError(f"I could not get hold of the {name}")
-        self.hand.take(thing)
+        facing = float(hardware.base_pose[2])
+        self.hand.take(Held.taken(model, pose, reach.hand, grasp.gap, facing))
 
     def _check_lifted(self, model: ObjectModel, tare: float) -> Skill:
         """See whether the thing is in the hand: felt by the fingers, and by its weight."""
@@ -233,11 +235,11 @@ class Manipulator:
         carrying = self._hardware.arm_positions
         self._around.mind_clutter(piece, np.empty((0, 3)))
         spots = list(free_spots(piece, held.model, self._around.scan(), held.turn))
-        for spot in spots[:_SPOTS_TRIED]:
+        for samples, spot in product((0, SAMPLES), spots[:_SPOTS_TRIED]):
             hand = held.hand_for(spot)
             stances = self._around.stances(piece, np.asarray(spot.position))
             for stance, way in product(stances, _ways_to_put(hand)):
-                if plan_reach(self._planning, stance[-1], carrying, hand, way):
+                if plan_reach(self._planning, stance[-1], carrying, hand, way, samples):
                     return spot, way, stance
         clause = "I cannot reach a free spot on" if spots else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
@@ -246,7 +248,9 @@ class Manipulator:
         hardware = self._hardware
         reach = self._reach(hand, way, "I cannot reach a free spot")
         yield from follow(hardware, reach.path)
-        yield from follow(hardware, reach.last, SLOW)
+        weight = yield from self.hand.weigh()
+        set_down = partial(self.hand.meets, weight)
+        yield from follow(hardware, reach.last, SLOW, set_down)
         hardware.open_fingers(gap)
         self.hand.take(None)
         yield from wait_until(lambda: not self.hand.holding, _CLOSING_S)
@@ -265,7 +269,8 @@ class Manipulator:
     def _reach(self, hand: HandPose, way: Floats, otherwise: str) -> Reach:
         """The motion to a hand pose from where the robot stands now."""
         hardware = self._hardware
-        reach = plan_reach(self._planning, hardware.base_pose, hardware.arm_positions, hand, way)
+        base, arm = hardware.base_pose, hardware.arm_positions
+        reach = plan_reach(self._planning, base, arm, hand, way, SAMPLES)
         if reach is None:
             raise CannotError(otherwise)
         return reach

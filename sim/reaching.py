@@ -10,7 +10,8 @@ from sim.grasps import HandPose
 from sim.hardware import Floats
 from sim.home import Furniture
 from sim.kinematics import COMFORT
-from sim.planning import PlanningWorld
+from sim.planning import CHECKED, PlanningWorld
+from sim.rrt import connect
 
 NEAREST_M = 0.40
 """From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
@@ -92,7 +93,12 @@ def plan_retreat(world: PlanningWorld, here: Floats) -> Floats:
 
 
 def plan_reach(
-    world: PlanningWorld, base: Floats, start: Floats, hand: HandPose, way: Floats
+    world: PlanningWorld,
+    base: Floats,
+    start: Floats,
+    hand: HandPose,
+    way: Floats,
+    samples: int = 0,
 ) -> Reach | None:
     """A collision-free motion to a hand pose, its last part straight along `way`.
 
@@ -102,6 +108,7 @@ def plan_reach(
         start: joints of `ARM` to start from.
         hand: where the hand shall be; the fingers may be swapped.
         way: the last straight part, from its start to the hand pose (metres, in `map`).
+        samples: see `clear_path`.
     """
     for target in (hand, HandPose(hand.position, hand.rotation * _HALF_TURN)):
         near = COMFORT.copy()
@@ -114,21 +121,39 @@ def plan_reach(
         last = world.line(base, before, target)
         if last is None or any(world.obstacle(base, joints, 0.0, reaching=True) for joints in last):
             continue
-        path = clear_path(world, base, start, before)
+        path = clear_path(world, base, start, before, samples)
         if path is not None:
             return Reach(target, path, last[1:])
     return None
 
 
 def clear_path(
-    world: PlanningWorld, base: Floats, start: Floats, end: Floats
+    world: PlanningWorld, base: Floats, start: Floats, end: Floats, samples: int = 0
 ) -> list[Floats] | None:
-    """Joints to pass to get from start to end without touching anything, or None."""
-    highest = world.highest_lift
+    """Joints to pass to get from start to end without touching anything, or None.
+
+    Straight, or by way of the lift; if neither, a roundabout way is looked for with so many samples.
+    """
+    highest = world.limits[1][0]
     tops = [max(start[0], end[0]), *(min(end[0] + over, highest) for over in OVER_M)]
     ways = [[np.append(top, start[1:]), np.append(top, end[1:])] for top in tops]
     for between in ([], ways[0][:1], *ways):
         path = [*between, end]
         if not world.path_obstacle(base, [start, *path]):
             return path
-    return None
+    return _roundabout(world, base, start, end, samples)
+
+
+def _roundabout(
+    world: PlanningWorld, base: Floats, start: Floats, end: Floats, samples: int
+) -> list[Floats] | None:
+    lower, upper = world.limits
+    found = connect(
+        start / CHECKED,
+        end / CHECKED,
+        lower / CHECKED,
+        upper / CHECKED,
+        lambda joints: not world.obstacle(base, joints * CHECKED),
+        samples,
+    )
+    return found and [joints * CHECKED for joints in found[1:]]
