@@ -152,7 +152,7 @@ class Kinematics:
 
 
 def _bounded_step(hessian: Floats, gradient: Floats, low: Floats, high: Floats) -> Floats:
-    """About the lowest point of a quadratic form within bounds: what would leave them stays at them."""
+    """About the lowest point of a quadratic form within bounds: what would leave them stays."""
     step, free = np.zeros(len(gradient)), np.ones(len(gradient), dtype=bool)
     while free.any():
         pull = gradient[free] + hessian[np.ix_(free, ~free)] @ step[~free]

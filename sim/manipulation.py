@@ -6,13 +6,14 @@ home. What comes of it is up to physics.
 
 from collections.abc import Callable, Generator, Mapping
 from functools import cache, partial
-from itertools import product
+from itertools import islice, product
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
+from sim.clutter import over
 from sim.driving import CREEPING, drive
 from sim.grasps import TILTS, Grasp, HandPose, find_grasps, varied
 from sim.hand import Hand, Held, LostError
@@ -98,6 +99,8 @@ class Manipulator:
         if piece is None:
             yield from self._face(np.median(points, axis=0))
             points = self._around.rising_near(model, points)
+        else:
+            yield from self._look_at(np.median(points, axis=0))
         model, pose = locate_fallen(model, points, support(piece, points))
         grasp, way, stance = self._choose_grasp(model, pose, points, piece)
         yield from self._creep(stance)
@@ -164,9 +167,13 @@ class Manipulator:
 
     def _face(self, point: Floats) -> Skill:
         """Turn to a point on the floor, and look at it."""
-        x, y, z = (float(value) for value in point)
         here = self._hardware.base_pose
-        yield from self._creep([np.append(here[:2], np.arctan2(y - here[1], x - here[0]))])
+        ahead = point[:2] - here[:2]
+        yield from self._creep([np.append(here[:2], np.arctan2(ahead[1], ahead[0]))])
+        yield from self._look_at(point)
+
+    def _look_at(self, point: Floats) -> Skill:
+        x, y, z = (float(value) for value in point)
         yield from look_at(self._hardware, (x, y, z))
 
     def _choose_grasp(
@@ -231,17 +238,22 @@ class Manipulator:
         Returns:
             The spot, the last straight way of the hand to it, and the way to where to stand.
         """
-        yield from look_at(self._hardware, self._home.view_targets(piece.name)[0])
-        carrying = self._hardware.arm_positions
-        self._around.mind_clutter(piece, np.empty((0, 3)))
-        spots = list(free_spots(piece, held.model, self._around.scan(), held.turn))
-        for samples, spot in product((0, SAMPLES), spots[:_SPOTS_TRIED]):
-            hand = held.hand_for(spot)
-            stances = self._around.stances(piece, np.asarray(spot.position))
-            for stance, way in product(stances, _ways_to_put(hand)):
-                if plan_reach(self._planning, stance[-1], carrying, hand, way, samples):
-                    return spot, way, stance
-        clause = "I cannot reach a free spot on" if spots else "there is no free spot on"
+        carrying, any_free = self._hardware.arm_positions, False
+        for surface, target in zip(
+            piece.surfaces(), self._home.view_targets(piece.name), strict=True
+        ):
+            yield from look_at(self._hardware, target)
+            self._around.mind_clutter(piece, np.empty((0, 3)))
+            spots = free_spots(piece, surface, held.model, self._around.scan(), held.turn)
+            first = list(islice(spots, _SPOTS_TRIED))
+            any_free = any_free or bool(first)
+            for samples, spot in product((0, SAMPLES), first):
+                hand = held.hand_for(spot)
+                stances = self._around.stances(piece, np.asarray(spot.position))
+                for stance, way in product(stances, _ways_to_put(hand)):
+                    if plan_reach(self._planning, stance[-1], carrying, hand, way, samples):
+                        return spot, way, stance
+        clause = "I cannot reach a free spot on" if any_free else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
 
     def _release(self, hand: HandPose, way: Floats, gap: float) -> Skill:
@@ -260,7 +272,7 @@ class Manipulator:
     def _check_stands(self, model: ObjectModel, spot: Pose, piece: Furniture) -> Skill:
         """Look whether what was put down stands where it was put."""
         yield from look_at(self._hardware, spot.position)
-        fault = stands(model, spot, self._around.scan())
+        fault = stands(model, spot, over(piece, self._around.scan()))
         if fault:
             raise LostError(f"the {model.name} {fault} on the {piece.name}")
 

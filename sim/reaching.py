@@ -132,7 +132,7 @@ def clear_path(
 ) -> list[Floats] | None:
     """Joints to pass to get from start to end without touching anything, or None.
 
-    Straight, or by way of the lift; if neither, a roundabout way is looked for with so many samples.
+    Straight, or by way of the lift; if neither, roundabout: see `samples` of `rrt.connect`.
     """
     highest = world.limits[1][0]
     tops = [max(start[0], end[0]), *(min(end[0] + over, highest) for over in OVER_M)]

@@ -135,10 +135,11 @@ def test_of_a_mug_one_wall_is_taken() -> None:
 
 def test_a_spot_is_free_where_nothing_rises() -> None:
     piece = four_rooms().furniture_named("delivery")
+    (top,) = piece.surfaces()
     empty = np.empty((0, 3))
-    first = next(free_spots(piece, MODELS["mug"], empty)).position
+    first = next(free_spots(piece, top, MODELS["mug"], empty)).position
     crowd = np.array(first) + np.random.default_rng(0).normal(0.0, 0.01, (50, 3)) + (0, 0, 0.05)
-    second = next(free_spots(piece, MODELS["mug"], crowd)).position
+    second = next(free_spots(piece, top, MODELS["mug"], crowd)).position
     assert np.hypot(second[0] - first[0], second[1] - first[1]) > 0.05
 
 

@@ -59,14 +59,20 @@ class Handler:
         return events[-1].result if events else Failed("it took too long")
 
     def see(self) -> Detection | None:
-        """The thing in the first view in which it is."""
+        """The thing in the first view in which it is; if it is cut off there, looked at again."""
         for view in range(self.world.robot.views(self.place)):
-            self.do(LookAt(self.place, view))
-            frame = self.world.camera.capture()
-            for found in self.world.detector.detect(frame):
-                if found.label == self.thing:
-                    return locate(found, frame)
+            seen = self._look(LookAt(self.place, view))
+            if seen and seen.cut_off:
+                seen = self._look(LookAt(self.place, view, seen.position))
+            if seen:
+                return seen
         return None
+
+    def _look(self, goal: LookAt) -> Detection | None:
+        self.do(goal)
+        frame = self.world.camera.capture()
+        things = self.world.detector.detect(frame)
+        return next((locate(d, frame) for d in things if d.label == self.thing), None)
 
     def pick(self) -> tuple[str, int]:
         """Pick it up; why it failed (empty: it is held), and after how many tries."""
