@@ -4,7 +4,7 @@ What the hand does follows from what the camera saw, the known shapes of things 
 home. What comes of it is up to physics.
 """
 
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from functools import cache, partial
 from itertools import islice, product
 
@@ -24,8 +24,10 @@ from sim.objects import ObjectModel
 from sim.placing import free_spots, stands
 from sim.planning import PlanningWorld
 from sim.reaching import (
+    Approach,
     Reach,
-    clear_path,
+    any_path,
+    choose_approach,
     plan_reach,
     plan_retreat,
 )
@@ -40,8 +42,8 @@ RISE_M = 0.10
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 """How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
 FEWEST_POINTS = 30
-SAMPLES = 300
-"""Random arm postures that are tried to find a roundabout way, where there is no simple one."""
+_GOOD = 0.06
+"""Grasps that cost more are tried only if no better one can be reached."""
 _GRASPS_TRIED = 8
 _SPOTS_TRIED = 12
 _FOLDED_WITHIN = 0.05
@@ -101,11 +103,12 @@ class Manipulator:
             points = self._around.rising_near(model, points)
         else:
             yield from self._look_at(np.median(points, axis=0))
-        model, pose = locate_fallen(model, points, support(piece, points))
-        grasp, way, stance = self._choose_grasp(model, pose, points, piece)
-        yield from self._creep(stance)
+        eye = np.asarray(self._hardware.link_pose("camera_link").position)
+        model, pose = locate_fallen(model, points, eye, support(piece, points))
+        grasp, approach = self._choose_grasp(model, pose, points, piece)
+        yield from self._creep(approach.stance)
         tare = yield from self.hand.weigh()
-        failure = yield from attempt(self._grasp(model, pose, grasp, way))
+        failure = yield from attempt(self._grasp(model, pose, grasp, approach.way))
         self._planning.forget_target()
         yield from self.stow()
         failure = failure or (yield from attempt(self._check_lifted(model, tare)))
@@ -125,9 +128,9 @@ class Manipulator:
             self.hand.take(None)
             raise CannotError("my hand is empty")
         piece = self._home.furniture_named(place)
-        target, way, stance = yield from self._choose_spot(held, piece)
-        yield from self._creep(stance)
-        failure = yield from attempt(self._release(held.hand_for(target), way, held.gap))
+        target, approach = yield from self._choose_spot(held, piece)
+        yield from self._creep(approach.stance)
+        failure = yield from attempt(self._release(approach, held.gap))
         yield from self.stow()
         if failure:
             raise failure
@@ -150,7 +153,7 @@ class Manipulator:
         arm = hardware.arm_positions
         folded = FOLDED.copy()
         folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
-        path = clear_path(self._planning, hardware.base_pose, arm, folded, SAMPLES)
+        path = any_path(self._planning, hardware.base_pose, arm, folded)
         yield from follow(hardware, path or [folded])
 
     # --- steps of a pick ---
@@ -178,11 +181,8 @@ class Manipulator:
 
     def _choose_grasp(
         self, model: ObjectModel, pose: Pose, points: Floats, piece: Furniture | None
-    ) -> tuple[Grasp, Floats, list[Floats]]:
-        """A grasp, the last straight way of the hand to it, and the way to where to stand.
-
-        Approaches that missed before come last.
-        """
+    ) -> tuple[Grasp, Approach]:
+        """A grasp, and how to get to it. Approaches that missed before come last."""
         self._around.mind_clutter(piece, np.concatenate((points, _surface(model, pose))))
         stances = list(self._around.stances(piece, np.asarray(pose.position)))
 
@@ -192,12 +192,16 @@ class Manipulator:
             new_first = sorted(found, key=lambda grasp: self._has_missed(model, grasp))
             return varied(new_first, _GRASPS_TRIED)
 
-        for samples, tilt, stance in product((0, SAMPLES), TILTS, stances):
-            found = grasps(float(stance[-1][2]), tilt)
-            for grasp, length in product(found, APPROACH_M):
-                way = length * grasp.hand.approach
-                if plan_reach(self._planning, stance[-1], FOLDED, grasp.hand, way, samples):
-                    return grasp, way, stance
+        def options(good: bool) -> Iterator[tuple[Grasp, Approach]]:
+            for tilt, stance in product(TILTS, stances):
+                some = [g for g in grasps(float(stance[-1][2]), tilt) if (g.cost < _GOOD) == good]
+                for grasp, length in product(some, APPROACH_M):
+                    yield grasp, Approach(stance, grasp.hand, length * grasp.hand.approach)
+
+        for good in (True, False):
+            chosen = choose_approach(self._planning, FOLDED, options(good))
+            if chosen:
+                return chosen
         if stances and not any(grasps(float(stances[0][-1][2]), tilt) for tilt in TILTS):
             raise CannotError(f"I cannot grasp the {model.name} as it lies")
         raise CannotError(f"I cannot reach the {model.name}")
@@ -232,33 +236,33 @@ class Manipulator:
 
     def _choose_spot(
         self, held: Held, piece: Furniture
-    ) -> Generator[None, None, tuple[Pose, Floats, list[Floats]]]:
-        """Look, then choose where to put the thing.
-
-        Returns:
-            The spot, the last straight way of the hand to it, and the way to where to stand.
-        """
+    ) -> Generator[None, None, tuple[Pose, Approach]]:
+        """Look, then choose where to put the thing, and how to get there."""
         carrying, any_free = self._hardware.arm_positions, False
-        for surface, target in zip(
+        for surface, middle in zip(
             piece.surfaces(), self._home.view_targets(piece.name), strict=True
         ):
-            yield from look_at(self._hardware, target)
+            yield from look_at(self._hardware, middle)
             self._around.mind_clutter(piece, np.empty((0, 3)))
-            spots = free_spots(piece, surface, held.model, self._around.scan(), held.turn)
-            first = list(islice(spots, _SPOTS_TRIED))
-            any_free = any_free or bool(first)
-            for samples, spot in product((0, SAMPLES), first):
-                hand = held.hand_for(spot)
-                stances = self._around.stances(piece, np.asarray(spot.position))
-                for stance, way in product(stances, _ways_to_put(hand)):
-                    if plan_reach(self._planning, stance[-1], carrying, hand, way, samples):
-                        return spot, way, stance
+            free = free_spots(piece, surface, held.model, self._around.scan(), held.turn)
+            spots = list(islice(free, _SPOTS_TRIED))
+            any_free = any_free or bool(spots)
+            options = (
+                (spot, Approach(stance, hand, way))
+                for spot in spots
+                for hand in [held.hand_for(spot)]
+                for stance in self._around.stances(piece, np.asarray(spot.position))
+                for way in _ways_to_put(hand)
+            )
+            chosen = choose_approach(self._planning, carrying, options)
+            if chosen:
+                return chosen
         clause = "I cannot reach a free spot on" if any_free else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
 
-    def _release(self, hand: HandPose, way: Floats, gap: float) -> Skill:
+    def _release(self, approach: Approach, gap: float) -> Skill:
         hardware = self._hardware
-        reach = self._reach(hand, way, "I cannot reach a free spot")
+        reach = self._reach(approach.hand, approach.way, "I cannot reach a free spot")
         yield from follow(hardware, reach.path)
         weight = yield from self.hand.weigh()
         set_down = partial(self.hand.meets, weight)
@@ -282,7 +286,7 @@ class Manipulator:
         """The motion to a hand pose from where the robot stands now."""
         hardware = self._hardware
         base, arm = hardware.base_pose, hardware.arm_positions
-        reach = plan_reach(self._planning, base, arm, hand, way, SAMPLES)
+        reach = plan_reach(self._planning, base, arm, hand, way)
         if reach is None:
             raise CannotError(otherwise)
         return reach

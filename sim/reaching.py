@@ -1,7 +1,9 @@
 """Choosing where to stand and how to move to bring the hand to where it closes or opens."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import product
+from typing import TypeVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -25,8 +27,11 @@ FLOOR_REACH_M = 0.55
 """From a thing on the floor to the middle of the robot that picks it up."""
 FLOOR_BEARINGS = tuple(np.radians((0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0, 180.0)))
 """Sides from which it is tried, from that of the robot (radians)."""
+_ROUNDABOUTS, _SAMPLES = 12, 300
+"""How many reaches are tried in a roundabout way, and with how many random postures each."""
 _HALF_TURN = Rotation.from_euler("z", np.pi)
 """The two fingers are alike."""
+Aim = TypeVar("Aim")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +46,34 @@ class Reach:
     def way_back(self) -> list[Floats]:
         """The last part in reverse."""
         return [*reversed(self.last[:-1]), self.path[-1]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Approach:
+    """Where to stand and how to bring the hand to where it closes or opens.
+
+    Attributes:
+        stance: poses (x, y, yaw) that the base passes; the last is where it stands.
+        hand: where the hand shall be.
+        way: the last straight part of its way (metres, in `map`).
+    """
+
+    stance: list[Floats]
+    hand: HandPose
+    way: Floats
+
+    @property
+    def base(self) -> Floats:
+        """Where the base stands."""
+        return self.stance[-1]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _LastPart:
+    """The last straight part of a reach, joint positions from its start to its end."""
+
+    hand: HandPose
+    joints: list[Floats]
 
 
 def standing_poses(piece: Furniture, target: Floats) -> Iterator[Floats]:
@@ -92,13 +125,30 @@ def plan_retreat(world: PlanningWorld, here: Floats) -> Floats:
     return here
 
 
+def choose_approach(
+    world: PlanningWorld, start: Floats, options: Iterable[tuple[Aim, Approach]]
+) -> tuple[Aim, Approach] | None:
+    """The first approach with a simple motion to its end; if none has, one with a roundabout one.
+
+    Args:
+        world: the map.
+        start: joints of `ARM` to start from.
+        options: what is aimed at, and how; the best first.
+    """
+    nearly = []
+    for aim, approach in options:
+        for last in _last_parts(world, approach.base, approach.hand, approach.way):
+            if clear_path(world, approach.base, start, last.joints[0]):
+                return aim, approach
+            nearly.append((aim, approach, last))
+    for aim, approach, last in nearly[:: len(nearly) // _ROUNDABOUTS + 1]:
+        if _roundabout(world, approach.base, start, last.joints[0]):
+            return aim, approach
+    return None
+
+
 def plan_reach(
-    world: PlanningWorld,
-    base: Floats,
-    start: Floats,
-    hand: HandPose,
-    way: Floats,
-    samples: int = 0,
+    world: PlanningWorld, base: Floats, start: Floats, hand: HandPose, way: Floats
 ) -> Reach | None:
     """A collision-free motion to a hand pose, its last part straight along `way`.
 
@@ -108,32 +158,35 @@ def plan_reach(
         start: joints of `ARM` to start from.
         hand: where the hand shall be; the fingers may be swapped.
         way: the last straight part, from its start to the hand pose (metres, in `map`).
-        samples: see `clear_path`.
     """
+    lasts = list(_last_parts(world, base, hand, way))
+    for plan, last in product((clear_path, _roundabout), lasts):
+        path = plan(world, base, start, last.joints[0])
+        if path is not None:
+            return Reach(last.hand, path, last.joints[1:])
+    return None
+
+
+def _last_parts(
+    world: PlanningWorld, base: Floats, hand: HandPose, way: Floats
+) -> Iterator[_LastPart]:
+    """Free straight ways along `way` to a hand pose, for the fingers as they are and swapped."""
     for target in (hand, HandPose(hand.position, hand.rotation * _HALF_TURN)):
-        near = COMFORT.copy()
-        end = world.solve(base, target, near)
+        end = world.solve(base, target, COMFORT)
         if end is None or world.obstacle(base, end, 0.0, reaching=True):
             continue
         before = world.solve(base, target.shifted(-way), end)
         if before is None:
             continue
-        last = world.line(base, before, target)
-        if last is None or any(world.obstacle(base, joints, 0.0, reaching=True) for joints in last):
-            continue
-        path = clear_path(world, base, start, before, samples)
-        if path is not None:
-            return Reach(target, path, last[1:])
-    return None
+        joints = world.line(base, before, target)
+        if joints and not any(world.obstacle(base, j, 0.0, reaching=True) for j in joints):
+            yield _LastPart(target, joints)
 
 
 def clear_path(
-    world: PlanningWorld, base: Floats, start: Floats, end: Floats, samples: int = 0
+    world: PlanningWorld, base: Floats, start: Floats, end: Floats
 ) -> list[Floats] | None:
-    """Joints to pass to get from start to end without touching anything, or None.
-
-    Straight, or by way of the lift; if neither, roundabout: see `samples` of `rrt.connect`.
-    """
+    """Joints to pass to get from start to end, straight or by way of the lift, without a touch."""
     highest = world.limits[1][0]
     tops = [max(start[0], end[0]), *(min(end[0] + over, highest) for over in OVER_M)]
     ways = [[np.append(top, start[1:]), np.append(top, end[1:])] for top in tops]
@@ -141,11 +194,16 @@ def clear_path(
         path = [*between, end]
         if not world.path_obstacle(base, [start, *path]):
             return path
-    return _roundabout(world, base, start, end, samples)
+    return None
+
+
+def any_path(world: PlanningWorld, base: Floats, start: Floats, end: Floats) -> list[Floats] | None:
+    """Joints to pass to get from start to end without touching anything, or None."""
+    return clear_path(world, base, start, end) or _roundabout(world, base, start, end)
 
 
 def _roundabout(
-    world: PlanningWorld, base: Floats, start: Floats, end: Floats, samples: int
+    world: PlanningWorld, base: Floats, start: Floats, end: Floats
 ) -> list[Floats] | None:
     lower, upper = world.limits
     found = connect(
@@ -154,6 +212,6 @@ def _roundabout(
         lower / CHECKED,
         upper / CHECKED,
         lambda joints: not world.obstacle(base, joints * CHECKED),
-        samples,
+        _SAMPLES,
     )
     return found and [joints * CHECKED for joints in found[1:]]

@@ -100,8 +100,9 @@ def test_the_visible_side_of_a_thing_tells_where_it_stands(name: str) -> None:
     turn, stand = Rotation.from_euler("z", 1.9), np.array([2.0, 1.0, 0.8])
     points, normals = sample_surface(model.shapes)
     points, normals = turn.apply(points) + stand, turn.apply(normals)
-    visible = ((np.array([1.2, 1.2, 1.4]) - points) * normals).sum(axis=1) > 0.05
-    found = locate(model, points[visible])
+    eye = np.array([1.2, 1.2, 1.4])
+    visible = ((eye - points) * normals).sum(axis=1) > 0.05
+    found = locate(model, points[visible], eye)
     back = Rotation.from_quat(found.orientation).inv().apply(points - found.position)
     assert np.abs(signed_distance(model.shapes, back)).mean() < 2e-3
 
