@@ -46,7 +46,7 @@ _PALM_HALF_SIZE = (0.025, 0.105)
 _STEP_X, _STEP_Y, _STEP_Z = 0.008, 0.001, 0.004
 _DEEPEST = 0.06
 Span = tuple[float, float]
-TILTS = (0.0, np.pi / 6, np.pi / 4, np.pi / 3, np.pi / 2)
+TILTS = tuple(np.radians((0.0, 15.0, 30.0, 45.0, 60.0, 90.0)))
 """From straight down to level, away from the robot (radians), in order of preference."""
 
 

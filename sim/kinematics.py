@@ -11,14 +11,11 @@ from sim.client import connect
 from sim.grasps import HandPose
 from sim.hardware import ARM, BASE, Floats, Hardware
 
-COMFORT: Floats = np.array([0.15, 0.0, 0.1, 0.0, -2.0, 0.0, 2.1, 0.785])
-"""The arm bent, hand pointing down before the robot: solutions stay near it where they can."""
-
 POSITION_TOLERANCE = 0.002
 ANGLE_TOLERANCE = 0.02
 _MILLIMETRE, _HALF_DEGREE = 1e-3, 1e-2
 """Units in which the solver weighs position against orientation."""
-_COMFORT_WEIGHT = 0.03
+_STAY_WEIGHT = 0.03
 _DAMPING, _EVALUATIONS, _LEAST_GAIN = 0.1, 40, 0.003
 """Of the solver: its first damping, its patience, and the share of the error that a step takes off
 at least, or it was the last."""
@@ -63,19 +60,20 @@ class Kinematics:
         return self._hand()
 
     def solve(self, base: Floats, target: HandPose, near: Floats) -> Floats | None:
-        """Joints of `ARM` that bring the hand to the target; None if there are none near `near`.
+        """Joints of `ARM`, near `near`, that bring the hand to the target; None if none are found.
 
         Levenberg-Marquardt within the joint limits.
         """
-        joints, damping = np.clip(near, self._lower, self._upper), _DAMPING
-        error = self._error(base, target, joints)
+        near = np.clip(near, self._lower, self._upper)
+        joints, damping = near, _DAMPING
+        error = self._error(base, target, joints, near)
         for _ in range(_EVALUATIONS):
             jacobian = self._jacobian()
             hessian = jacobian.T @ jacobian
             hessian[_DIAGONAL] *= 1 + damping
             low, high = self._lower - joints, self._upper - joints
             moved = joints + _bounded_step(hessian, jacobian.T @ error, low, high)
-            new_error = self._error(base, target, moved)
+            new_error = self._error(base, target, moved, near)
             gain = 1.0 - float(new_error @ new_error) / float(error @ error)
             if gain > 0:
                 joints, error, damping = moved, new_error, damping / 3
@@ -118,15 +116,15 @@ class Kinematics:
         )
         self._all[self._columns] = values
 
-    def _error(self, base: Floats, target: HandPose, arm: Floats) -> Floats:
-        """How far the hand is off (position, orientation), and the arm from comfort (14,)."""
+    def _error(self, base: Floats, target: HandPose, arm: Floats, near: Floats) -> Floats:
+        """How far the hand is off (position, orientation), and how far the arm went (14,)."""
         hand = self.hand(base, arm)
         turn = (hand.rotation * target.rotation.inv()).as_rotvec()
         return np.concatenate(
             (
                 (hand.position - target.position) / _MILLIMETRE,
                 turn / _HALF_DEGREE,
-                _COMFORT_WEIGHT * (arm - COMFORT),
+                _STAY_WEIGHT * (arm - near),
             )
         )
 
@@ -146,7 +144,7 @@ class Kinematics:
             (
                 np.array(linear)[:, columns] / _MILLIMETRE,
                 np.array(angular)[:, columns] / _HALF_DEGREE,
-                _COMFORT_WEIGHT * np.eye(len(ARM)),
+                _STAY_WEIGHT * np.eye(len(ARM)),
             )
         )
 

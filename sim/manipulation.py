@@ -5,6 +5,7 @@ home. What comes of it is up to physics.
 """
 
 from collections.abc import Callable, Generator, Iterator, Mapping
+from dataclasses import replace
 from functools import cache, partial
 from itertools import islice, product
 
@@ -36,9 +37,10 @@ from sim.skill import CannotError, Skill, attempt, pause, wait_until
 from sim.solids import sample_surface
 from sim.surroundings import Surroundings, support
 
-APPROACH_M = (0.12, 0.05)
+APPROACH_M = (0.12, 0.05, 0.025)
 """Lengths of the last straight part of a reach, in order of preference."""
-RISE_M = 0.10
+RISES_M = (0.10, 0.05, 0.02)
+"""How far the hand goes up before the robot backs off, in order of preference."""
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 """How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
 FEWEST_POINTS = 30
@@ -108,7 +110,7 @@ class Manipulator:
         grasp, approach = self._choose_grasp(model, pose, points, piece)
         yield from self._creep(approach.stance)
         tare = yield from self.hand.weigh()
-        failure = yield from attempt(self._grasp(model, pose, grasp, approach.way))
+        failure = yield from attempt(self._grasp(model, pose, grasp, approach))
         self._planning.forget_target()
         yield from self.stow()
         failure = failure or (yield from attempt(self._check_lifted(model, tare)))
@@ -144,11 +146,12 @@ class Manipulator:
             return
         hardware, arm = self._hardware, self._hardware.arm_positions
         base = hardware.base_pose
-        rise = self._planning.line(
-            base, arm, self._planning.hand(base, arm).shifted(-RISE_M * _DOWN)
-        )
-        if rise and not self._planning.path_obstacle(base, rise[1:]):
-            yield from follow(hardware, rise[1:], SLOW)
+        hand = self._planning.hand(base, arm)
+        for rise in RISES_M:
+            up = self._planning.line(base, arm, hand.shifted(-rise * _DOWN))
+            if up and self._planning.is_last_part_free(base, up[1:]):
+                yield from follow(hardware, up[1:], SLOW)
+                break
         yield from self._creep([plan_retreat(self._planning, base)])
         arm = hardware.arm_positions
         folded = FOLDED.copy()
@@ -199,16 +202,16 @@ class Manipulator:
                     yield grasp, Approach(stance, grasp.hand, length * grasp.hand.approach)
 
         for good in (True, False):
-            chosen = choose_approach(self._planning, FOLDED, options(good))
+            chosen = choose_approach(self._planning, FOLDED, partial(options, good))
             if chosen:
                 return chosen
         if stances and not any(grasps(float(stances[0][-1][2]), tilt) for tilt in TILTS):
             raise CannotError(f"I cannot grasp the {model.name} as it lies")
         raise CannotError(f"I cannot reach the {model.name}")
 
-    def _grasp(self, model: ObjectModel, pose: Pose, grasp: Grasp, way: Floats) -> Skill:
+    def _grasp(self, model: ObjectModel, pose: Pose, grasp: Grasp, approach: Approach) -> Skill:
         hardware, name = self._hardware, model.name
-        reach = self._reach(grasp.hand, way, f"I cannot reach the {name}")
+        reach = self._reach(approach, f"I cannot reach the {name}")
         hardware.open_fingers(grasp.gap)
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
@@ -247,22 +250,25 @@ class Manipulator:
             free = free_spots(piece, surface, held.model, self._around.scan(), held.turn)
             spots = list(islice(free, _SPOTS_TRIED))
             any_free = any_free or bool(spots)
-            options = (
-                (spot, Approach(stance, hand, way))
-                for spot in spots
-                for hand in [held.hand_for(spot)]
-                for stance in self._around.stances(piece, np.asarray(spot.position))
-                for way in _ways_to_put(hand)
-            )
+            options = partial(self._ways_to_spots, held, piece, spots)
             chosen = choose_approach(self._planning, carrying, options)
             if chosen:
                 return chosen
         clause = "I cannot reach a free spot on" if any_free else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
 
+    def _ways_to_spots(
+        self, held: Held, piece: Furniture, spots: list[Pose]
+    ) -> Iterator[tuple[Pose, Approach]]:
+        for spot in spots:
+            hand = held.hand_for(spot)
+            stances = self._around.stances(piece, np.asarray(spot.position))
+            for stance, way in product(stances, _ways_to_put(hand)):
+                yield spot, Approach(stance, hand, way)
+
     def _release(self, approach: Approach, gap: float) -> Skill:
         hardware = self._hardware
-        reach = self._reach(approach.hand, approach.way, "I cannot reach a free spot")
+        reach = self._reach(approach, "I cannot reach a free spot")
         yield from follow(hardware, reach.path)
         weight = yield from self.hand.weigh()
         set_down = partial(self.hand.meets, weight)
@@ -282,11 +288,10 @@ class Manipulator:
 
     # --- helpers ---
 
-    def _reach(self, hand: HandPose, way: Floats, otherwise: str) -> Reach:
-        """The motion to a hand pose from where the robot stands now."""
-        hardware = self._hardware
-        base, arm = hardware.base_pose, hardware.arm_positions
-        reach = plan_reach(self._planning, base, arm, hand, way)
+    def _reach(self, approach: Approach, otherwise: str) -> Reach:
+        """The motion by an approach from where the robot stands now."""
+        here = replace(approach, stance=[self._hardware.base_pose])
+        reach = plan_reach(self._planning, self._hardware.arm_positions, here)
         if reach is None:
             raise CannotError(otherwise)
         return reach

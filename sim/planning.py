@@ -67,6 +67,10 @@ class PlanningWorld(Kinematics):
         self._load = create_body(self._client, shapes, Pose()) if shapes else None
         self._in_hand = in_hand
 
+    def is_last_part_free(self, base: Floats, joints: Sequence[Floats]) -> bool:
+        """Whether the arm touches nothing but the target, slow and near to things as it may be."""
+        return not any(self.obstacle(base, arm, 0.0, reaching=True) for arm in joints)
+
     def obstacle(
         self, base: Floats, arm: Floats, margin: float = 0.01, reaching: bool = False
     ) -> str | None:

@@ -1,6 +1,6 @@
 """Choosing where to stand and how to move to bring the hand to where it closes or opens."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import product
 from typing import TypeVar
@@ -11,7 +11,6 @@ from scipy.spatial.transform import Rotation
 from sim.grasps import HandPose
 from sim.hardware import Floats
 from sim.home import Furniture
-from sim.kinematics import COMFORT
 from sim.planning import CHECKED, PlanningWorld
 from sim.rrt import connect
 
@@ -31,6 +30,13 @@ _ROUNDABOUTS, _SAMPLES = 12, 300
 """How many reaches are tried in a roundabout way, and with how many random postures each."""
 _HALF_TURN = Rotation.from_euler("z", np.pi)
 """The two fingers are alike."""
+COMFORT: Floats = np.array([0.15, 0.0, 0.1, 0.0, -2.0, 0.0, 2.1, 0.785])
+"""The arm bent, hand pointing down before the robot: reaches end near it where they can."""
+_ELBOW_RIGHT: Floats = np.array([0.1, -0.7, 0.5, 0.9, -1.6, -0.4, 1.8, 0.785])
+_ELBOW_LEFT: Floats = np.array([0.1, 0.7, 0.5, -0.9, -1.6, 0.4, 1.8, 0.785])
+_POSTURES = ((COMFORT,), (_ELBOW_RIGHT, _ELBOW_LEFT))
+"""Near which reaches end, in order of preference: between boards there is more room beside the
+elbow than above the hand."""
 Aim = TypeVar("Aim")
 
 
@@ -126,60 +132,54 @@ def plan_retreat(world: PlanningWorld, here: Floats) -> Floats:
 
 
 def choose_approach(
-    world: PlanningWorld, start: Floats, options: Iterable[tuple[Aim, Approach]]
+    world: PlanningWorld, start: Floats, options: Callable[[], Iterable[tuple[Aim, Approach]]]
 ) -> tuple[Aim, Approach] | None:
     """The first approach with a simple motion to its end; if none has, one with a roundabout one.
 
     Args:
         world: the map.
         start: joints of `ARM` to start from.
-        options: what is aimed at, and how; the best first.
+        options: gives what may be aimed at, and how; the best first.
     """
-    nearly = []
-    for aim, approach in options:
-        for last in _last_parts(world, approach.base, approach.hand, approach.way):
-            if clear_path(world, approach.base, start, last.joints[0]):
+    for postures in _POSTURES:
+        nearly = []
+        for aim, approach in options():
+            for last in _last_parts(world, approach, postures):
+                if clear_path(world, approach.base, start, last.joints[0]):
+                    return aim, approach
+                nearly.append((aim, approach, last))
+        for aim, approach, last in nearly[:: len(nearly) // _ROUNDABOUTS + 1]:
+            if _roundabout(world, approach.base, start, last.joints[0]):
                 return aim, approach
-            nearly.append((aim, approach, last))
-    for aim, approach, last in nearly[:: len(nearly) // _ROUNDABOUTS + 1]:
-        if _roundabout(world, approach.base, start, last.joints[0]):
-            return aim, approach
     return None
 
 
-def plan_reach(
-    world: PlanningWorld, base: Floats, start: Floats, hand: HandPose, way: Floats
-) -> Reach | None:
-    """A collision-free motion to a hand pose, its last part straight along `way`.
-
-    Args:
-        world: the map.
-        base: where the base stands (x, y, yaw).
-        start: joints of `ARM` to start from.
-        hand: where the hand shall be; the fingers may be swapped.
-        way: the last straight part, from its start to the hand pose (metres, in `map`).
-    """
-    lasts = list(_last_parts(world, base, hand, way))
-    for plan, last in product((clear_path, _roundabout), lasts):
-        path = plan(world, base, start, last.joints[0])
-        if path is not None:
-            return Reach(last.hand, path, last.joints[1:])
+def plan_reach(world: PlanningWorld, start: Floats, approach: Approach) -> Reach | None:
+    """A collision-free motion, from joints `start` of `ARM`, by an approach that was chosen."""
+    for postures in _POSTURES:
+        lasts = list(_last_parts(world, approach, postures))
+        for plan, last in product((clear_path, _roundabout), lasts):
+            path = plan(world, approach.base, start, last.joints[0])
+            if path is not None:
+                return Reach(last.hand, path, last.joints[1:])
     return None
 
 
 def _last_parts(
-    world: PlanningWorld, base: Floats, hand: HandPose, way: Floats
+    world: PlanningWorld, approach: Approach, postures: Iterable[Floats]
 ) -> Iterator[_LastPart]:
-    """Free straight ways along `way` to a hand pose, for the fingers as they are and swapped."""
-    for target in (hand, HandPose(hand.position, hand.rotation * _HALF_TURN)):
-        end = world.solve(base, target, COMFORT)
-        if end is None or world.obstacle(base, end, 0.0, reaching=True):
+    """Free straight ways to the end of an approach, for the fingers as they are and swapped."""
+    base, hand = approach.base, approach.hand
+    swapped = HandPose(hand.position, hand.rotation * _HALF_TURN)
+    for posture, target in product(postures, (hand, swapped)):
+        end = world.solve(base, target, posture)
+        if end is None or not world.is_last_part_free(base, [end]):
             continue
-        before = world.solve(base, target.shifted(-way), end)
+        before = world.solve(base, target.shifted(-approach.way), end)
         if before is None:
             continue
         joints = world.line(base, before, target)
-        if joints and not any(world.obstacle(base, j, 0.0, reaching=True) for j in joints):
+        if joints and world.is_last_part_free(base, joints):
             yield _LastPart(target, joints)
 
 

@@ -11,10 +11,10 @@ from executive.perception import locate as locate_pixels
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
 from sim.grasps import WIDEST, find_grasps, varied
 from sim.home import Home
-from sim.kinematics import COMFORT
 from sim.objects import load_objects
 from sim.placing import free_spots
 from sim.planning import PlanningWorld
+from sim.reaching import COMFORT
 from sim.registration import locate
 from sim.solids import sample_surface, signed_distance
 from sim.world import PhysicsWorld
