@@ -16,7 +16,7 @@ from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
 from sim.clutter import over
 from sim.driving import CREEPING, drive
-from sim.grasps import TILTS, Grasp, HandPose, find_grasps, varied
+from sim.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, varied
 from sim.hand import Hand, Held, LostError
 from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
 from sim.home import Furniture, Home
@@ -206,7 +206,8 @@ class Manipulator:
             if chosen:
                 return chosen
         if stances and not any(grasps(float(stances[0][-1][2]), tilt) for tilt in TILTS):
-            raise CannotError(f"I cannot grasp the {model.name} as it lies")
+            wide = ": it is wider than my hand opens" if min(model.size[:2]) > WIDEST else ""
+            raise CannotError(f"I cannot grasp the {model.name} as it lies{wide}")
         raise CannotError(f"I cannot reach the {model.name}")
 
     def _grasp(self, model: ObjectModel, pose: Pose, grasp: Grasp, approach: Approach) -> Skill:

@@ -26,8 +26,9 @@ FLOOR_REACH_M = 0.55
 """From a thing on the floor to the middle of the robot that picks it up."""
 FLOOR_BEARINGS = tuple(np.radians((0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0, 180.0)))
 """Sides from which it is tried, from that of the robot (radians)."""
-_ROUNDABOUTS, _SAMPLES = 12, 300
-"""How many reaches are tried in a roundabout way, and with how many random postures each."""
+_SIMPLE_TRIES, _ROUNDABOUTS, _SAMPLES = 24, 12, 300
+"""How many reaches are tried in a simple way, how many of them then in a roundabout way, and with
+how many random postures each."""
 _HALF_TURN = Rotation.from_euler("z", np.pi)
 """The two fingers are alike."""
 COMFORT: Floats = np.array([0.15, 0.0, 0.1, 0.0, -2.0, 0.0, 2.1, 0.785])
@@ -142,13 +143,15 @@ def choose_approach(
         options: gives what may be aimed at, and how; the best first.
     """
     for postures in _POSTURES:
-        nearly = []
+        nearly: list[tuple[Aim, Approach, _LastPart]] = []
         for aim, approach in options():
             for last in _last_parts(world, approach, postures):
                 if clear_path(world, approach.base, start, last.joints[0]):
                     return aim, approach
                 nearly.append((aim, approach, last))
-        for aim, approach, last in nearly[:: len(nearly) // _ROUNDABOUTS + 1]:
+            if len(nearly) >= _SIMPLE_TRIES:
+                break
+        for aim, approach, last in nearly[:: _SIMPLE_TRIES // _ROUNDABOUTS]:
             if _roundabout(world, approach.base, start, last.joints[0]):
                 return aim, approach
     return None
