@@ -61,6 +61,6 @@ def test_what_stands_on_furniture_is_recognised_and_located(
     off = []
     for name, seen in sure.items():
         points = np.asarray(locate(seen, frame).points, np.float64)
-        pose = fit(load_objects()[name], points)
+        pose = fit(load_objects()[name], points, np.asarray(frame.pose.position))
         off.append(np.linalg.norm(np.subtract(pose.position, world.truth(name).position)))
     assert max(off) < CLOSE_M

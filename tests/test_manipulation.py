@@ -30,17 +30,17 @@ def home_before(place: str) -> Home:
 
 
 class Kitchen(Bench):
-    """The robot before the counter wagon, where the sugar_box is."""
+    """The robot before a piece of furniture: the counter wagon, where the sugar_box is."""
 
-    def __init__(self) -> None:
+    def __init__(self, home: Home | None = None, place: str = "counter_wagon") -> None:
         inbox = Inbox()
         self.world = PhysicsWorld(
-            home_before("counter_wagon"), MODELS, inbox, Notebook(), seed=1, camera_hz=0.0
+            home or home_before(place), MODELS, inbox, Notebook(), seed=1, camera_hz=0.0
         )
-        super().__init__(self.world.robot, inbox, self.world.advance, "counter_wagon")
+        super().__init__(self.world.robot, inbox, self.world.advance, place)
 
-    def detection_of(self, name: str) -> Detection:
-        assert self.do(LookAt(self.place)) == Succeeded()
+    def detection_of(self, name: str, view: int = 0) -> Detection:
+        assert self.do(LookAt(self.place, view)) == Succeeded()
         frame = self.world.camera.capture()
         (found,) = (d for d in self.world.detector.detect(frame) if d.label == name)
         return locate_pixels(found, frame)
@@ -92,6 +92,54 @@ def test_what_was_taken_away_meanwhile_is_not_held(kitchen: Kitchen) -> None:
     result = kitchen.do(Pick(seen))
     assert result == Failed("I could not get hold of the sugar_box")
     assert not kitchen.robot.holding
+
+
+@pytest.mark.parametrize(
+    ("name", "place"),
+    [
+        ("spatula", "cabinet_kitchen"),
+        ("hammer", "cabinet_kitchen"),
+        ("adjustable_wrench", "counter_wagon"),
+    ],
+)
+def test_what_lies_under_a_board_is_taken_as_believed_and_put_down(name: str, place: str) -> None:
+    bench = Kitchen(home_before(place).with_placement({name: place}), place)
+    assert bench.do(DriveTo(place)) == Succeeded()
+    assert bench.do(Pick(bench.detection_of(name, view=1))) == Succeeded()
+    assert off_in_hand(bench.world, name) < 0.02
+    assert bench.do(PutDown(place)) == Succeeded()
+    assert bench.world.resting_place(name) == place
+    bench.world.close()
+
+
+def off_in_hand(world: PhysicsWorld, name: str) -> float:
+    """How far a thing is from where in the hand the robot believes it (metres)."""
+    manipulator = world.robot._manipulator
+    hardware, held = manipulator._hardware, manipulator.hand.held
+    assert held
+    hand = manipulator._planning.hand(hardware.base_pose, hardware.arm_positions)
+    believed = hand.position + hand.rotation.apply(held.position)
+    return float(np.linalg.norm(believed - world.truth(name).position))
+
+
+def test_of_a_box_at_eye_height_the_front_is_enough() -> None:
+    model, turn, eye = MODELS["cracker_box"], Rotation.from_euler("z", 0.2), (1.2, 0.0, 0.1)
+    points, normals = sample_surface(model.shapes)
+    found = locate(model, turn.apply(points[normals[:, 0] > 0.9]), np.array(eye))
+    assert np.hypot(*found.position[:2]) < 4e-3
+    away = (turn * Rotation.from_quat(found.orientation).inv()).magnitude()
+    assert min(away, np.pi - away) < 0.02
+
+
+def test_what_lies_on_its_broad_side_is_said_to_be_too_wide(kitchen: Kitchen) -> None:
+    fall = Rotation.from_euler("y", np.pi / 2)
+    x, y, z = kitchen.world.truth("sugar_box").position
+    kitchen.world._client.resetBasePositionAndOrientation(
+        kitchen.world._body("sugar_box"), (x, y, z + 0.02), fall.as_quat()
+    )
+    result = kitchen.do(Pick(kitchen.detection_of("sugar_box")))
+    wide = "it is wider than my hand opens"
+    assert result == Failed(f"I cannot grasp the sugar_box as it lies: {wide}")
 
 
 @pytest.mark.parametrize("name", ["sugar_box", "mug", "mustard_bottle", "hammer"])
