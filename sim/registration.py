@@ -17,8 +17,7 @@ _YAWS, _BEHIND = 12, (0.0, 0.5, 1.0)
 """How many yaws are guessed; how far behind what is seen the middle may be (of half the depth)."""
 _CENTERING = 0.1
 """Where the points leave a thing free to slide, their middle is that of the thing."""
-_BEHIND_M, _SEEN_WEIGHT = 0.01, 0.5
-"""Points farther (metres) behind a thing's middle, on average, are not on its near side."""
+_PROBE_M = 5e-4
 _SEED = 0
 _FITS_M = 0.008
 """A model that is off by less, in its surface and height together, is not doubted."""
@@ -60,9 +59,11 @@ def _locate(model: ObjectModel, points: Floats, eye: Floats) -> tuple[Pose, floa
     """The best pose of an upright thing, and how far the points are off its surface (metres)."""
     order = np.random.default_rng(_SEED).permutation(len(points))
     few = np.asarray(points[order[:_POINTS]], dtype=np.float64)
-    off, roughly = partial(_off, model, few, eye), partial(_off, model, few[::3], eye)
+    off, roughly = partial(_off, model, few), partial(_off, model, few[::3])
     starts = _starts(model, few, eye, roughly)
-    coarse = min((_fit(roughly, start, 10) for start in starts), key=lambda fit: fit.cost)
+    unseen = partial(_turned_away, model, few, eye)
+    fits = (_fit(roughly, start, 10) for start in starts)
+    coarse = min(fits, key=lambda fit: (unseen(fit.x), fit.cost))
     fit = _fit(off, coarse.x, 50)
     x, y, z, yaw = (float(v) for v in fit.x)
     pose = Pose((x, y, z), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
@@ -81,20 +82,32 @@ def _starts(model: ObjectModel, points: Floats, eye: Floats, off: Off) -> Iterat
         yield min(guesses, key=lambda guess: float((off(guess) ** 2).sum()))
 
 
-def _off(model: ObjectModel, points: Floats, eye: Floats, guess: Floats) -> Floats:
-    """What is wrong with a guess (metres): (n + 3,) for n points.
-
-    How far the points are off the model's surface, their middle off its own, and how far they are
-    behind its middle, where the eye would not see them.
-    """
-    turn = Rotation.from_euler("z", guess[3]).as_matrix()
-    local, local_eye = (points - guess[:3]) @ turn, ((eye - guess[:3]) @ turn)[:2]
+def _off(model: ObjectModel, points: Floats, guess: Floats) -> Floats:
+    """How far points (n, 3) are off the model's surface, and their middle off its own (n + 2,)."""
+    local = _local(guess, points)
     middle = (np.array(model.lower) + model.upper)[:2] / 2
     off_middle = (local.min(axis=0) + local.max(axis=0))[:2] / 2 - middle
-    away = (middle - local_eye) / np.linalg.norm(middle - local_eye)
-    behind = max(0.0, float((local[:, :2].mean(axis=0) - middle) @ away) - _BEHIND_M)
-    distances = signed_distance(model.shapes, local)
-    return np.concatenate((distances, _CENTERING * off_middle, [_SEEN_WEIGHT * behind]))
+    return np.append(signed_distance(model.shapes, local), _CENTERING * off_middle)
+
+
+def _turned_away(model: ObjectModel, points: Floats, eye: Floats, guess: Floats) -> bool:
+    """Whether most of the points are on sides of the model that the eye cannot see."""
+    local = _local(guess, points)
+    normals = np.column_stack(
+        [
+            signed_distance(model.shapes, local + step)
+            - signed_distance(model.shapes, local - step)
+            for step in _PROBE_M * np.eye(3)
+        ]
+    )
+    facing = ((_local(guess, eye) - local) * normals).sum(axis=1) > 0
+    return bool(facing.mean() < 0.5)
+
+
+def _local(guess: Floats, points: Floats) -> Floats:
+    """Points (..., 3) of `map` in the frame of a thing at (x, y, z, yaw)."""
+    local: Floats = (points - guess[:3]) @ Rotation.from_euler("z", guess[3]).as_matrix()
+    return local
 
 
 def _fit(off: Off, start: Floats, evaluations: int) -> OptimizeResult:
