@@ -1,6 +1,6 @@
 """Finding where a known thing stands from the part of its surface that the camera saw."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 
 import numpy as np
@@ -15,6 +15,8 @@ from sim.solids import Floats, signed_distance
 _POINTS = 250
 _YAWS, _BEHIND = 12, (0.0, 0.5, 1.0)
 """How many yaws are guessed; how far behind what is seen the middle may be (of half the depth)."""
+_NUDGES_M = (0.0, 0.02, -0.02, 0.04, -0.04)
+"""How far from the best of these, along the view, the fit is tried again: it may be stuck there."""
 _CENTERING = 0.1
 """Where the points leave a thing free to slide, their middle is that of the thing."""
 _PROBE_M = 5e-4
@@ -60,21 +62,24 @@ def _locate(model: ObjectModel, points: Floats, eye: Floats) -> tuple[Pose, floa
     order = np.random.default_rng(_SEED).permutation(len(points))
     few = np.asarray(points[order[:_POINTS]], dtype=np.float64)
     off, roughly = partial(_off, model, few), partial(_off, model, few[::3])
-    starts = _starts(model, few, eye, roughly)
-    unseen = partial(_turned_away, model, few, eye)
-    fits = (_fit(roughly, start, 10) for start in starts)
-    coarse = min(fits, key=lambda fit: (unseen(fit.x), fit.cost))
-    fit = _fit(off, coarse.x, 50)
+    middle = (few.min(axis=0) + few.max(axis=0))[:2] / 2
+    away = (middle - eye[:2]) / np.linalg.norm(middle - eye[:2])
+
+    def best(fits: Iterable[OptimizeResult]) -> OptimizeResult:
+        return min(fits, key=lambda fit: (_turned_away(model, few, eye, fit.x), fit.cost))
+
+    starts = _starts(model, np.append(middle, few[:, 2].max()), away, roughly)
+    coarse = best(_fit(roughly, start, 10) for start in starts)
+    nudges = [np.array([*(nudge * away), 0.0, 0.0]) for nudge in _NUDGES_M]
+    fit = best(_fit(off, coarse.x + nudge, 50) for nudge in nudges)
     x, y, z, yaw = (float(v) for v in fit.x)
     pose = Pose((x, y, z), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
     return pose, float(np.abs(off(fit.x)[: len(few)]).mean())
 
 
-def _starts(model: ObjectModel, points: Floats, eye: Floats, off: Off) -> Iterator[Floats]:
-    """A guess (x, y, z, yaw) for each yaw: the points' middle, or behind it as seen by the eye."""
-    middle = (points.min(axis=0) + points.max(axis=0))[:2] / 2
-    away = (middle - eye[:2]) / np.linalg.norm(middle - eye[:2])
-    bottom = points[:, 2].max() - model.size[2]
+def _starts(model: ObjectModel, top: Floats, away: Floats, off: Off) -> Iterator[Floats]:
+    """A guess (x, y, z, yaw) for each yaw: below the middle of what is seen, or behind that."""
+    middle, bottom = top[:2], top[2] - model.size[2]
     for yaw in np.arange(_YAWS) * 2 * np.pi / _YAWS:
         along = np.array([[np.cos(yaw), np.sin(yaw)], [-np.sin(yaw), np.cos(yaw)]]) @ away
         half = np.abs(along) @ np.array(model.size[:2]) / 2
