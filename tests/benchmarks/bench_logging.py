@@ -23,7 +23,7 @@ from logs.recorder import Sink
 COMMAND = "Bring a sugar_box"
 
 
-class Stopwatch:
+class RecordTimes:
     """Times a recorder's `record`, by the kind of record."""
 
     def __init__(self, session: app.Session) -> None:
@@ -48,7 +48,7 @@ def mission(runs: Path, *, logged: bool) -> tuple[float, dict[str, list[float]],
     if not logged:
         app.working = lambda *makers: list[Sink]()
     session = app.Session(settings(runs), out=io.StringIO())
-    watch = Stopwatch(session)
+    watch = RecordTimes(session)
     outcome = session.run(COMMAND)
     session.close()
     app.working = working
