@@ -5,11 +5,12 @@ from pathlib import Path
 from queue import Queue
 from threading import Thread
 
-import cv2
 import numpy as np
 import torch
 from numpy.random import Generator
+from numpy.typing import NDArray
 from torch import Tensor
+from torch.nn import functional
 
 from sim.learning.frames import Example, class_names, read_shard, shards
 from sim.learning.loss import Wanted
@@ -90,7 +91,7 @@ def crop(example: Example, left: int, top: int, side: int, flip: bool) -> Exampl
     color = example.color[top : top + side, left : left + side]
     edges = example.boxes - np.array([left, top, left, top], np.float32)
     if side != SIDE:
-        color = np.asarray(cv2.resize(color, (SIDE, SIDE)), np.uint8)
+        color = _resized(color)
         edges *= SIDE / side
     if flip:
         color = color[:, ::-1]
@@ -100,6 +101,13 @@ def crop(example: Example, left: int, top: int, side: int, flip: bool) -> Exampl
     in_it = (size >= LEAST_SIDE).all(1)
     counts = example.counts & (size.prod(1) >= LEAST_LEFT * before.prod(1))
     return Example(color, boxes[in_it], example.classes[in_it], counts[in_it])
+
+
+def _resized(color: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """SIDE pixels wide and high."""
+    channels = torch.from_numpy(np.ascontiguousarray(color)).permute(2, 0, 1)[None].float()
+    fitted = functional.interpolate(channels, (SIDE, SIDE), mode="bilinear")[0]
+    return np.asarray(fitted.permute(1, 2, 0).round().numpy(), np.uint8)
 
 
 def _batch(crops: list[Example], noise: Tensor, chance: Generator) -> Batch:
