@@ -1,6 +1,7 @@
 """The composition root: builds the parts from the settings and runs missions with them.
 
-Nothing else knows all the rooms of the house.
+Nothing else knows all the rooms of the house. What takes long to import is imported where it is
+needed: the model prepares meanwhile.
 """
 
 import json
@@ -16,7 +17,6 @@ from typing import TextIO
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
 from executive.config import Settings
-from executive.detector import LEARNED, OnnxDetector
 from executive.errors import InputError
 from executive.events import Ended, Inbox, Started, StopRequested
 from executive.interfaces import (
@@ -224,7 +224,7 @@ class Session:
             "model": self.model.name if self.model else "none",
             **{name: version(name) for name in PACKAGES},
         }
-        from logs.rerun_sink import RerunSink  # slow to import: the model prepares meanwhile
+        from logs.rerun_sink import RerunSink
 
         return working(
             lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
@@ -283,6 +283,7 @@ def build_simulation(
         camera, detector = FakeCamera(instant), FakeDetector(instant)
         camera = FaultyCamera(camera, mishaps) if mishaps else camera
     else:
+        from executive.detector import LEARNED, OnnxDetector
         from sim.world import PhysicsWorld
 
         models = load_objects()

@@ -102,13 +102,7 @@ class Scorer:
         return self._chats[chat]
 
     def _evaluate(self, chat: Chat, checkpoint: Checkpoint) -> _Read:
-        """Make it what the context has read."""
-        tokens, head = self._model.prompt(chat, _with_another_question(chat))
+        """Make it what the context has read; all but its last turn is shared with others."""
+        tokens, head = self._model.prompt(chat, (*chat[:-1], Message("user", "")))
         self._context.read(tokens, head, checkpoint)
         return _Read(len(tokens), self._context.state())
-
-
-def _with_another_question(chat: Chat) -> Chat:
-    """The same chat with the last of its examples' questions, to see where the two part."""
-    asked = [turn for turn in chat[:-1] if turn.role == "user"]
-    return (*chat[:-1], asked[-1] if asked else Message("user", ""))
