@@ -9,7 +9,7 @@ is a regression test:
 
 import json
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -69,6 +69,11 @@ class Replay:
     took_s: float
     parting: Parting | None
     notes: tuple[str, ...]
+
+    @property
+    def speed(self) -> float:
+        """How many times as fast as it was recorded."""
+        return self.recorded_s / self.took_s
 
 
 def mission_tree(team: Team) -> Tree:
@@ -243,15 +248,26 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
 def replay_text(replayed: Replay) -> str:
     """That all was as recorded; or where it parts, and in what."""
     notes = "".join(f"\n  note: {note}" for note in replayed.notes)
-    speed = replayed.recorded_s / replayed.took_s
     if replayed.parting is None:
         return (
             f"{replayed.run}: {replayed.ticks} ticks as recorded, {replayed.recorded_s:.1f} s in "
-            f"{replayed.took_s:.3f} s ({speed:.0f} times as fast){notes}"
+            f"{replayed.took_s:.3f} s ({replayed.speed:.0f} times as fast){notes}"
         )
     at = replayed.parting
     tick = "after the last tick" if at.tick is None else f"at tick {at.tick}"
     return (
         f"{replayed.run}: {replayed.ticks} ticks as recorded; parts {tick}, {at.time_s:.3f} s"
         f"{notes}\n{aspects_text(at.aspects, ('recorded', 'replayed'))}"
+    )
+
+
+def replays_text(replays: Sequence[Replay]) -> str:
+    """One line about many: how many are as recorded, and how fast they were."""
+    same = sum(replayed.parting is None for replayed in replays)
+    recorded_s = sum(replayed.recorded_s for replayed in replays)
+    took_s = sum(replayed.took_s for replayed in replays)
+    return (
+        f"{same} of {len(replays)} missions as recorded; {recorded_s:.0f} s in {took_s:.1f} s "
+        f"({recorded_s / took_s:.0f} times as fast, the slowest "
+        f"{min(replayed.speed for replayed in replays):.0f} times)"
     )

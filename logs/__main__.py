@@ -3,16 +3,18 @@
 import argparse
 import json
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from executive.errors import ExecutiveError, InputError
 from logs import comparison, gantt, pictures, report, viewer
 from logs.reader import FILE_NAME, Run
 from logs.recovery import damaged_at, recover
 from logs.why import why, why_text
+
+T = TypeVar("T")
 
 
 class Answer(NamedTuple):
@@ -87,15 +89,15 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _summary(options: argparse.Namespace) -> Answer:
-    rows = list(_summaries(options.runs))
+    rows = list(_each(options.runs, lambda run: report.summary(Run(run))))
     return Answer(rows, report.summary_text(rows))
 
 
-def _summaries(folders: Iterable[Path]) -> Iterator[report.Row]:
-    """One row a run; in a folder of runs, what cannot be read has a row that says so."""
+def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> Iterator[T | report.Row]:
+    """An answer a run; in a folder of runs, what cannot be read has a row that says so."""
     for run in _runs_in(folders):
         try:
-            yield report.summary(Run(run))
+            yield ask(run)
         except InputError as error:
             if run in folders:
                 raise
@@ -168,12 +170,16 @@ def _compare(options: argparse.Namespace) -> Answer:
 
 
 def _replay(options: argparse.Namespace) -> Answer:
-    from executive.replay import replay, replay_text
+    from executive.replay import Replay, replay, replay_text, replays_text
 
-    replays = [replay(run) for run in _runs_in(options.runs)]
-    parted = any(replayed.parting for replayed in replays)
-    text = "\n".join(replay_text(replayed) for replayed in replays)
-    return Answer([asdict(replayed) for replayed in replays], text, int(parted))
+    answers = list(_each(options.runs, replay))
+    replays = [answer for answer in answers if isinstance(answer, Replay)]
+    unread = [answer for answer in answers if not isinstance(answer, Replay)]
+    lines = [*map(replay_text, replays), *(f"{row['run']}: {row['error']}" for row in unread)]
+    if len(replays) > 1:
+        lines.append(replays_text(replays))
+    same = not unread and all(replayed.parting is None for replayed in replays)
+    return Answer([*map(asdict, replays), *unread], "\n".join(lines), int(not same))
 
 
 def _recover(options: argparse.Namespace) -> Answer:

@@ -6,14 +6,21 @@ was taken, those before it failed and said why, those after it were not needed.
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from heapq import merge
 
 from executive.records import LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
 from executive.types import Scored
 from logs.reader import At, Run
 
-SOURCES = {"Ontology": "ontology", "Rank": "llm", "Adopt": "llm", "Ask": "user"}
+SOURCES = {
+    "ReadCommand": "person",
+    "Ontology": "ontology",
+    "Rank": "llm",
+    "Adopt": "llm",
+    "Ask": "user",
+    "Confirm": "user",
+}
 """Who speaks through a behaviour whose class name begins so."""
 
 WORLD = "world"
@@ -82,22 +89,16 @@ class _Chain:
                 continue
             at = At(thought.time_s, thought.value)
             states = {node.path: node for node in at.value.nodes}
-            if before is None and at.value.situation.get("command"):
-                yield self._understood(at, states)
             yield from _visits(before, at)
             earlier = {node.path: node.status for node in before.value.nodes} if before else {}
-            for fallback in self._family.fallbacks:
-                status = states[fallback.path].status
-                if status in ("SUCCESS", "FAILURE") and earlier.get(fallback.path) != status:
-                    yield self._decision(at, fallback, states)
+            yield from _outermost(
+                self._decision(at, fallback, states)
+                for fallback in self._family.fallbacks
+                if (status := states[fallback.path].status) in ("SUCCESS", "FAILURE")
+                and earlier.get(fallback.path) != status
+            )
             self._remember(states)
             before = at
-
-    def _understood(self, at: At[Tick], states: dict[str, NodeState]) -> Decision:
-        command = at.value.situation["command"]
-        by = next((n for n in self._family.leaves if n.class_name == "Understand"), None)
-        answer = f"{command['kind']} {command['target']}"
-        return Decision(at.time_s, "what is asked", answer, "person", by.path if by else "")
 
     def _decision(
         self, at: At[Tick], fallback: NodeShape, states: dict[str, NodeState]
@@ -124,6 +125,7 @@ class _Chain:
         """What the model named or scored since the last such decision, and did not come through."""
         situation = at.value.situation
         taken = {c["place"] for c in situation.get("candidates") or ()}
+        taken.add((situation.get("command") or {}).get("kind"))
         for thought in self._thoughts:
             if isinstance(thought, LlmCall):
                 yield from (a for a in _outranked(thought) if a.what not in taken)
@@ -142,7 +144,7 @@ class _Chain:
             return "did not succeed"
         now = states[leaf.path]
         said = now.message if now.status == "FAILURE" else self._reasons[leaf.path]
-        return said or f"not {leaf.name}"
+        return said or ("no" if leaf is child else f"not {leaf.name}")
 
     def _last(self, node: NodeShape, holds: Callable[[NodeShape], bool]) -> NodeShape | None:
         inside = (leaf for leaf in self._family.leaves if _is_in(leaf.path, node.path))
@@ -175,6 +177,20 @@ class _Family:
         for child in self.children.get(node.path, ()):
             yield from self._inner_first(child)
         yield node
+
+
+def _outermost(settled: Iterable[Decision]) -> Iterator[Decision]:
+    """Of nested decisions that one behaviour settled the outer one, with what none of them took."""
+    last: Decision | None = None
+    for decision in settled:
+        if last is not None and last.by and last.by == decision.by:
+            spared = (*decision.alternatives, *last.alternatives)
+            decision = replace(decision, alternatives=spared)
+        elif last is not None:
+            yield last
+        last = decision
+    if last is not None:
+        yield last
 
 
 def _is_in(path: str, ancestor: str) -> bool:

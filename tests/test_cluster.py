@@ -7,6 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+from llama_server import llama_server
 
 from executive.campaign import main
 from executive.journal import Entry, Journal, Row
@@ -74,6 +75,23 @@ def test_a_campaign_that_is_stopped_and_loses_a_worker_loses_no_mission_and_coun
     assert all(row.completed for row in rows)
     assert workers[0].wait() != 0
     assert workers[1].poll() is None
+
+
+@pytest.mark.llm
+def test_the_workers_of_a_cluster_share_one_server_of_the_language_model(
+    start: Callable[..., "subprocess.Popen[str]"], tmp_path: Path
+) -> None:
+    file, out = tmp_path / "commands.txt", tmp_path / "out"
+    file.write_text("Find an apple.")
+    address = address_of(start("scheduler", "--port", "0", "--host", "127.0.0.1"))
+    worker = ("worker", address, "--nthreads", "1", "--no-nanny")
+    start(*worker), start(*worker)
+    options = ["--seeds", "2", "--commands", str(file), "--systems", "okb+llm", "--out", str(out)]
+    with llama_server(tmp_path / "log") as server:
+        assert main([*options, "--llm", server.url, "--cluster", address]) == 0
+    rows = rows_of(out)
+    assert len(rows) == 2 * 2
+    assert all(row.completed and row.llm_calls for row in rows), rows
 
 
 def test_an_address_without_a_scheduler_is_refused(

@@ -252,3 +252,17 @@ def test_recordings_replay_from_the_command_line(
     assert main(["replay", str(tmp_path), "--json"]) == 0
     (answer,) = json.loads(capsys.readouterr().out)
     assert answer["parting"] is None
+
+
+def test_one_recording_of_many_that_cannot_be_read_keeps_no_other_from_being_replayed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for _ in range(2):
+        recorded(tmp_path, "Find a power_drill", llm=False)
+    broken = tmp_path / "broken" / "mission.mcap"
+    broken.parent.mkdir()
+    broken.write_bytes(b"no mcap at all")
+    assert main(["replay", str(tmp_path)]) == 1
+    said = capsys.readouterr().out
+    assert "broken: " in said
+    assert "2 of 2 missions as recorded" in said

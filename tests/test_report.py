@@ -13,7 +13,7 @@ import pytest
 from mcap.reader import make_reader
 from sample_mission import STARTED, TREE, chat_call, frame, mission, rank_call, tick
 
-from executive.records import Picture, Record, Verified
+from executive.records import NodeShape, NodeState, Picture, Record, Tick, TreeShape, Verified
 from logs import report, viewer
 from logs.__main__ import main
 from logs.comparison import compare
@@ -70,11 +70,29 @@ def test_a_fallback_is_a_decision_between_its_children(tmp_path: Path) -> None:
     assert decision.by == "mission/which places/ask"
 
 
+def test_nested_decisions_settled_by_one_behaviour_are_told_once(tmp_path: Path) -> None:
+    nodes = [
+        ("mission", "", "sequence"),
+        ("mission/outer", "mission", "selector"),
+        ("mission/outer/first", "mission/outer", "behaviour"),
+        ("mission/outer/inner", "mission/outer", "selector"),
+        ("mission/outer/inner/taken", "mission/outer/inner", "behaviour"),
+        ("mission/outer/inner/spare", "mission/outer/inner", "behaviour"),
+    ]
+    shape = TreeShape(tuple(NodeShape(p, up, Path(p).name, kind, "") for p, up, kind in nodes))
+    statuses = ("RUNNING", "SUCCESS", "FAILURE", "SUCCESS", "SUCCESS", "INVALID")
+    states = (NodeState(node[0], status) for node, status in zip(nodes, statuses, strict=True))
+    decided = Tick(0, "Started", "mission", tuple(states), {}, 0.0)
+    (decision,) = why(Run(record(tmp_path, [(0.0, shape), (1.0, decided)])))
+    assert (decision.question, decision.by) == ("outer", "mission/outer/inner/taken")
+    assert [a.what for a in decision.alternatives] == ["first", "spare"]
+
+
 def test_what_failed_on_the_way_to_a_decision_says_why(tmp_path: Path) -> None:
     failed = tick(0, "mission/which places/ask", "FAILURE", "FAILURE", *["FAILURE"] * 3)
     (decision,) = why(Run(record(tmp_path, [(0.0, TREE), (1.0, failed)])))
     assert decision.answer == "nothing worked"
-    assert decision.alternatives == (Alternative("ask", "not ask"),)
+    assert decision.alternatives == (Alternative("ask", "no"),)
 
 
 def test_what_the_model_named_in_vain_is_an_alternative(tmp_path: Path) -> None:

@@ -1,19 +1,14 @@
 """A real server process, llama_cpp.server, with the embedded model behind it."""
 
 import io
-import os
-import socket
-import subprocess
-import sys
 import threading
-import time
-import urllib.request
 from collections.abc import AsyncIterator, Iterator
 from pathlib import Path
 from typing import Any
 
 import httpx2
 import pytest
+from llama_server import ALIAS, llama_server
 
 from executive.app import Session
 from executive.config import load_settings
@@ -21,54 +16,17 @@ from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, Replied, Result, Status
 from kb import server
 from kb.advisor import PlaceAdvisor
-from kb.llama import embedded_model
 from kb.ontology import Ontology
 from kb.server import Server
 from sim.home import load_home
 
 pytestmark = pytest.mark.llm
 
-ALIAS = "smollm2"
-STARTING_S = 60.0
-
 
 @pytest.fixture(scope="module")
 def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    address = f"http://127.0.0.1:{port}/v1"
-    process = start(port, tmp_path_factory.mktemp("server") / "log")
-    try:
-        wait_for(address, process)
-        yield address
-    finally:
-        process.terminate()
-        process.wait(20)
-
-
-def start(port: int, log: Path) -> subprocess.Popen[bytes]:
-    options = {"model": embedded_model(), "model_alias": ALIAS, "host": "127.0.0.1", "port": port}
-    arguments = [text for key, value in options.items() for text in (f"--{key}", str(value))]
-    with log.open("wb") as out:
-        return subprocess.Popen(
-            [sys.executable, "-m", "llama_cpp.server", *arguments, "--n_ctx", "4096"],
-            stdout=out,
-            stderr=out,
-            env={**os.environ, "OMP_WAIT_POLICY": "passive"},
-        )
-
-
-def wait_for(address: str, process: subprocess.Popen[bytes]) -> None:
-    deadline = time.monotonic() + STARTING_S
-    while time.monotonic() < deadline:
-        assert process.poll() is None, "the server ended: is the test extra installed?"
-        try:
-            urllib.request.urlopen(f"{address}/models", timeout=1).close()
-            return
-        except OSError:
-            time.sleep(0.1)
-    raise AssertionError("the server did not start")
+    with llama_server(tmp_path_factory.mktemp("server") / "log") as server:
+        yield server.url
 
 
 def advisor(model: Server) -> PlaceAdvisor:
@@ -152,22 +110,15 @@ def test_a_real_server_that_dies_in_the_middle_of_its_reply_fails_in_words(
                 begun.set()
 
     monkeypatch.setattr(server, "_chunks", noted)
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    address, process = f"http://127.0.0.1:{port}/v1", start(port, tmp_path / "log")
     inbox = Inbox()
-    try:
-        wait_for(address, process)
-        model = Server(address, inbox, max_tokens=2000, temperature=0)
+    with llama_server(tmp_path / "log") as dying:
+        model = Server(dying.url, inbox, max_tokens=2000, temperature=0)
         model.chat(ChatRequest("count", (Message("user", "Count to 500, as 1, 2, 3, ..."),)))
         assert begun.wait(60)
         assert not inbox.has_events, "the reply was too short for this test"
-    finally:
-        process.kill()
-        process.wait(20)
+        dying.process.kill()
     assert inbox.wait(60)
     [event] = inbox.take_all()
     model.close()
     assert isinstance(event, Ended)
-    assert event.result == Failed(f"{address} broke off in the middle of its reply")
+    assert event.result == Failed(f"{dying.url} broke off in the middle of its reply")

@@ -97,11 +97,14 @@ class AskYesNo(Ask):
         return self._agrees is not None
 
     def ended(self, result: Result) -> Status:
-        """Fail on a no, too."""
+        """Fail on a no, too; a yes settles what is asked for."""
         status = super().ended(result)
-        if status == Status.SUCCESS and not self._agrees:
+        if status != Status.SUCCESS:
+            return status
+        if not self._agrees:
             return self.fail(f"{self.unresolved()}, and you said no")
-        return status
+        assert self.situation.command
+        return self.succeed(f"{self.situation.command.kind} {self.situation.command.target}")
 
 
 class AskDoYouMean(AskYesNo):

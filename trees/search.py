@@ -14,27 +14,19 @@ from trees.team import Team
 def search(team: Team) -> Behaviour:
     """An object -> `situation.detection` and `situation.found`."""
     situation = team.situation
+
+    def look(name: str, *candidates: Behaviour) -> Behaviour:
+        return sequence(name, *candidates, Announce("announce", team), visit_candidates(team))
+
     return fallback(
         "search",
         Check("in my hand", team, lambda: situation.in_hand == situation.object),
-        sequence(
-            "look where it was",
-            MemoryKnowsPlaces("memory knows it", team),
-            Announce("announce", team),
-            visit_candidates(team),
-        ),
-        sequence(
-            "look where it may be",
-            resolve_location(team),
-            Announce("announce", team),
-            visit_candidates(team),
-        ),
-        sequence(
+        look("look where it was", MemoryKnowsPlaces("memory knows it", team)),
+        look("look where it may be", resolve_location(team)),
+        look(
             "look where the person says",
-            Check("person may help", team, lambda: not team.situation.person_silent),
+            Check("person may help", team, lambda: not situation.person_silent),
             AskWhere("ask where", team),
-            Announce("announce", team),
-            visit_candidates(team),
         ),
         GiveUpSearch("not found", team),
     )

@@ -7,11 +7,10 @@ written by a thread of their own. On a busy machine processor time tells more th
 
 import tempfile
 import time
-from collections import defaultdict
-from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+
+from stopwatch import Stopwatch
 
 import sim.camera
 from executive.app import Session
@@ -23,26 +22,6 @@ from sim.laser import Laser
 TOUR = ("desk", "counter_wagon", "sideboard", "delivery")
 SETUPS = ((False, 0.0), (True, 0.0), (True, 1.0), (True, 5.0))
 """Logs or not, and camera rate (pictures a second)."""
-
-
-class Stopwatch:
-    """Adds up the time spent in functions that do not call one another."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = defaultdict(float)
-
-    def around(self, owner: Any, name: str, part: str) -> None:
-        """Replace `owner.name` by itself, timed."""
-        function: Callable[..., Any] = getattr(owner, name)
-
-        def timed(*args: Any, **kwargs: Any) -> Any:
-            began = time.perf_counter()
-            try:
-                return function(*args, **kwargs)
-            finally:
-                self.seconds[part] += time.perf_counter() - began
-
-        setattr(owner, name, timed)
 
 
 def tour(logged: bool, camera_hz: float, runs: Path) -> str:
