@@ -10,7 +10,10 @@ from scipy.spatial.transform import Rotation
 from executive.events import Inbox
 from executive.interfaces import Camera, Detector, Recorder
 from executive.records import Picture, Seen
-from executive.types import Detection, Failed, Frame, Intrinsics, Pose, Saw
+from executive.types import Box, Detection, Failed, Frame, Intrinsics, Pose, Saw
+
+_EDGE_PIXELS = 3
+"""A detection this near to the edge of the picture may go on beyond it."""
 
 
 class Eyes:
@@ -59,7 +62,14 @@ def locate(detection: Detection, frame: Frame) -> Detection:
         mask = inner
     rows, columns = np.nonzero(mask)
     points = back_project(frame, rows + box.top, columns + box.left)
-    return replace(detection, points=points)
+    return replace(detection, points=points, cut_off=_touches_edge(box, frame))
+
+
+def _touches_edge(box: Box, frame: Frame) -> bool:
+    lens = frame.intrinsics
+    right, bottom = box.left + box.width, box.top + box.height
+    nearest = min(box.left, box.top, lens.width - right, lens.height - bottom)
+    return nearest < _EDGE_PIXELS
 
 
 def back_project(

@@ -65,7 +65,7 @@ class Situation:
     unreached: dict[str, str] = field(default_factory=dict)
     """Places that the robot could not get to, and why."""
     doubtful: Detection | None = None
-    """What may be the thing, in the last picture; None if nothing, or if it surely is."""
+    """What may be the thing, or a part of it, in the last picture; None if it was surely seen."""
     unseen: dict[str, str] = field(default_factory=dict)
     """Places that the robot got to but could not look at, and why."""
     detection: Detection | None = None

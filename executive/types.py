@@ -224,6 +224,7 @@ class Detection:
         box: in the picture.
         mask: (box.height, box.width) bool, the thing's pixels inside the box.
         points: (n, 3) float32, its visible surface in `map` (metres); empty until located by depth.
+        cut_off: whether it reaches the edge of the picture, so that there may be more of it.
     """
 
     label: str
@@ -231,6 +232,7 @@ class Detection:
     box: Box
     mask: NDArray[np.bool_]
     points: NDArray[np.float32] = field(default_factory=_no_points)
+    cut_off: bool = False
 
     @property
     def position(self) -> Vector3 | None:

@@ -88,6 +88,7 @@ def _add_detection(field: Any, detection: Detection) -> None:
         top=box.top,
         width=box.width,
         height=box.height,
+        cut_off=detection.cut_off,
     )
     if detection.position is not None:
         message.position.x, message.position.y, message.position.z = detection.position
@@ -96,7 +97,7 @@ def _add_detection(field: Any, detection: Detection) -> None:
 def _detection(message: Any) -> Detection:
     box = Box(message.left, message.top, message.width, message.height)
     mask = np.zeros((box.height, box.width), np.bool_)
-    detection = Detection(message.label, message.confidence, box, mask)
+    detection = Detection(message.label, message.confidence, box, mask, cut_off=message.cut_off)
     if not message.HasField("position"):
         return detection
     at = message.position

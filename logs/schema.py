@@ -95,6 +95,7 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "width": "int64",
         "height": "int64",
         "position": "foxglove.Point3",
+        "cut_off": "bool",
     },
     "Event": {
         **_STAMPED,

@@ -1,6 +1,6 @@
 """Moving the lift and the arm along a path of joint positions, smoothly and within their limits."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,13 +22,19 @@ _SETTLED = 0.004
 _SETTLING_S = 1.0
 
 
-def follow(hardware: Hardware, path: Sequence[Floats], speed: float = SPEED) -> Skill:
+def follow(
+    hardware: Hardware,
+    path: Sequence[Floats],
+    speed: float = SPEED,
+    until: Callable[[], bool] = lambda: False,
+) -> Skill:
     """Move through joint positions (of `ARM`), starting from where the arm is.
 
     Args:
         hardware: the robot.
         path: the positions to pass; the last is where the arm comes to rest.
         speed: share of the joints' speed limits.
+        until: asked once per control period whether to stop where the arm is.
 
     Raises:
         CannotError: if a joint cannot follow.
@@ -47,6 +53,9 @@ def follow(hardware: Hardware, path: Sequence[Floats], speed: float = SPEED) -> 
         hardware.command_arm(now, (now - before) / CONTROL_S)
         before = now
         yield
+        if until():
+            hold(hardware)
+            return
         _check_lag(hardware, now, _LAG)
     hardware.command_arm(before, np.zeros(len(before)))
     yield from wait_until(

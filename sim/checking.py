@@ -6,14 +6,14 @@ from itertools import product
 import numpy as np
 
 from executive.errors import InputError
-from sim.grasps import TILTS, find_grasps
+from sim.grasps import TILTS, Grasp, find_grasps
 from sim.hardware import FOLDED
 from sim.home import DELIVERY, PERSON, Fault, Home, inspect_home
 from sim.manipulation import APPROACH_M
 from sim.navigation import FOOTPRINT_M, OccupancyGrid, Unreachable, reachable
 from sim.objects import ObjectModel, load_objects
 from sim.planning import PlanningWorld
-from sim.reaching import plan_reach, plan_stance, standing_poses
+from sim.reaching import Approach, choose_approach, plan_stance, standing_poses
 
 GRASPS_TRIED = 4
 """Of a thing, for each way to hold the hand."""
@@ -83,10 +83,11 @@ def _reaches(world: PlanningWorld, home: Home, model: ObjectModel) -> bool:
         for stance in standing_poses(piece, np.asarray(pose.position))
         if plan_stance(world, before, stance)
     ]
-    for tilt in TILTS:
-        grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:GRASPS_TRIED]
-        for stance, grasp, length in product(stances, grasps, APPROACH_M):
-            way = length * grasp.hand.approach
-            if plan_reach(world, stance, FOLDED, grasp.hand, way):
-                return True
-    return False
+
+    def options() -> Iterator[tuple[Grasp, Approach]]:
+        for tilt in TILTS:
+            grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:GRASPS_TRIED]
+            for stance, grasp, length in product(stances, grasps, APPROACH_M):
+                yield grasp, Approach([stance], grasp.hand, length * grasp.hand.approach)
+
+    return choose_approach(world, FOLDED, options) is not None

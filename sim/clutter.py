@@ -26,15 +26,19 @@ class Column:
     top: float
 
 
+def over(piece: Furniture, seen: Floats) -> Floats:
+    """Which of the points (n, 3) in `map` are over a piece of furniture, at whatever height."""
+    half = np.array(piece.size[:2]) / 2 - _EDGE_M
+    points: Floats = seen[(np.abs(_from_furniture(piece, seen)[:, :2]) < half).all(axis=1)]
+    return points
+
+
 def rising_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
     """What of the points (n, 3) in `map` rises above the surface.
 
     In a frame at the middle of the surface, with the furniture's axes (metres).
     """
-    x, y, yaw = piece.pose
-    cos, sin = np.cos(yaw), np.sin(yaw)
-    back = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-    local = (seen - (x, y, 0.0)) @ back - surface.center
+    local = _from_furniture(piece, seen) - surface.center
     half = np.array([surface.length_x / 2, surface.length_y / 2]) - _EDGE_M
     over = (np.abs(local[:, :2]) < half).all(axis=1)
     height = local[:, 2]
@@ -55,3 +59,12 @@ def columns(piece: Furniture, seen: Floats) -> list[Column]:
                 x, y, foot = piece.to_map((dx, dy, surface.center[2]))
                 found.append(Column(x, y, foot, foot + float(heights.max())))
     return found
+
+
+def _from_furniture(piece: Furniture, points: Floats) -> Floats:
+    """Points (n, 3) of `map` in the frame of the furniture."""
+    x, y, yaw = piece.pose
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    back = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    local: Floats = (points - (x, y, 0.0)) @ back
+    return local

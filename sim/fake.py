@@ -261,6 +261,7 @@ def in_view(world: FakeWorld) -> tuple[str, ...]:
 
 
 def square(index: int) -> Box:
-    """Where the thing with this index is drawn (pixels)."""
-    columns = FakeCamera.intrinsics.width // TILE
-    return Box((index % columns) * TILE, (index // columns) * TILE, TILE, TILE)
+    """Where the thing with this index is drawn (pixels): wholly inside the picture."""
+    columns = FakeCamera.intrinsics.width // TILE - 1
+    row, column = divmod(index, columns)
+    return Box(TILE // 2 + column * TILE, TILE // 2 + row * TILE, TILE, TILE)

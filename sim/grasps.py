@@ -46,7 +46,7 @@ _PALM_HALF_SIZE = (0.025, 0.105)
 _STEP_X, _STEP_Y, _STEP_Z = 0.008, 0.001, 0.004
 _DEEPEST = 0.06
 Span = tuple[float, float]
-TILTS = (0.0, np.pi / 4, np.pi / 2)
+TILTS = tuple(np.radians((0.0, 15.0, 30.0, 45.0, 60.0, 90.0)))
 """From straight down to level, away from the robot (radians), in order of preference."""
 
 
@@ -119,10 +119,9 @@ def _alike(one: HandPose, other: HandPose) -> bool:
 def _yaws(pose: Pose, facing: float, tilt: float) -> Iterator[float]:
     """Yaws in steps of 15 degrees with the thing's own axes among them."""
     own = Rotation.from_quat(pose.orientation).as_euler("ZYX")[0]
-    reach = np.pi / 2 if tilt == 0.0 else np.pi / 4
     for step in range(24):
         away = np.remainder(own + step * np.pi / 12 - facing + np.pi, 2 * np.pi) - np.pi
-        if -reach < away <= reach:
+        if -np.pi / 2 < away <= np.pi / 2:
             yield facing + away
 
 

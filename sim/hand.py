@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
 from sim.client import GRAVITY_M_S2
-from sim.grasps import Grasp, HandPose
+from sim.grasps import HandPose
 from sim.hardware import Floats, Hardware
 from sim.objects import ObjectModel
 from sim.planning import PlanningWorld
@@ -21,6 +21,10 @@ _LIGHTEST_KG = 0.03
 """What is lighter, the wrist does not tell from nothing."""
 _WEIGHT_FELT = 0.5
 """Share of a thing's weight that the wrist must carry if the thing is in the hand."""
+
+_SWAY, _PUSH_N = 1.5, 8.0
+"""While the arm moves, the wrist feels up to so many times the weight; more, by this (newtons), and
+the thing has met something."""
 
 
 class LostError(CannotError):
@@ -46,13 +50,13 @@ class Held:
     turn: float
 
     @staticmethod
-    def taken(model: ObjectModel, pose: Pose, grasp: Grasp, facing: float) -> "Held":
-        """The thing at `pose` in `map`, taken by this grasp of a robot that faced this yaw."""
-        to_hand = grasp.hand.rotation.inv()
-        offset = to_hand.apply(np.asarray(pose.position) - grasp.hand.position)
+    def taken(model: ObjectModel, pose: Pose, hand: HandPose, gap: float, facing: float) -> "Held":
+        """The thing at `pose` in `map`, taken at `hand` by a robot that faced this yaw."""
+        to_hand = hand.rotation.inv()
+        offset = to_hand.apply(np.asarray(pose.position) - hand.position)
         rotation = Rotation.from_quat(pose.orientation)
         turn = float(rotation.as_euler("ZYX")[0]) - facing + np.pi
-        return Held(model, offset, to_hand * rotation, grasp.gap, turn)
+        return Held(model, offset, to_hand * rotation, gap, turn)
 
     def hand_for(self, pose: Pose) -> HandPose:
         """Where the hand must be for the thing to be at `pose` in `map`."""
@@ -105,6 +109,10 @@ class Hand:
             yield
             felt.append(self._hardware.weight)
         return float(np.mean(felt))
+
+    def meets(self, weight: float) -> bool:
+        """Whether what is in the hand has met something, if the wrist carried `weight` before."""
+        return self._hardware.weight > _SWAY * weight + _PUSH_N
 
     @staticmethod
     def is_lifted(model: ObjectModel, weight: float) -> bool:

@@ -4,17 +4,19 @@ What the hand does follows from what the camera saw, the known shapes of things 
 home. What comes of it is up to physics.
 """
 
-from collections.abc import Callable, Generator, Mapping
-from functools import cache
-from itertools import product
+from collections.abc import Callable, Generator, Iterator, Mapping
+from dataclasses import replace
+from functools import cache, partial
+from itertools import islice, product
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
+from sim.clutter import over
 from sim.driving import CREEPING, drive
-from sim.grasps import TILTS, Grasp, HandPose, find_grasps, varied
+from sim.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, varied
 from sim.hand import Hand, Held, LostError
 from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
 from sim.home import Furniture, Home
@@ -23,8 +25,10 @@ from sim.objects import ObjectModel
 from sim.placing import free_spots, stands
 from sim.planning import PlanningWorld
 from sim.reaching import (
+    Approach,
     Reach,
-    clear_path,
+    any_path,
+    choose_approach,
     plan_reach,
     plan_retreat,
 )
@@ -33,12 +37,15 @@ from sim.skill import CannotError, Skill, attempt, pause, wait_until
 from sim.solids import sample_surface
 from sim.surroundings import Surroundings, support
 
-APPROACH_M = (0.12, 0.05)
+APPROACH_M = (0.12, 0.05, 0.025)
 """Lengths of the last straight part of a reach, in order of preference."""
-RISE_M = 0.10
+RISES_M = (0.10, 0.05, 0.02)
+"""How far the hand goes up before the robot backs off, in order of preference."""
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 """How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
 FEWEST_POINTS = 30
+_GOOD = 0.06
+"""Grasps that cost more are tried only if no better one can be reached."""
 _GRASPS_TRIED = 8
 _SPOTS_TRIED = 12
 _FOLDED_WITHIN = 0.05
@@ -96,12 +103,14 @@ class Manipulator:
         if piece is None:
             yield from self._face(np.median(points, axis=0))
             points = self._around.rising_near(model, points)
-        model, pose = locate_fallen(model, points, support(piece, points))
-        grasp, way, stance = self._choose_grasp(model, pose, points, piece)
-        yield from self._creep(stance)
+        else:
+            yield from self._look_at(np.median(points, axis=0))
+        eye = np.asarray(self._hardware.link_pose("camera_link").position)
+        model, pose = locate_fallen(model, points, eye, support(piece, points))
+        grasp, approach = self._choose_grasp(model, pose, points, piece)
+        yield from self._creep(approach.stance)
         tare = yield from self.hand.weigh()
-        taken = Held.taken(model, pose, grasp, float(stance[-1][2]))
-        failure = yield from attempt(self._grasp(taken, grasp, way))
+        failure = yield from attempt(self._grasp(model, pose, grasp, approach))
         self._planning.forget_target()
         yield from self.stow()
         failure = failure or (yield from attempt(self._check_lifted(model, tare)))
@@ -121,9 +130,9 @@ class Manipulator:
             self.hand.take(None)
             raise CannotError("my hand is empty")
         piece = self._home.furniture_named(place)
-        target, way, stance = yield from self._choose_spot(held, piece)
-        yield from self._creep(stance)
-        failure = yield from attempt(self._release(held.hand_for(target), way, held.gap))
+        target, approach = yield from self._choose_spot(held, piece)
+        yield from self._creep(approach.stance)
+        failure = yield from attempt(self._release(approach, held.gap))
         yield from self.stow()
         if failure:
             raise failure
@@ -137,16 +146,17 @@ class Manipulator:
             return
         hardware, arm = self._hardware, self._hardware.arm_positions
         base = hardware.base_pose
-        rise = self._planning.line(
-            base, arm, self._planning.hand(base, arm).shifted(-RISE_M * _DOWN)
-        )
-        if rise and not self._planning.path_obstacle(base, rise[1:]):
-            yield from follow(hardware, rise[1:], SLOW)
+        hand = self._planning.hand(base, arm)
+        for rise in RISES_M:
+            up = self._planning.line(base, arm, hand.shifted(-rise * _DOWN))
+            if up and self._planning.is_last_part_free(base, up[1:]):
+                yield from follow(hardware, up[1:], SLOW)
+                break
         yield from self._creep([plan_retreat(self._planning, base)])
         arm = hardware.arm_positions
         folded = FOLDED.copy()
         folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
-        path = clear_path(self._planning, hardware.base_pose, arm, folded)
+        path = any_path(self._planning, hardware.base_pose, arm, folded)
         yield from follow(hardware, path or [folded])
 
     # --- steps of a pick ---
@@ -163,18 +173,19 @@ class Manipulator:
 
     def _face(self, point: Floats) -> Skill:
         """Turn to a point on the floor, and look at it."""
-        x, y, z = (float(value) for value in point)
         here = self._hardware.base_pose
-        yield from self._creep([np.append(here[:2], np.arctan2(y - here[1], x - here[0]))])
+        ahead = point[:2] - here[:2]
+        yield from self._creep([np.append(here[:2], np.arctan2(ahead[1], ahead[0]))])
+        yield from self._look_at(point)
+
+    def _look_at(self, point: Floats) -> Skill:
+        x, y, z = (float(value) for value in point)
         yield from look_at(self._hardware, (x, y, z))
 
     def _choose_grasp(
         self, model: ObjectModel, pose: Pose, points: Floats, piece: Furniture | None
-    ) -> tuple[Grasp, Floats, list[Floats]]:
-        """A grasp, the last straight way of the hand to it, and the way to where to stand.
-
-        Approaches that missed before come last.
-        """
+    ) -> tuple[Grasp, Approach]:
+        """A grasp, and how to get to it. Approaches that missed before come last."""
         self._around.mind_clutter(piece, np.concatenate((points, _surface(model, pose))))
         stances = list(self._around.stances(piece, np.asarray(pose.position)))
 
@@ -184,30 +195,36 @@ class Manipulator:
             new_first = sorted(found, key=lambda grasp: self._has_missed(model, grasp))
             return varied(new_first, _GRASPS_TRIED)
 
-        for tilt, stance in product(TILTS, stances):
-            found = grasps(float(stance[-1][2]), tilt)
-            for grasp, length in product(found, APPROACH_M):
-                way = length * grasp.hand.approach
-                if plan_reach(self._planning, stance[-1], FOLDED, grasp.hand, way):
-                    return grasp, way, stance
+        def options(good: bool) -> Iterator[tuple[Grasp, Approach]]:
+            for tilt, stance in product(TILTS, stances):
+                some = [g for g in grasps(float(stance[-1][2]), tilt) if (g.cost < _GOOD) == good]
+                for grasp, length in product(some, APPROACH_M):
+                    yield grasp, Approach(stance, grasp.hand, length * grasp.hand.approach)
+
+        for good in (True, False):
+            chosen = choose_approach(self._planning, FOLDED, partial(options, good))
+            if chosen:
+                return chosen
         if stances and not any(grasps(float(stances[0][-1][2]), tilt) for tilt in TILTS):
-            raise CannotError(f"I cannot grasp the {model.name} as it lies")
+            wide = ": it is wider than my hand opens" if min(model.size[:2]) > WIDEST else ""
+            raise CannotError(f"I cannot grasp the {model.name} as it lies{wide}")
         raise CannotError(f"I cannot reach the {model.name}")
 
-    def _grasp(self, thing: Held, grasp: Grasp, way: Floats) -> Skill:
-        hardware, name = self._hardware, thing.model.name
-        reach = self._reach(grasp.hand, way, f"I cannot reach the {name}")
+    def _grasp(self, model: ObjectModel, pose: Pose, grasp: Grasp, approach: Approach) -> Skill:
+        hardware, name = self._hardware, model.name
+        reach = self._reach(approach, f"I cannot reach the {name}")
         hardware.open_fingers(grasp.gap)
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
-        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * thing.model.mass_kg)
+        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg)
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
         if not self.hand.holding:
             hardware.open_fingers(grasp.gap)
             yield from follow(hardware, reach.way_back, SLOW)
             raise CannotError(f"I could not get hold of the {name}")
-        self.hand.take(thing)
+        facing = float(hardware.base_pose[2])
+        self.hand.take(Held.taken(model, pose, reach.hand, grasp.gap, facing))
 
     def _check_lifted(self, model: ObjectModel, tare: float) -> Skill:
         """See whether the thing is in the hand: felt by the fingers, and by its weight."""
@@ -223,30 +240,40 @@ class Manipulator:
 
     def _choose_spot(
         self, held: Held, piece: Furniture
-    ) -> Generator[None, None, tuple[Pose, Floats, list[Floats]]]:
-        """Look, then choose where to put the thing.
+    ) -> Generator[None, None, tuple[Pose, Approach]]:
+        """Look, then choose where to put the thing, and how to get there."""
+        carrying, any_free = self._hardware.arm_positions, False
+        for surface, middle in zip(
+            piece.surfaces(), self._home.view_targets(piece.name), strict=True
+        ):
+            yield from look_at(self._hardware, middle)
+            self._around.mind_clutter(piece, np.empty((0, 3)))
+            free = free_spots(piece, surface, held.model, self._around.scan(), held.turn)
+            spots = list(islice(free, _SPOTS_TRIED))
+            any_free = any_free or bool(spots)
+            options = partial(self._ways_to_spots, held, piece, spots)
+            chosen = choose_approach(self._planning, carrying, options)
+            if chosen:
+                return chosen
+        clause = "I cannot reach a free spot on" if any_free else "there is no free spot on"
+        raise CannotError(f"{clause} the {piece.name}")
 
-        Returns:
-            The spot, the last straight way of the hand to it, and the way to where to stand.
-        """
-        yield from look_at(self._hardware, self._home.view_targets(piece.name)[0])
-        carrying = self._hardware.arm_positions
-        self._around.mind_clutter(piece, np.empty((0, 3)))
-        spots = list(free_spots(piece, held.model, self._around.scan(), held.turn))
-        for spot in spots[:_SPOTS_TRIED]:
+    def _ways_to_spots(
+        self, held: Held, piece: Furniture, spots: list[Pose]
+    ) -> Iterator[tuple[Pose, Approach]]:
+        for spot in spots:
             hand = held.hand_for(spot)
             stances = self._around.stances(piece, np.asarray(spot.position))
             for stance, way in product(stances, _ways_to_put(hand)):
-                if plan_reach(self._planning, stance[-1], carrying, hand, way):
-                    return spot, way, stance
-        clause = "I cannot reach a free spot on" if spots else "there is no free spot on"
-        raise CannotError(f"{clause} the {piece.name}")
+                yield spot, Approach(stance, hand, way)
 
-    def _release(self, hand: HandPose, way: Floats, gap: float) -> Skill:
+    def _release(self, approach: Approach, gap: float) -> Skill:
         hardware = self._hardware
-        reach = self._reach(hand, way, "I cannot reach a free spot")
+        reach = self._reach(approach, "I cannot reach a free spot")
         yield from follow(hardware, reach.path)
-        yield from follow(hardware, reach.last, SLOW)
+        weight = yield from self.hand.weigh()
+        set_down = partial(self.hand.meets, weight)
+        yield from follow(hardware, reach.last, SLOW, set_down)
         hardware.open_fingers(gap)
         self.hand.take(None)
         yield from wait_until(lambda: not self.hand.holding, _CLOSING_S)
@@ -256,16 +283,16 @@ class Manipulator:
     def _check_stands(self, model: ObjectModel, spot: Pose, piece: Furniture) -> Skill:
         """Look whether what was put down stands where it was put."""
         yield from look_at(self._hardware, spot.position)
-        fault = stands(model, spot, self._around.scan())
+        fault = stands(model, spot, over(piece, self._around.scan()))
         if fault:
             raise LostError(f"the {model.name} {fault} on the {piece.name}")
 
     # --- helpers ---
 
-    def _reach(self, hand: HandPose, way: Floats, otherwise: str) -> Reach:
-        """The motion to a hand pose from where the robot stands now."""
-        hardware = self._hardware
-        reach = plan_reach(self._planning, hardware.base_pose, hardware.arm_positions, hand, way)
+    def _reach(self, approach: Approach, otherwise: str) -> Reach:
+        """The motion by an approach from where the robot stands now."""
+        here = replace(approach, stance=[self._hardware.base_pose])
+        reach = plan_reach(self._planning, self._hardware.arm_positions, here)
         if reach is None:
             raise CannotError(otherwise)
         return reach

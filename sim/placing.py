@@ -33,32 +33,32 @@ _TURNS = (0.0, np.pi, np.pi / 2, -np.pi / 2)
 
 
 def free_spots(
-    piece: Furniture, model: ObjectModel, seen: Floats, turn: float = 0.0
+    piece: Furniture, surface: Surface, model: ObjectModel, seen: Floats, turn: float = 0.0
 ) -> Iterator[Pose]:
-    """Poses in `map` where the thing can stand, the handiest first.
+    """Poses in `map` on a surface where the thing can stand, the handiest first.
 
     Args:
         piece: the furniture, as the map knows it.
+        surface: one of its surfaces.
         model: what is to be put down.
         seen: points (n, 3) in `map` that the depth camera sees now; what rises above the surface
             is in the way.
         turn: how the thing is best turned, seen from the furniture (radians); then come quarters.
     """
-    for surface in piece.surfaces():
-        if model.size[2] + HEADROOM_M > surface.clearance:
-            continue
-        rising = rising_points(piece, surface, seen)[:, :2]
-        outlines = [(turn + quarter, *_outline(model, turn + quarter)) for quarter in _TURNS]
-        for y in _from_middle(surface):
-            for turned, lower, upper in outlines:
-                x = surface.length_x / 2 - max(RIM_M, upper[0] + MARGIN_M)
-                if not _fits(surface, y + lower[1], y + upper[1]):
-                    continue
-                low, high = lower - CLEAR_M + (x, y), upper + CLEAR_M + (x, y)
-                inside = ((rising > low) & (rising < high)).all(axis=1)
-                if inside.sum() < _FEW_POINTS:
-                    middle = np.add(surface.center, (x, y, DROP_M))
-                    yield _pose(piece, (middle[0], middle[1], middle[2]), turned)
+    if model.size[2] + HEADROOM_M > surface.clearance:
+        return
+    rising = rising_points(piece, surface, seen)[:, :2]
+    outlines = [(turn + quarter, *_outline(model, turn + quarter)) for quarter in _TURNS]
+    for y in _from_middle(surface):
+        for turned, lower, upper in outlines:
+            x = surface.length_x / 2 - max(RIM_M, upper[0] + MARGIN_M)
+            if not _fits(surface, y + lower[1], y + upper[1]):
+                continue
+            low, high = lower - CLEAR_M + (x, y), upper + CLEAR_M + (x, y)
+            inside = ((rising > low) & (rising < high)).all(axis=1)
+            if inside.sum() < _FEW_POINTS:
+                middle = np.add(surface.center, (x, y, DROP_M))
+                yield _pose(piece, (middle[0], middle[1], middle[2]), turned)
 
 
 def stands(model: ObjectModel, spot: Pose, seen: Floats) -> str | None:

@@ -15,7 +15,7 @@ from sim.hardware import FOLDED, Floats
 from sim.home import Home
 from sim.kinematics import Kinematics
 
-_CHECKED: Floats = np.array([0.03, *[0.1] * 7])
+CHECKED: Floats = np.array([0.03, *[0.1] * 7])
 """How far apart the joints are between checks of a path (metres, radians)."""
 _GRAZE = 0.004
 """What is carried may reach this far into something: it is not known any better (metres)."""
@@ -66,6 +66,10 @@ class PlanningWorld(Kinematics):
             self._client.removeBody(self._load)
         self._load = create_body(self._client, shapes, Pose()) if shapes else None
         self._in_hand = in_hand
+
+    def is_last_part_free(self, base: Floats, joints: Sequence[Floats]) -> bool:
+        """Whether the arm touches nothing but the target, slow and near to things as it may be."""
+        return not any(self.obstacle(base, arm, 0.0, reaching=True) for arm in joints)
 
     def obstacle(
         self, base: Floats, arm: Floats, margin: float = 0.01, reaching: bool = False
@@ -119,7 +123,7 @@ class PlanningWorld(Kinematics):
     def path_obstacle(self, base: Floats, path: Sequence[Floats]) -> str | None:
         """What would be in the way of moving the joints along the path."""
         for start, end in pairwise(path):
-            count = max(1, int(np.ceil((np.abs(end - start) / _CHECKED).max())))
+            count = max(1, int(np.ceil((np.abs(end - start) / CHECKED).max())))
             for part in np.linspace(0, 1, count + 1):
                 found = self.obstacle(base, start + part * (end - start))
                 if found:

@@ -1,7 +1,9 @@
 """Choosing where to stand and how to move to bring the hand to where it closes or opens."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import product
+from typing import TypeVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -9,8 +11,8 @@ from scipy.spatial.transform import Rotation
 from sim.grasps import HandPose
 from sim.hardware import Floats
 from sim.home import Furniture
-from sim.kinematics import COMFORT
-from sim.planning import PlanningWorld
+from sim.planning import CHECKED, PlanningWorld
+from sim.rrt import connect
 
 NEAREST_M = 0.40
 """From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
@@ -24,8 +26,19 @@ FLOOR_REACH_M = 0.55
 """From a thing on the floor to the middle of the robot that picks it up."""
 FLOOR_BEARINGS = tuple(np.radians((0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0, 180.0)))
 """Sides from which it is tried, from that of the robot (radians)."""
+_SIMPLE_TRIES, _ROUNDABOUTS, _SAMPLES = 24, 12, 300
+"""How many reaches are tried in a simple way, how many of them then in a roundabout way, and with
+how many random postures each."""
 _HALF_TURN = Rotation.from_euler("z", np.pi)
 """The two fingers are alike."""
+COMFORT: Floats = np.array([0.15, 0.0, 0.1, 0.0, -2.0, 0.0, 2.1, 0.785])
+"""The arm bent, hand pointing down before the robot: reaches end near it where they can."""
+_ELBOW_RIGHT: Floats = np.array([0.1, -0.7, 0.5, 0.9, -1.6, -0.4, 1.8, 0.785])
+_ELBOW_LEFT: Floats = np.array([0.1, 0.7, 0.5, -0.9, -1.6, 0.4, 1.8, 0.785])
+_POSTURES = ((COMFORT,), (_ELBOW_RIGHT, _ELBOW_LEFT))
+"""Near which reaches end, in order of preference: between boards there is more room beside the
+elbow than above the hand."""
+Aim = TypeVar("Aim")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +53,34 @@ class Reach:
     def way_back(self) -> list[Floats]:
         """The last part in reverse."""
         return [*reversed(self.last[:-1]), self.path[-1]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Approach:
+    """Where to stand and how to bring the hand to where it closes or opens.
+
+    Attributes:
+        stance: poses (x, y, yaw) that the base passes; the last is where it stands.
+        hand: where the hand shall be.
+        way: the last straight part of its way (metres, in `map`).
+    """
+
+    stance: list[Floats]
+    hand: HandPose
+    way: Floats
+
+    @property
+    def base(self) -> Floats:
+        """Where the base stands."""
+        return self.stance[-1]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _LastPart:
+    """The last straight part of a reach, joint positions from its start to its end."""
+
+    hand: HandPose
+    joints: list[Floats]
 
 
 def standing_poses(piece: Furniture, target: Floats) -> Iterator[Floats]:
@@ -91,40 +132,65 @@ def plan_retreat(world: PlanningWorld, here: Floats) -> Floats:
     return here
 
 
-def plan_reach(
-    world: PlanningWorld, base: Floats, start: Floats, hand: HandPose, way: Floats
-) -> Reach | None:
-    """A collision-free motion to a hand pose, its last part straight along `way`.
+def choose_approach(
+    world: PlanningWorld, start: Floats, options: Callable[[], Iterable[tuple[Aim, Approach]]]
+) -> tuple[Aim, Approach] | None:
+    """The first approach with a simple motion to its end; if none has, one with a roundabout one.
 
     Args:
         world: the map.
-        base: where the base stands (x, y, yaw).
         start: joints of `ARM` to start from.
-        hand: where the hand shall be; the fingers may be swapped.
-        way: the last straight part, from its start to the hand pose (metres, in `map`).
+        options: gives what may be aimed at, and how; the best first.
     """
-    for target in (hand, HandPose(hand.position, hand.rotation * _HALF_TURN)):
-        near = COMFORT.copy()
-        end = world.solve(base, target, near)
-        if end is None or world.obstacle(base, end, 0.0, reaching=True):
+    for postures in _POSTURES:
+        nearly: list[tuple[Aim, Approach, _LastPart]] = []
+        for aim, approach in options():
+            for last in _last_parts(world, approach, postures):
+                if clear_path(world, approach.base, start, last.joints[0]):
+                    return aim, approach
+                nearly.append((aim, approach, last))
+            if len(nearly) >= _SIMPLE_TRIES:
+                break
+        for aim, approach, last in nearly[:: _SIMPLE_TRIES // _ROUNDABOUTS]:
+            if _roundabout(world, approach.base, start, last.joints[0]):
+                return aim, approach
+    return None
+
+
+def plan_reach(world: PlanningWorld, start: Floats, approach: Approach) -> Reach | None:
+    """A collision-free motion, from joints `start` of `ARM`, by an approach that was chosen."""
+    for postures in _POSTURES:
+        lasts = list(_last_parts(world, approach, postures))
+        for plan, last in product((clear_path, _roundabout), lasts):
+            path = plan(world, approach.base, start, last.joints[0])
+            if path is not None:
+                return Reach(last.hand, path, last.joints[1:])
+    return None
+
+
+def _last_parts(
+    world: PlanningWorld, approach: Approach, postures: Iterable[Floats]
+) -> Iterator[_LastPart]:
+    """Free straight ways to the end of an approach, for the fingers as they are and swapped."""
+    base, hand = approach.base, approach.hand
+    swapped = HandPose(hand.position, hand.rotation * _HALF_TURN)
+    for posture, target in product(postures, (hand, swapped)):
+        end = world.solve(base, target, posture)
+        if end is None or not world.is_last_part_free(base, [end]):
             continue
-        before = world.solve(base, target.shifted(-way), end)
+        before = world.solve(base, target.shifted(-approach.way), end)
         if before is None:
             continue
-        last = world.line(base, before, target)
-        if last is None or any(world.obstacle(base, joints, 0.0, reaching=True) for joints in last):
-            continue
-        path = clear_path(world, base, start, before)
-        if path is not None:
-            return Reach(target, path, last[1:])
-    return None
+        joints = world.line(base, before, target)
+        if joints and world.is_last_part_free(base, joints):
+            yield _LastPart(target, joints)
 
 
 def clear_path(
     world: PlanningWorld, base: Floats, start: Floats, end: Floats
 ) -> list[Floats] | None:
-    """Joints to pass to get from start to end without touching anything, or None."""
-    highest = world.highest_lift
+    """Joints to pass to get from start to end, straight or by way of the lift, without a touch."""
+    highest = world.limits[1][0]
     tops = [max(start[0], end[0]), *(min(end[0] + over, highest) for over in OVER_M)]
     ways = [[np.append(top, start[1:]), np.append(top, end[1:])] for top in tops]
     for between in ([], ways[0][:1], *ways):
@@ -132,3 +198,23 @@ def clear_path(
         if not world.path_obstacle(base, [start, *path]):
             return path
     return None
+
+
+def any_path(world: PlanningWorld, base: Floats, start: Floats, end: Floats) -> list[Floats] | None:
+    """Joints to pass to get from start to end without touching anything, or None."""
+    return clear_path(world, base, start, end) or _roundabout(world, base, start, end)
+
+
+def _roundabout(
+    world: PlanningWorld, base: Floats, start: Floats, end: Floats
+) -> list[Floats] | None:
+    lower, upper = world.limits
+    found = connect(
+        start / CHECKED,
+        end / CHECKED,
+        lower / CHECKED,
+        upper / CHECKED,
+        lambda joints: not world.obstacle(base, joints * CHECKED),
+        _SAMPLES,
+    )
+    return found and [joints * CHECKED for joints in found[1:]]

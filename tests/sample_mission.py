@@ -148,7 +148,8 @@ def frame(number: int = 0) -> Frame:
 
 def detection() -> Detection:
     """The box in that picture."""
-    return Detection("sugar_box", 0.91, Box(70, 50, 30, 30), np.ones((30, 30), np.bool_))
+    mask = np.ones((30, 30), np.bool_)
+    return Detection("sugar_box", 0.91, Box(70, 50, 30, 30), mask, cut_off=True)
 
 
 def scene() -> Scene:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 from conftest import Run, run_mission
 
-from executive.types import Detection, Frame, Kind, LookAt, Status
+from executive.types import Box, Detection, Frame, Kind, LookAt, Status
 from kb.facts import FactStore
 from sim.fake import FakeDetector, FakeWorld
 
@@ -91,3 +91,21 @@ def test_a_second_look_that_shows_nothing_counts_as_a_look_in_vain() -> None:
         detector=lambda world: Flicker(world, {"apple": iter([0.3] + [0.1] * 20)}),
     )
     assert ("missed", "apple") in {(fact.kind, fact.object) for fact in facts.all()}
+
+
+def test_what_is_cut_off_in_the_picture_is_looked_at_straight() -> None:
+    class AtTheEdge(FakeDetector):
+        def detect(self, frame: Frame) -> tuple[Detection, ...]:
+            """The first time, all that is there is at the left edge."""
+            shown = tuple(super().detect(frame))
+            if frame.number > 0:
+                return shown
+            return tuple(replace(d, box=Box(0, 50, d.box.width, d.box.height)) for d in shown)
+
+    mission = run_mission("Find an apple", llm=False, detector=AtTheEdge)
+    aimed, closer = looks(mission)
+    assert mission.outcome.status == Status.DONE
+    assert (aimed.point, closer.place) == (None, aimed.place)
+    assert closer.point is not None
+    assert mission.situation.detection
+    assert not mission.situation.detection.cut_off

@@ -11,10 +11,10 @@ from executive.perception import locate as locate_pixels
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
 from sim.grasps import WIDEST, find_grasps, varied
 from sim.home import Home
-from sim.kinematics import COMFORT
 from sim.objects import load_objects
 from sim.placing import free_spots
 from sim.planning import PlanningWorld
+from sim.reaching import COMFORT
 from sim.registration import locate
 from sim.solids import sample_surface, signed_distance
 from sim.world import PhysicsWorld
@@ -30,17 +30,17 @@ def home_before(place: str) -> Home:
 
 
 class Kitchen(Bench):
-    """The robot before the counter wagon, where the sugar_box is."""
+    """The robot before a piece of furniture: the counter wagon, where the sugar_box is."""
 
-    def __init__(self) -> None:
+    def __init__(self, home: Home | None = None, place: str = "counter_wagon") -> None:
         inbox = Inbox()
         self.world = PhysicsWorld(
-            home_before("counter_wagon"), MODELS, inbox, Notebook(), seed=1, camera_hz=0.0
+            home or home_before(place), MODELS, inbox, Notebook(), seed=1, camera_hz=0.0
         )
-        super().__init__(self.world.robot, inbox, self.world.advance, "counter_wagon")
+        super().__init__(self.world.robot, inbox, self.world.advance, place)
 
-    def detection_of(self, name: str) -> Detection:
-        assert self.do(LookAt(self.place)) == Succeeded()
+    def detection_of(self, name: str, view: int = 0) -> Detection:
+        assert self.do(LookAt(self.place, view)) == Succeeded()
         frame = self.world.camera.capture()
         (found,) = (d for d in self.world.detector.detect(frame) if d.label == name)
         return locate_pixels(found, frame)
@@ -94,14 +94,63 @@ def test_what_was_taken_away_meanwhile_is_not_held(kitchen: Kitchen) -> None:
     assert not kitchen.robot.holding
 
 
+@pytest.mark.parametrize(
+    ("name", "place"),
+    [
+        ("spatula", "cabinet_kitchen"),
+        ("hammer", "cabinet_kitchen"),
+        ("adjustable_wrench", "counter_wagon"),
+    ],
+)
+def test_what_lies_under_a_board_is_taken_as_believed_and_put_down(name: str, place: str) -> None:
+    bench = Kitchen(home_before(place).with_placement({name: place}), place)
+    assert bench.do(DriveTo(place)) == Succeeded()
+    assert bench.do(Pick(bench.detection_of(name, view=1))) == Succeeded()
+    assert off_in_hand(bench.world, name) < 0.02
+    assert bench.do(PutDown(place)) == Succeeded()
+    assert bench.world.resting_place(name) == place
+    bench.world.close()
+
+
+def off_in_hand(world: PhysicsWorld, name: str) -> float:
+    """How far a thing is from where in the hand the robot believes it (metres)."""
+    manipulator = world.robot._manipulator
+    hardware, held = manipulator._hardware, manipulator.hand.held
+    assert held
+    hand = manipulator._planning.hand(hardware.base_pose, hardware.arm_positions)
+    believed = hand.position + hand.rotation.apply(held.position)
+    return float(np.linalg.norm(believed - world.truth(name).position))
+
+
+def test_of_a_box_at_eye_height_the_front_is_enough() -> None:
+    model, turn, eye = MODELS["cracker_box"], Rotation.from_euler("z", 0.2), (1.2, 0.0, 0.1)
+    points, normals = sample_surface(model.shapes)
+    found = locate(model, turn.apply(points[normals[:, 0] > 0.9]), np.array(eye))
+    assert np.hypot(*found.position[:2]) < 4e-3
+    away = (turn * Rotation.from_quat(found.orientation).inv()).magnitude()
+    assert min(away, np.pi - away) < 0.02
+
+
+def test_what_lies_on_its_broad_side_is_said_to_be_too_wide(kitchen: Kitchen) -> None:
+    fall = Rotation.from_euler("y", np.pi / 2)
+    x, y, z = kitchen.world.truth("sugar_box").position
+    kitchen.world._client.resetBasePositionAndOrientation(
+        kitchen.world._body("sugar_box"), (x, y, z + 0.02), fall.as_quat()
+    )
+    result = kitchen.do(Pick(kitchen.detection_of("sugar_box")))
+    wide = "it is wider than my hand opens"
+    assert result == Failed(f"I cannot grasp the sugar_box as it lies: {wide}")
+
+
 @pytest.mark.parametrize("name", ["sugar_box", "mug", "mustard_bottle", "hammer"])
 def test_the_visible_side_of_a_thing_tells_where_it_stands(name: str) -> None:
     model = MODELS[name]
     turn, stand = Rotation.from_euler("z", 1.9), np.array([2.0, 1.0, 0.8])
     points, normals = sample_surface(model.shapes)
     points, normals = turn.apply(points) + stand, turn.apply(normals)
-    visible = ((np.array([1.2, 1.2, 1.4]) - points) * normals).sum(axis=1) > 0.05
-    found = locate(model, points[visible])
+    eye = np.array([1.2, 1.2, 1.4])
+    visible = ((eye - points) * normals).sum(axis=1) > 0.05
+    found = locate(model, points[visible], eye)
     back = Rotation.from_quat(found.orientation).inv().apply(points - found.position)
     assert np.abs(signed_distance(model.shapes, back)).mean() < 2e-3
 
@@ -135,10 +184,11 @@ def test_of_a_mug_one_wall_is_taken() -> None:
 
 def test_a_spot_is_free_where_nothing_rises() -> None:
     piece = four_rooms().furniture_named("delivery")
+    (top,) = piece.surfaces()
     empty = np.empty((0, 3))
-    first = next(free_spots(piece, MODELS["mug"], empty)).position
+    first = next(free_spots(piece, top, MODELS["mug"], empty)).position
     crowd = np.array(first) + np.random.default_rng(0).normal(0.0, 0.01, (50, 3)) + (0, 0, 0.05)
-    second = next(free_spots(piece, MODELS["mug"], crowd)).position
+    second = next(free_spots(piece, top, MODELS["mug"], crowd)).position
     assert np.hypot(second[0] - first[0], second[1] - first[1]) > 0.05
 
 

@@ -46,3 +46,14 @@ def test_a_detection_is_located_by_its_mask() -> None:
 def test_a_quarter_turn_about_z_turns_x_into_y() -> None:
     turn = Pose((0.0, 0.0, 1.0), (0.0, 0.0, math.sin(math.pi / 4), math.cos(math.pi / 4)))
     assert transform(turn, np.array([[1.0, 0.0, 0.0]])) == pytest.approx(np.array([[0, 1, 1]]))
+
+
+@pytest.mark.parametrize(("left", "top"), [(0, 10), (20, 1), (52, 10), (20, 36)])
+def test_what_reaches_the_edge_of_the_picture_is_cut_off(left: int, top: int) -> None:
+    seen = Detection("mug", 0.9, Box(left, top, 12, 12), np.ones((12, 12), np.bool_))
+    assert locate(seen, frame_with(0.7)).cut_off
+
+
+def test_what_is_wholly_in_the_picture_is_not_cut_off() -> None:
+    seen = Detection("mug", 0.9, Box(20, 10, 12, 12), np.ones((12, 12), np.bool_))
+    assert not locate(seen, frame_with(0.7)).cut_off

@@ -163,11 +163,12 @@ class PutDownAt(RobotAction):
 
 
 class SeeTarget(Action):
-    """Takes a picture and succeeds if the thing is in it."""
+    """Takes a picture and succeeds if the thing is in it, surely and wholly."""
 
-    def __init__(self, name: str, team: Team) -> None:
-        """Give the eyes as long as the rules allow."""
+    def __init__(self, name: str, team: Team, closer: bool = False) -> None:
+        """Give the eyes as long as the rules allow; `closer`, a part of the thing is enough."""
         super().__init__(name, team, team.rules.action_s)
+        self._closer = closer
 
     def start(self) -> int:
         """Look."""
@@ -192,6 +193,10 @@ class SeeTarget(Action):
         if seen.confidence < self.team.rules.sure:
             self.situation.doubtful = seen
             self.feedback_message = f"perhaps {seen.label}, confidence {seen.confidence:.2f}"
+            return Status.FAILURE
+        if seen.cut_off and not self._closer:
+            self.situation.doubtful = seen
+            self.feedback_message = f"{seen.label}, at the edge of the picture"
             return Status.FAILURE
         self.situation.detection = seen
         self.situation.found = self.situation.candidate

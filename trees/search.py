@@ -69,7 +69,7 @@ def look_over(team: Team) -> Behaviour:
 
 
 def see(team: Team) -> Behaviour:
-    """Look for the thing; what may be it, but is not sure, is looked at more closely."""
+    """Look for the thing; what is not sure, or not wholly in the picture, is looked at closer."""
     return fallback(
         "look hard",
         SeeTarget("see", team),
@@ -77,7 +77,7 @@ def see(team: Team) -> Behaviour:
             "look twice",
             Check("perhaps it is", team, lambda: team.situation.doubtful is not None),
             LookCloser("aim closer", team),
-            SeeTarget("see closer", team),
+            SeeTarget("see closer", team, closer=True),
         ),
     )
 
