@@ -1,6 +1,7 @@
 """The composition root: builds the parts from the settings and runs missions with them.
 
-Nothing else knows all the rooms of the house.
+Nothing else knows all the rooms of the house. What takes long to import is imported where it is
+needed: the model prepares meanwhile.
 """
 
 import json
@@ -16,7 +17,6 @@ from typing import TextIO
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
 from executive.config import Settings
-from executive.detector import LEARNED, OnnxDetector
 from executive.errors import InputError
 from executive.events import Ended, Inbox, Started, StopRequested
 from executive.interfaces import (
@@ -46,7 +46,6 @@ from kb.prompts import Prompts
 from kb.server import Server
 from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
-from logs.rerun_sink import RerunSink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.faults import parse_faults, refuse_physical
 from sim.faulty_fake import FaultyFakeRobot
@@ -59,6 +58,9 @@ from trees.team import Team
 from trees.tree import MissionTree
 
 log = logging.getLogger(__name__)
+
+ANYTHING = "thing"
+"""What the model prepares to be asked for."""
 
 PACKAGES = ("py-trees", "pybullet", "llama-cpp-python", "owlready2", "rerun-sdk", "mcap")
 
@@ -93,15 +95,16 @@ class Session:
         self._sinks = tuple(sinks)
         self.inbox = inbox or Inbox()
         self.home = load_home(settings.home).with_placement(settings.place)
+        prompts = Prompts.load(settings.prompts)
+        self.model = model or build_model(settings, self.inbox)
         self.knowledge = Ontology(
             self.home.places(),
             defaults=settings.defaults,
             files=settings.kb,
             person=settings.person,
         )
-        prompts = Prompts.load(settings.prompts)
         self.facts = FactStore(settings.memory, learns=settings.learn)
-        self.model = model or build_model(settings, self.inbox)
+        self.advisor = build_advisor(settings, self.knowledge, self.model, prompts, self.facts)
         self.recorder = FanOut(lambda: self.clock.now())
         self.mishaps = build_mishaps(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
@@ -111,18 +114,6 @@ class Session:
         self.eyes = Eyes(camera, detector, self.inbox, self.recorder)
         self.user = user or build_user(
             settings, self.inbox, self.world.resting_place, out or sys.stderr
-        )
-        self.advisor: Advisor | None = (
-            PlaceAdvisor(
-                self.knowledge,
-                self.model,
-                remembers=settings.remembers,
-                top=settings.top,
-                prompts=prompts,
-                facts=self.facts,
-            )
-            if self.model
-            else None
         )
         self._in_hand: str | None = None
         self.ticks = 0
@@ -233,6 +224,8 @@ class Session:
             "model": self.model.name if self.model else "none",
             **{name: version(name) for name in PACKAGES},
         }
+        from logs.rerun_sink import RerunSink
+
         return working(
             lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
             lambda: RerunSink(folder / "mission.rrd", view=self._view),
@@ -290,6 +283,7 @@ def build_simulation(
         camera, detector = FakeCamera(instant), FakeDetector(instant)
         camera = FaultyCamera(camera, mishaps) if mishaps else camera
     else:
+        from executive.detector import LEARNED, OnnxDetector
         from sim.world import PhysicsWorld
 
         models = load_objects()
@@ -344,6 +338,29 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         gpu_layers=settings.gpu_layers,
         grammar=settings.grammar,
     )
+
+
+def build_advisor(
+    settings: Settings,
+    knowledge: Ontology,
+    model: LanguageModel | None,
+    prompts: Prompts,
+    facts: FactStore,
+) -> Advisor | None:
+    """Who puts questions to the model, which begins to prepare for them; None without a model."""
+    if model is None:
+        return None
+    advisor = PlaceAdvisor(
+        knowledge,
+        model,
+        remembers=settings.remembers,
+        top=settings.top,
+        prompts=prompts,
+        facts=facts,
+    )
+    ask = advisor.ranking if settings.elicitation == "rank" else advisor.inquiry
+    model.prepare(ask(ANYTHING, ()))
+    return advisor
 
 
 def build_user(

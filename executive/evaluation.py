@@ -1,7 +1,8 @@
 """How good a detector is in scenes that it never learned from: `python -m executive.evaluation`.
 
 Renders scenes of seeds that training may not use, and prints a report in Markdown; `--picture`
-draws which things are taken for which.
+draws which things are taken for which. `--validation` takes other such scenes: those that choose
+between networks, so that the ones that judge the chosen network have had no say.
 """
 
 import argparse
@@ -25,7 +26,7 @@ from executive.metrics import ClassReport, Ints, Judged, by_class, confusion, ma
 from executive.perception import locate
 from executive.segmentation import segment
 from executive.types import Box, Detection, Frame
-from sim.learning.frames import EVALUATION_SEED, class_names
+from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.scenes import Scene, SceneMaker
 from sim.objects import load_objects
 from sim.registration import locate as fit
@@ -90,9 +91,8 @@ def _errors(picture: Judged, frame: Frame, scene: Scene) -> Iterator[float]:
 # --- the scenes, in processes of their own ---
 
 
-def judge_all(path: Path, scenes: int, workers: int) -> Iterator[Judgement]:
-    """Judge so many scenes, in the order of their seeds."""
-    seeds = range(EVALUATION_SEED, EVALUATION_SEED + scenes)
+def judge_all(path: Path, seeds: range, workers: int) -> Iterator[Judgement]:
+    """Judge the scenes of these seeds, in their order."""
     with get_context("spawn").Pool(workers) as pool:
         yield from pool.imap(_judge_seed, ((path, seed) for seed in seeds), chunksize=2)
 
@@ -207,14 +207,16 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m executive.evaluation", description=__doc__)
     parser.add_argument("--detector", default="learned", help="learned, or a FILE.onnx")
     parser.add_argument("--scenes", type=int, default=500)
+    parser.add_argument("--validation", action="store_true", help="scenes to choose a network by")
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("--picture", type=Path, metavar="FILE.svg", help="draw confusions")
     options = parser.parse_args(arguments)
     path = LEARNED if options.detector == "learned" else Path(options.detector)
     try:
         milliseconds = time_of_one(OnnxDetector(path, lambda name: (name,)))
-        judgements = []
-        for judgement in judge_all(path, options.scenes, options.workers):
+        first = VALIDATION_SEED if options.validation else EVALUATION_SEED
+        seeds, judgements = range(first, first + options.scenes), []
+        for judgement in judge_all(path, seeds, options.workers):
             judgements.append(judgement)
             print(f"\r{len(judgements)} of {options.scenes} scenes", end="", file=sys.stderr)
         print(file=sys.stderr)

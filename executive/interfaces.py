@@ -102,6 +102,13 @@ class LanguageModel(Protocol):
         """Score the options; ends Scored, or Failed."""
         ...
 
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Work out, while nothing is asked, what others share with this request.
+
+        It is no request itself: nothing ends, and the next one takes over what is ready.
+        """
+        ...
+
     def cancel(self, request: int) -> None:
         """Stop generating within one token; the reply is not delivered."""
         ...

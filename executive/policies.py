@@ -88,6 +88,9 @@ class Indifferent:
         self._inbox.end(number, Scored(request, (0.0,) * len(request.options), Usage()))
         return number
 
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Nothing to prepare."""
+
     def cancel(self, request: int) -> None:
         """Forget the request."""
         self._inbox.drop(request)
@@ -209,6 +212,11 @@ class Reworded:
     def rank(self, request: RankRequest) -> int:
         """Ask as it is."""
         return self._model.rank(request)
+
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Prepare what will be asked as it is."""
+        if isinstance(request, RankRequest):
+            self._model.prepare(request)
 
     def cancel(self, request: int) -> None:
         """Call it off."""

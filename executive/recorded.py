@@ -105,6 +105,9 @@ class Absent:
         """Think nothing."""
         return self._inbox.open()
 
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Prepare nothing."""
+
     def ask(self, question: Question) -> int:
         """Ask nobody."""
         return self._inbox.open()

@@ -301,7 +301,10 @@ class RankRequest:
 
 @dataclass(frozen=True, slots=True)
 class Usage:
-    """What one call cost: tokens in (of them evaluated, the rest cached), tokens out, seconds."""
+    """What one call cost: tokens in (of them evaluated, the rest cached), tokens out, seconds.
+
+    What was prepared for it, before it was asked and since the call before, is counted apart.
+    """
 
     model: str = ""
     input_tokens: int = 0
@@ -309,6 +312,8 @@ class Usage:
     output_tokens: int = 0
     first_token_s: float = 0.0
     total_s: float = 0.0
+    prepared_tokens: int = 0
+    prepared_s: float = 0.0
     parameters: dict[str, float | int | str] = field(default_factory=dict)
 
 

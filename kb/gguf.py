@@ -10,7 +10,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise, takewhile
+from itertools import chain, pairwise, takewhile
 from pathlib import Path
 from typing import Any
 
@@ -89,22 +89,18 @@ class Gguf:
         )
         return list(tokens[:count])
 
-    def prompt(self, messages: Sequence[Message], constant: int = 0) -> tuple[Tokens, int]:
+    def prompt(self, chat: Sequence[Message], other: Sequence[Message] = ()) -> tuple[Tokens, int]:
         """A chat as the model was taught to read it, up to where its next turn begins.
 
         Returns:
-            The tokens, and how many of them every chat has that begins with the same `constant`
-            messages.
+            The tokens, and how many of them another chat begins with, too (never all).
 
         Raises:
             ModelError: if the model's template refuses it (some know no system turn).
         """
-        tokens = self._chat(messages)
-        if not constant:
-            return tokens, 0
-        other = self._chat((*messages[:constant], Message("user", "")))
-        head = sum(takewhile(bool, map(operator.eq, tokens[:-1], other)))
-        return tokens, head
+        tokens = self._tokens(chat)
+        others = self._tokens(other) if other else []
+        return tokens, sum(takewhile(bool, map(operator.eq, tokens[:-1], others)))
 
     def piece(self, token: int) -> bytes:
         """The bytes that a token stands for; a character may be parted over several."""
@@ -122,8 +118,8 @@ class Gguf:
         """Free the weights; contexts have to be closed before."""
         llama_cpp.llama_model_free(self.pointer)
 
-    def _chat(self, messages: Sequence[Message]) -> Tokens:
-        turns: Any = [{"role": m.role, "content": m.content} for m in messages]
+    def _tokens(self, chat: Sequence[Message]) -> Tokens:
+        turns: Any = [{"role": turn.role, "content": turn.content} for turn in chat]
         try:
             return self.tokenize(self._template(messages=turns).prompt, special=True)
         except ValueError as error:
@@ -185,11 +181,16 @@ class Context:
         self._vocabulary_size = model.vocabulary_size
         self._width = llama_cpp.llama_model_n_embd(model.pointer)
         self._sequences = sequences
+        self._n_ctx = tokens
+        self.evaluated = 0
+        """Tokens that were evaluated so far."""
         self._batches: list[tuple[int, ...]] = []
         self._length = 0
 
-    def read(self, tokens: Sequence[int], head: int, checkpoint: Checkpoint) -> int:
+    def read(self, tokens: Sequence[int], head: int, checkpoint: Checkpoint) -> None:
         """Make sequence 0 these tokens; the batches that it begins with already are kept.
+
+        The last batch is evaluated in any case.
 
         llama.cpp's numbers depend a little on how tokens are batched. The cuts made here depend on
         the tokens alone, not on what was read before: so a kept batch changes no result.
@@ -199,9 +200,15 @@ class Context:
             head: how many of them later prompts will begin with, too: there is a cut.
             checkpoint: called before each batch.
 
-        Returns:
-            How many tokens were evaluated; the last batch always is.
+        Raises:
+            ModelError: if the window is too short for them and at least something after them.
         """
+        reserve = BATCH_TOKENS if self._sequences > 1 else 1
+        if len(tokens) + reserve > self._n_ctx:
+            raise ModelError(
+                f"the prompt takes {len(tokens)} tokens and needs room for {reserve} more, "
+                f"but the context window has {self._n_ctx}"
+            )
         cuts = (*range(0, head, BATCH_TOKENS), *range(head, len(tokens), TAIL_TOKENS), len(tokens))
         batches = [tuple(tokens[start:end]) for start, end in pairwise(cuts)]
         same = sum(takewhile(bool, map(operator.eq, self._batches, batches[:-1])))
@@ -214,7 +221,11 @@ class Context:
             checkpoint()
             self.append(batch)
             self._batches.append(batch)
-        return len(tokens) - kept
+
+    def begin(self, head: Tokens, checkpoint: Checkpoint) -> None:
+        """Evaluate what later prompts begin with, unless sequence 0 begins with it already."""
+        if [*chain(*self._batches)][: len(head)] != head:
+            self.read(head, len(head), checkpoint)
 
     def append(self, tokens: Sequence[int]) -> None:
         """Evaluate further tokens of sequence 0 (at most BATCH_TOKENS)."""
@@ -225,13 +236,10 @@ class Context:
 
     def continuations(
         self, options: Sequence[Tokens], checkpoint: Checkpoint
-    ) -> tuple[list[float], int]:
-        """Log P(option | sequence 0) of each option, many to a batch; what they share only once.
+    ) -> NDArray[np.float64]:
+        """(options,) log P(option | sequence 0), many to a batch; what they share only once.
 
         Has to follow `read`; sequence 0 stays as it is.
-
-        Returns:
-            The logarithms, and how many tokens were evaluated.
 
         Raises:
             ModelError: if an option is empty or longer than BATCH_TOKENS.
@@ -239,8 +247,7 @@ class Context:
         if not all(0 < len(option) <= BATCH_TOKENS for option in options):
             raise ModelError(f"an option has to be from 1 to {BATCH_TOKENS} tokens long")
         first = self.log_probabilities()
-        scores = [float(first[option[0]]) for option in options]
-        evaluated = 0
+        scores = np.array([first[option[0]] for option in options])
         for tree in _trees(options, self._sequences - 1):
             checkpoint()
             sequences = {n: i for i, n in enumerate(sorted(set().union(*tree.values())), start=1)}
@@ -255,11 +262,10 @@ class Context:
             for row, (begin, on) in enumerate(tree.items()):
                 next_token = self.log_probabilities(row)
                 for n in on:
-                    scores[n] += float(next_token[options[n][len(begin)]])
+                    scores[n] += next_token[options[n][len(begin)]]
             for sequence in sequences.values():
                 llama_cpp.llama_memory_seq_rm(self._memory, sequence, *WHOLE)
-            evaluated += len(tree)
-        return scores, evaluated
+        return scores
 
     def state(self) -> NDArray[np.float64]:
         """(width,) the last layer's state after the last token of sequence 0.
@@ -294,6 +300,7 @@ class Context:
             batch.logits[i] = row.wanted
         if code := llama_cpp.llama_decode(self.pointer, batch):
             raise ModelError(f"llama.cpp could not evaluate (code {code}): {_last_complaint()}")
+        self.evaluated += len(rows)
 
 
 @dataclass(frozen=True, slots=True)

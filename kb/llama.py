@@ -2,16 +2,16 @@
 
 import importlib.util
 import json
+import logging
 import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-import numpy as np
 from llama_cpp.llama_grammar import json_schema_to_gbnf
-from numpy.typing import NDArray
 
 from executive.errors import ModelError
 from executive.events import Inbox
@@ -25,12 +25,11 @@ from executive.types import (
     Scored,
     Usage,
 )
-from kb.gguf import BATCH_TOKENS, Checkpoint, Context, Gguf, Tokens, check_file
-from kb.precedents import LIKELIHOOD_WEIGHT, log_expected, shares
+from kb.gguf import Checkpoint, Context, Gguf, Tokens, check_file
 from kb.sampling import Sampler, Sampling
+from kb.scoring import Scorer
 
-RANKED_AT_ONCE = 63
-"""Options that are scored side by side."""
+log = logging.getLogger(__name__)
 
 
 def embedded_model() -> Path:
@@ -50,29 +49,33 @@ class Cancelled(Exception):  # noqa: N818 - it is no error
     """The request was called off."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Grasp:
-    """What the model makes of a chat: its state, how likely each option is next, and the cost."""
+def until(stop: threading.Event) -> Checkpoint:
+    """Make a checkpoint that lets pass until this happens, and then raises Cancelled."""
 
-    state: NDArray[np.float64]
-    likelihoods: NDArray[np.float64]
-    read: int
-    evaluated: int
+    def checkpoint() -> None:
+        if stop.is_set():
+            raise Cancelled
+
+    return checkpoint
 
 
 @dataclass(slots=True)
 class _Loaded:
     model: Gguf
     writing: Context
-    ranking: Context | None = None
+    scorer: Scorer | None = None
+
+    @property
+    def evaluated(self) -> int:
+        """Tokens that were evaluated so far."""
+        return self.writing.evaluated + (self.scorer.evaluated if self.scorer else 0)
 
 
 class LlamaCpp:
     """Implements `LanguageModel`. Requests are served one after the other, in their order.
 
     The model is loaded in the background; requests wait for it. What a prompt shares with the one
-    before it is not evaluated again; writing and scoring have a KV cache each, and what was scored
-    before (the neutral prompt, above all) is remembered.
+    before it is not evaluated again; writing and scoring have a KV cache each.
     """
 
     can_rank = True
@@ -117,7 +120,9 @@ class LlamaCpp:
         self._threads = threads
         self._grammar = grammar
         self._stops: dict[int, threading.Event] = {}
-        self._grasped: dict[tuple[tuple[Message, ...], tuple[str, ...]], _Grasp] = {}
+        self._prepared_enough = threading.Event()
+        self._prepared = (0, 0.0)
+        """Tokens and seconds that preparation took since the last call."""
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="language model")
         self._loading = self._pool.submit(self._load, gpu_layers)
 
@@ -139,6 +144,11 @@ class LlamaCpp:
         """Score the options; ends Scored, or Failed."""
         return self._start(lambda checkpoint: self._score(request, checkpoint))
 
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Read ahead what others share with this request; gives way to the next one at once."""
+        self._prepared_enough = threading.Event()
+        self._pool.submit(self._read_ahead, request, until(self._prepared_enough))
+
     def cancel(self, request: int) -> None:
         """Stop within one token, or one batch of the prompt; nothing is delivered."""
         if stop := self._stops.pop(request, None):
@@ -155,40 +165,54 @@ class LlamaCpp:
 
     def close(self) -> None:
         """Stop whatever is under way, end the thread and free the model."""
-        for stop in list(self._stops.values()):
+        for stop in (*self._stops.values(), self._prepared_enough):
             stop.set()
         self._pool.shutdown(wait=True, cancel_futures=True)
         if self._loading.cancelled() or self._loading.exception():
             return
         loaded = self._loading.result()
-        for context in (loaded.writing, loaded.ranking):
-            if context:
-                context.close()
+        if loaded.scorer:
+            loaded.scorer.close()
+        loaded.writing.close()
         loaded.model.close()
+
+    def _start(self, work: Callable[[Checkpoint], Result]) -> int:
+        self._prepared_enough.set()
+        request = self._inbox.open(real=True)
+        stop = self._stops[request] = threading.Event()
+        self._pool.submit(self._serve, request, work, until(stop))
+        return request
 
     # --- from here on in the model's thread ---
 
-    def _start(self, work: Callable[[Checkpoint], Result]) -> int:
-        request = self._inbox.open(real=True)
-        stop = self._stops[request] = threading.Event()
+    def _serve(
+        self, request: int, work: Callable[[Checkpoint], Result], checkpoint: Checkpoint
+    ) -> None:
+        try:
+            checkpoint()
+            result = work(checkpoint)
+        except Cancelled:
+            return
+        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+            result = Failed(str(error) or repr(error))
+        self._stops.pop(request, None)
+        self._inbox.end(request, result)
 
-        def checkpoint() -> None:
-            if stop.is_set():
-                raise Cancelled
-
-        def serve() -> None:
-            try:
-                checkpoint()
-                result = work(checkpoint)
-            except Cancelled:
-                return
-            except Exception as error:  # noqa: BLE001 - a request must never be left without an end
-                result = Failed(str(error) or repr(error))
-            self._stops.pop(request, None)
-            self._inbox.end(request, result)
-
-        self._pool.submit(serve)
-        return request
+    def _read_ahead(self, request: ChatRequest | RankRequest, checkpoint: Checkpoint) -> None:
+        """What fails here fails again, and is heard of, when it is asked for."""
+        began = time.monotonic()
+        loaded = self._loading.result()
+        before = loaded.evaluated
+        with suppress(Cancelled):
+            checkpoint()
+            if isinstance(request, RankRequest):
+                self._scorer().prepare(request, checkpoint)
+            else:
+                prompt, head = self._prompt(request)
+                loaded.writing.begin(prompt[:head], checkpoint)
+        tokens, seconds = loaded.evaluated - before, time.monotonic() - began
+        self._prepared = self._prepared[0] + tokens, self._prepared[1] + seconds
+        log.info("read %d tokens ahead in %.2f s", tokens, seconds)
 
     def _load(self, gpu_layers: int) -> _Loaded:
         model = Gguf(self._path, gpu_layers)
@@ -202,9 +226,10 @@ class LlamaCpp:
         began = time.monotonic()
         loaded = self._loading.result()
         model, context = loaded.model, loaded.writing
-        prompt, head = model.prompt(request.messages, constant=1)
-        self._check_length(prompt, 1)
-        evaluated = context.read(prompt, head, checkpoint)
+        before = loaded.evaluated
+        prompt, head = self._prompt(request)
+        context.read(prompt, head, checkpoint)
+        evaluated = loaded.evaluated - before
         room = min(self._max_tokens, self._n_ctx - len(prompt))
         reply: Tokens = []
         first_token_s = 0.0
@@ -223,55 +248,22 @@ class LlamaCpp:
 
     def _score(self, request: RankRequest, checkpoint: Checkpoint) -> Result:
         began = time.monotonic()
-        read = evaluated = 0
-
-        def grasp(messages: tuple[Message, ...], options: tuple[str, ...] = ()) -> _Grasp:
-            nonlocal read, evaluated
-            fresh = (messages, options) not in self._grasped
-            if fresh:
-                self._grasped[messages, options] = self._grasp(messages, options, checkpoint)
-            grasped = self._grasped[messages, options]
-            read += grasped.read
-            evaluated += fresh * grasped.evaluated
-            return grasped
-
-        asked = grasp(request.messages, request.options)
-        scores = LIKELIHOOD_WEIGHT * asked.likelihoods
-        if request.neutral:
-            neutral = grasp(request.neutral, request.options)
-            scores -= LIKELIHOOD_WEIGHT * neutral.likelihoods
-        if known := request.precedents:
-            states = [asked.state, *(grasp(precedent.messages).state for precedent in known)]
-            kinds = [request.kind, *(precedent.kind for precedent in known)]
-            at = shares([precedent.places for precedent in known], request.places)
-            scores += log_expected(np.stack(states), kinds, at)
-        usage = self._usage(read, evaluated, 0, 0.0, began)
+        scorer = self._scorer()
+        before = scorer.evaluated
+        scores = scorer.score(request, checkpoint)
+        usage = self._usage(scorer.tokens(request), scorer.evaluated - before, 0, 0.0, began)
         return Scored(request, tuple(scores.tolist()), usage)
 
-    def _grasp(
-        self, messages: tuple[Message, ...], options: tuple[str, ...], checkpoint: Checkpoint
-    ) -> _Grasp:
-        """Read a chat; all but its last turn is shared with others."""
-        loaded = self._loading.result()
-        if loaded.ranking is None:
-            loaded.ranking = Context(
-                loaded.model, self._n_ctx, sequences=1 + RANKED_AT_ONCE, threads=self._threads
-            )
-        prompt, head = loaded.model.prompt(messages, constant=len(messages) - 1)
-        self._check_length(prompt, BATCH_TOKENS)
-        evaluated = loaded.ranking.read(prompt, head, checkpoint)
-        state = loaded.ranking.state()
-        answers = [loaded.model.tokenize(option) for option in options]
-        likelihoods, branches = loaded.ranking.continuations(answers, checkpoint)
-        read = len(prompt) + sum(map(len, answers))
-        return _Grasp(state, np.array(likelihoods), read, evaluated + branches)
+    def _prompt(self, request: ChatRequest) -> tuple[Tokens, int]:
+        """The request's tokens, and how many of them the system turn makes, which others share."""
+        system_only = (*request.messages[:1], Message("user", ""))
+        return self._loading.result().model.prompt(request.messages, system_only)
 
-    def _check_length(self, prompt: Tokens, reserve: int) -> None:
-        if len(prompt) + reserve > self._n_ctx:
-            raise ModelError(
-                f"the prompt takes {len(prompt)} tokens and needs room for {reserve} more, "
-                f"but the context window has {self._n_ctx}"
-            )
+    def _scorer(self) -> Scorer:
+        loaded = self._loading.result()
+        if loaded.scorer is None:
+            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads)
+        return loaded.scorer
 
     def _sampler(self, model: Gguf, request: ChatRequest) -> Sampler:
         held = self._grammar and request.schema
@@ -281,10 +273,13 @@ class LlamaCpp:
     def _usage(
         self, read: int, evaluated: int, written: int, first_token_s: float, began: float
     ) -> Usage:
+        (prepared_tokens, prepared_s), self._prepared = self._prepared, (0, 0.0)
         return Usage(
             model=self.name,
             input_tokens=read,
             evaluated_tokens=evaluated,
+            prepared_tokens=prepared_tokens,
+            prepared_s=prepared_s,
             output_tokens=written,
             first_token_s=first_token_s,
             total_s=time.monotonic() - began,

@@ -41,6 +41,9 @@ class Scripted:
         """Give the next scores; ends Scored, or Failed."""
         return self._answer(request)
 
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Nothing to prepare."""
+
     def cancel(self, request: int) -> None:
         """Forget the request."""
         self._inbox.drop(request)

@@ -136,6 +136,9 @@ class Server:
         self._inbox.end(number, Failed("a server's language model cannot score places"))
         return number
 
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Nothing: a server is not asked what nobody wants to know."""
+
     def cancel(self, request: int) -> None:
         """Hang up on the server; nothing is delivered."""
         self._loop.call_soon_threadsafe(self._hang_up, request)

@@ -35,7 +35,8 @@ def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
         parts += _verification(verified)
     parts += [
         f"{usage.model} · {usage.total_s:.2f} s · {usage.input_tokens} tokens in "
-        f"({usage.evaluated_tokens} evaluated) · {usage.output_tokens} out"
+        f"({usage.evaluated_tokens} evaluated, {usage.prepared_tokens} before it was asked) · "
+        f"{usage.output_tokens} out"
         + "".join(f" · {name} {value}" for name, value in usage.parameters.items()),
         "---",
         "### The whole exchange",

@@ -107,6 +107,8 @@ def llm_call_to_message(call: LlmCall) -> Any:
         gen_ai_usage_cache_read_input_tokens=usage.input_tokens - usage.evaluated_tokens,
         gen_ai_usage_output_tokens=usage.output_tokens,
         duration_s=usage.total_s,
+        prepared_tokens=usage.prepared_tokens,
+        prepared_s=usage.prepared_s,
     )
     _add_parameters(message, usage)
     _add_turns(message.gen_ai_input_messages, result.request.messages)
@@ -138,6 +140,8 @@ def llm_call_from_message(message: Any) -> LlmCall:
         output_tokens=message.gen_ai_usage_output_tokens,
         first_token_s=message.gen_ai_response_time_to_first_chunk,
         total_s=message.duration_s,
+        prepared_tokens=message.prepared_tokens,
+        prepared_s=message.prepared_s,
         parameters=_parameters(message),
     )
     asked = _turns(message.gen_ai_input_messages)

@@ -257,6 +257,8 @@ def _call_text(row: Row) -> str:
         f"{row['input_tokens']} -> {row['output_tokens']} tokens",
         f"  asked     {row['messages'][-1]['content']}",
     ]
+    if row["prepared_tokens"]:
+        lines.append(f"  prepared  {row['prepared_tokens']} tokens in {row['prepared_s']:.2f} s")
     if "reply" in row:
         lines.append(f"  answered  {row['reply']}")
     else:

@@ -71,6 +71,8 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "gen_ai_usage_cache_read_input_tokens": "uint64",
         "gen_ai_usage_output_tokens": "uint64",
         "duration_s": "double",
+        "prepared_tokens": "uint64",
+        "prepared_s": "double",
         "output_schema": "string",
         "neutral_messages": "repeated ChatMessage",
         "options": "repeated Option",

@@ -1,21 +1,19 @@
-"""RRT-Connect: a way between two points around what is not free (Kuffner and LaValle, 2000).
-
-Two trees grow, one from each end: one a step towards a random point, the other as far as it can
-towards what the first has reached, until they meet. The way is then shortened.
-"""
+"""A way between two points around what is not free: RRT-Connect and path simplification by OMPL."""
 
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
+from ompl import base, geometric, util
 
 Floats = NDArray[np.float64]
 Free = Callable[[Floats], bool]
 
 _STEP = 4.0
 """How far a tree grows at once."""
-_SHORTCUTS = 40
-_SEED = 0
+_SEED = 1
+
+util.noOutputHandler()
 
 
 def connect(
@@ -33,62 +31,41 @@ def connect(
         free: whether a point is; asked at least once for each unit of length.
         samples: random points that are tried, at most.
     """
-    chance = np.random.default_rng(_SEED)
-    here, there = _Tree(start, free), _Tree(goal, free)
-    for _ in range(samples):
-        reached = here.extend(chance.uniform(lower, upper), once=True)
-        if reached is not None:
-            met = there.extend(here.points[reached], once=False)
-            if met is not None and np.array_equal(there.points[met], here.points[reached]):
-                way = [*reversed(here.branch(reached)), *there.branch(met)[1:]]
-                forward = way if way[0] is start else way[::-1]
-                return _shortened(forward, free, chance)
-        here, there = there, here
-    return None
+    util.RNG.setSeed(_SEED)
+    space = _box(lower, upper)
+    setup = geometric.SimpleSetup(space)
+    setup.setStateValidityChecker(lambda state: bool(free(_point(state, len(start)))))
+    setup.setStartAndGoalStates(_state(space, start), _state(space, goal))
+    planner = geometric.RRTConnect(setup.getSpaceInformation())
+    planner.setRange(_STEP)
+    setup.setPlanner(planner)
+    tries = iter(range(samples))
+    setup.solve(base.PlannerTerminationCondition(lambda: next(tries, None) is None))
+    if not setup.haveExactSolutionPath():
+        return None
+    setup.simplifySolution()
+    path = setup.getSolutionPath()
+    return [_point(path.getState(i), len(start)) for i in range(path.getStateCount())]
 
 
-class _Tree:
-    """Points that are reached from a root."""
-
-    def __init__(self, root: Floats, free: Free) -> None:
-        self.points, self._parents, self._free = [root], [0], free
-
-    def extend(self, target: Floats, once: bool) -> int | None:
-        """Grow towards a point, by one step or as far as it goes; the last new point, if any."""
-        nearest = int(np.linalg.norm(np.array(self.points) - target, axis=1).argmin())
-        last = None
-        while True:
-            way = target - self.points[nearest]
-            length = float(np.linalg.norm(way))
-            new = target if length <= _STEP else self.points[nearest] + _STEP / length * way
-            if length == 0.0 or not _is_free(self.points[nearest], new, self._free):
-                return last
-            self.points.append(new)
-            self._parents.append(nearest)
-            last = nearest = len(self.points) - 1
-            if once or new is target:
-                return last
-
-    def branch(self, index: int) -> list[Floats]:
-        """The points from this one down to the root."""
-        way = [self.points[index]]
-        while index:
-            index = self._parents[index]
-            way.append(self.points[index])
-        return way
+def _box(lower: Floats, upper: Floats) -> base.RealVectorStateSpace:
+    """The space between the bounds, where a line is checked once for each unit of length."""
+    space = base.RealVectorStateSpace(len(lower))
+    bounds = base.RealVectorBounds(len(lower))
+    for i, (low, high) in enumerate(zip(lower, upper, strict=True)):
+        bounds.setLow(i, float(low))
+        bounds.setHigh(i, float(high))
+    space.setBounds(bounds)
+    space.setLongestValidSegmentFraction(1.0 / space.getMaximumExtent())
+    return space
 
 
-def _shortened(way: list[Floats], free: Free, chance: np.random.Generator) -> list[Floats]:
-    for _ in range(_SHORTCUTS):
-        if len(way) < 3:
-            break
-        first, last = sorted(chance.choice(len(way), 2, replace=False))
-        if last - first > 1 and _is_free(way[first], way[last], free):
-            way = [*way[: first + 1], *way[last:]]
-    return way
+def _state(space: base.RealVectorStateSpace, point: Floats) -> base.State:
+    state = space.allocState()
+    for i, value in enumerate(point):
+        state[i] = float(value)
+    return state
 
 
-def _is_free(start: Floats, end: Floats, free: Free) -> bool:
-    """Whether a straight line is, but for its start."""
-    count = max(1, int(np.ceil(np.linalg.norm(end - start))))
-    return all(free(start + part * (end - start)) for part in np.linspace(0, 1, count + 1)[1:])
+def _point(state: base.State, size: int) -> Floats:
+    return np.array([state[i] for i in range(size)])

@@ -97,6 +97,8 @@ def usage() -> Usage:
         model="SmolLM2-135M-Instruct",
         input_tokens=312,
         evaluated_tokens=40,
+        prepared_tokens=250,
+        prepared_s=1.2,
         output_tokens=21,
         first_token_s=0.2,
         total_s=0.7,

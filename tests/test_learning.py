@@ -9,7 +9,7 @@ import pytest
 
 from executive.errors import InputError
 from sim.learning import __main__ as door
-from sim.learning.frames import EVALUATION_SEED, class_names, make_shards, read_shard, shards
+from sim.learning.frames import VALIDATION_SEED, class_names, make_shards, read_shard, shards
 from sim.learning.scenes import Scene, SceneMaker, Truth, extent
 from sim.objects import load_objects
 
@@ -83,9 +83,9 @@ def test_a_stopped_run_goes_on_with_the_shards_that_are_missing(
         assert (example.classes < len(class_names())).all()
 
 
-def test_the_seeds_of_the_evaluation_are_not_for_training(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="the others are for evaluation"):
-        next(make_shards(tmp_path, frames=10, seed=EVALUATION_SEED - 5, workers=1))
+def test_the_seeds_that_judge_a_detector_are_not_for_training(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="the others are for judging"):
+        next(make_shards(tmp_path, frames=10, seed=VALIDATION_SEED - 5, workers=1))
 
 
 def test_training_without_frames_says_how_to_make_them(tmp_path: Path) -> None:

@@ -74,6 +74,7 @@ def test_a_call_of_the_model_keeps_prompt_reply_parameters_and_cost(path: Path) 
     assert chat.gen_ai_request_temperature == 0.0
     assert not chat.HasField("gen_ai_request_top_p")
     assert chat.gen_ai_usage_cache_read_input_tokens == 312 - 40
+    assert (chat.prepared_tokens, chat.prepared_s) == (250, 1.2)
     assert [(o.place, o.score) for o in rank.options][0] == ("cupboard", 2.5)
 
 

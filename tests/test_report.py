@@ -123,6 +123,11 @@ def test_what_was_dropped_belongs_to_the_call_before_it_even_at_one_moment(tmp_p
     assert second["verified"]["dropped"] == ("cellar",)
 
 
+def test_what_the_model_prepared_for_a_call_is_told_with_it(tmp_path: Path) -> None:
+    rows = report.llm(Run(record(tmp_path, [(0.0, rank_call())])))
+    assert "  prepared  250 tokens in 1.20 s\n" in report.llm_text(rows)
+
+
 def test_the_chain_ends_with_the_outcome(run_dir: Path) -> None:
     assert why(Run(run_dir))[-1].question == "outcome"
 

@@ -15,7 +15,7 @@ torch = pytest.importorskip("torch", reason="the train extra is not installed")
 from sim.learning.crops import SIDE, crop  # noqa: E402
 from sim.learning.frames import Example, class_names  # noqa: E402
 from sim.learning.loss import CELLS_A_THING, Wanted, generalized_overlap, loss, overlap  # noqa: E402
-from sim.learning.network import Exported, Network, boxes_of, cells, flatten  # noqa: E402
+from sim.learning.network import Exported, Network, Residual, boxes_of, cells, flatten  # noqa: E402
 from sim.learning.training import export  # noqa: E402
 
 BOXES = torch.tensor([[40.0, 40.0, 100.0, 80.0], [150.0, 120.0, 180.0, 200.0]])
@@ -63,10 +63,23 @@ def test_a_crop_keeps_what_is_in_it_and_asks_for_what_is_mostly_in_it() -> None:
     color = np.zeros((480, 640, 3), np.uint8)
     boxes = np.array([[110, 120, 150, 180], [340, 100, 420, 140], [500, 0, 520, 20]], np.float32)
     example = Example(color, boxes, np.arange(3), np.ones(3, np.bool_))
-    one = crop(example, 100, 100, flip=False)
+    one = crop(example, 100, 100, SIDE, flip=False)
     assert one.boxes.tolist() == [[10, 20, 50, 80], [240, 0, 256, 40]]
     assert one.counts.tolist() == [True, False]
-    assert crop(example, 100, 100, flip=True).boxes[0].tolist() == [206, 20, 246, 80]
+    assert crop(example, 100, 100, SIDE, flip=True).boxes[0].tolist() == [206, 20, 246, 80]
+
+
+def test_a_crop_of_a_larger_square_shows_things_smaller() -> None:
+    color = np.zeros((480, 640, 3), np.uint8)
+    example = Example(color, BOXES.numpy() + 100, np.array([0, 2]), np.ones(2, np.bool_))
+    one = crop(example, 100, 100, 320, flip=False)
+    assert one.color.shape == (SIDE, SIDE, 3)
+    assert one.boxes == pytest.approx(BOXES.numpy() * SIDE / 320)
+
+
+def test_a_deeper_network_begins_as_the_shallower_one() -> None:
+    features = torch.rand(1, 8, 4, 4)
+    assert torch.equal(Residual(8)(features), features)
 
 
 @pytest.mark.filterwarnings("ignore::FutureWarning", "ignore::DeprecationWarning")

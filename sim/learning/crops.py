@@ -8,7 +8,9 @@ from threading import Thread
 import numpy as np
 import torch
 from numpy.random import Generator
+from numpy.typing import NDArray
 from torch import Tensor
+from torch.nn import functional
 
 from sim.learning.frames import Example, class_names, read_shard, shards
 from sim.learning.loss import Wanted
@@ -19,9 +21,11 @@ SHARDS_AT_ONCE = 6
 LEAST_LEFT = 0.5
 """A thing of whose box less than this share is in the crop is not asked for."""
 LEAST_SIDE = 3
-HARD = {"adjustable_wrench": 3.0, "hammer": 2.0, "scissors": 2.0, "spatula": 2.0}
+HARD = {"adjustable_wrench": 4.0, "hammer": 3.0, "scissors": 2.0, "spatula": 3.0}
 """Long thin things are learned slowest: crops are so many times more often about them."""
 _AT_RANDOM = 0.15
+ZOOM = (0.8, 1.35)
+"""Half of the crops are enlarged or made smaller, so that fewer frames show more sizes."""
 _NOISES = 24
 
 Batch = tuple[Tensor, list[Wanted]]
@@ -67,20 +71,28 @@ def _crops(example: Example, chance: Generator) -> list[Example]:
     number = 1 + round(weights.sum() / 2)
     found = []
     for _ in range(number):
+        zoom = float(np.exp(chance.uniform(*np.log(ZOOM)))) if chance.random() < 0.5 else 1.0
+        side = round(SIDE / zoom)
         if len(asked) and chance.random() > _AT_RANDOM:
             box = example.boxes[chance.choice(asked, p=weights / weights.sum())]
-            middle = (box[:2] + box[2:]) / 2 + chance.uniform(-0.4, 0.4, 2) * SIDE
+            middle = (box[:2] + box[2:]) / 2 + chance.uniform(-0.4, 0.4, 2) * side
         else:
             middle = chance.uniform((0, 0), (640, 480))
-        left, top = np.clip(middle - SIDE / 2, 0, (640 - SIDE, 480 - SIDE)).astype(int)
-        found.append(crop(example, int(left), int(top), flip=bool(chance.random() < 0.5)))
+        left, top = np.clip(middle - side / 2, 0, (640 - side, 480 - side)).astype(int)
+        found.append(crop(example, int(left), int(top), side, flip=bool(chance.random() < 0.5)))
     return found
 
 
-def crop(example: Example, left: int, top: int, flip: bool) -> Example:
-    """The square of SIDE pixels from this corner, with what is left of the boxes in it."""
-    color = example.color[top : top + SIDE, left : left + SIDE]
+def crop(example: Example, left: int, top: int, side: int, flip: bool) -> Example:
+    """The square from this corner, SIDE pixels wide whatever its `side` in the picture was.
+
+    With what is left of the boxes in it.
+    """
+    color = example.color[top : top + side, left : left + side]
     edges = example.boxes - np.array([left, top, left, top], np.float32)
+    if side != SIDE:
+        color = _resized(color)
+        edges *= SIDE / side
     if flip:
         color = color[:, ::-1]
         edges[:, [0, 2]] = SIDE - edges[:, [2, 0]]
@@ -89,6 +101,13 @@ def crop(example: Example, left: int, top: int, flip: bool) -> Example:
     in_it = (size >= LEAST_SIDE).all(1)
     counts = example.counts & (size.prod(1) >= LEAST_LEFT * before.prod(1))
     return Example(color, boxes[in_it], example.classes[in_it], counts[in_it])
+
+
+def _resized(color: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """SIDE pixels wide and high."""
+    channels = torch.from_numpy(np.ascontiguousarray(color)).permute(2, 0, 1)[None].float()
+    fitted = functional.interpolate(channels, (SIDE, SIDE), mode="bilinear")[0]
+    return np.asarray(fitted.permute(1, 2, 0).round().numpy(), np.uint8)
 
 
 def _batch(crops: list[Example], noise: Tensor, chance: Generator) -> Batch:

@@ -25,8 +25,10 @@ from sim.ycb import with_scans
 SHARD = 50
 """Pictures in a file."""
 SHAPE = (480, 640, 3)
+VALIDATION_SEED = 9_000_000
+"""Seeds from here on choose between networks; no network learns from them."""
 EVALUATION_SEED = 10_000_000
-"""Seeds from here on are for evaluation only."""
+"""Seeds from here on say how good the chosen one is, and nothing else."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,10 +61,10 @@ def make_shards(
     Things look as ours, or as the scans in the folder `ycb`.
 
     Raises:
-        InputError: if the folder cannot be written, or the seeds are those of the evaluation.
+        InputError: if the folder cannot be written, or the seeds are not for training.
     """
-    if seed < 0 or seed + frames > EVALUATION_SEED:
-        right = f"give seeds below {EVALUATION_SEED}: the others are for evaluation"
+    if seed < 0 or seed + frames > VALIDATION_SEED:
+        right = f"give seeds below {VALIDATION_SEED}: the others are for judging"
         raise InputError("--seed", f"cannot train on seeds {seed} to {seed + frames - 1}", right)
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -24,12 +24,18 @@ class Block(nn.Sequential):
 
 
 class Residual(nn.Module):
-    """Two convolutions, with half as many channels between them, beside a straight way."""
+    """Two convolutions, with half as many channels between them, beside a straight way.
+
+    It begins by changing nothing (Goyal et al., arXiv:1706.02677), so that a network which already
+    knows something can be given more of them.
+    """
 
     def __init__(self, channels: int) -> None:
         """Keep the number of channels."""
         super().__init__()
-        self.way = nn.Sequential(Block(channels, channels // 2), Block(channels // 2, channels))
+        last = Block(channels // 2, channels)
+        nn.init.zeros_(last[1].weight)
+        self.way = nn.Sequential(Block(channels, channels // 2), last)
 
     def forward(self, x: Tensor) -> Tensor:
         """Add what the convolutions find."""
@@ -60,7 +66,8 @@ class Network(nn.Module):
     def __init__(self, classes: int) -> None:
         """Recognise so many classes."""
         super().__init__()
-        self.eighth = nn.Sequential(Block(3, 32, size=6, stride=4), Block(32, 64, stride=2))
+        self.quarter = nn.Sequential(Block(3, 32, size=6, stride=4), Residual(32))
+        self.eighth = nn.Sequential(Block(32, 64, stride=2), Residual(64), Residual(64))
         self.sixteenth = nn.Sequential(
             Block(64, 128, stride=2), Residual(128), Residual(128), Surroundings(128)
         )
@@ -80,7 +87,7 @@ class Network(nn.Module):
         The first four are left, top, right, bottom of the box from the middle of the cell, in
         strides, before softplus; then the logits of the classes.
         """
-        fine = self.eighth(pictures)
+        fine = self.eighth(self.quarter(pictures))
         coarse = self.sixteenth(fine)
         wide = functional.interpolate(self.up(coarse), scale_factor=2.0, mode="nearest")
         return [self.heads[0](self.fuse(fine + wide)), self.heads[1](coarse)]

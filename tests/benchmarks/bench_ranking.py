@@ -1,20 +1,25 @@
 """How fast places are ranked: `python tests/benchmarks/bench_ranking.py`.
 
-The first inquiry of a process reads what all have in common; those after it (medians) read only
-what is new. On a busy machine the time on all cores says more: two idle cores need half of it.
+What all inquiries have in common is read once: ahead of the first, as a session does while the
+simulator starts, or else (`cold`) by the first. Those after it (medians) read only what is new; the
+ratio is theirs to all that was read until the first was answered. On a busy machine the time on all
+cores says more: two idle cores need half of it.
 How good the ranking is, `python -m kb.benchmark` says.
 """
 
 import argparse
+import logging
 import statistics
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import closing
+from itertools import product
 from pathlib import Path
 
 from executive.errors import ModelError
 from executive.events import Ended, Inbox
-from executive.types import Failed, Usage
+from executive.types import ChatRequest, Failed, RankRequest, Usage
 from kb.advisor import PlaceAdvisor
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
@@ -22,6 +27,8 @@ from sim.home import load_home
 
 Ask = Callable[[str], int]
 """From an object to the request that asks for its places."""
+Cost = tuple[float, float, float]
+"""Evaluated tokens, seconds, seconds on all cores."""
 
 
 def usage(inbox: Inbox) -> Usage:
@@ -33,18 +40,42 @@ def usage(inbox: Inbox) -> Usage:
     return event.result.usage
 
 
-def report(title: str, ask: Ask, inbox: Inbox, objects: tuple[str, ...]) -> None:
-    """Print one line of the table: the first inquiry, the median of the others."""
-    costs = []
+def prepare(model: LlamaCpp, request: ChatRequest | RankRequest) -> Cost:
+    """What it costs to read ahead."""
+    began, cpu_began = time.monotonic(), time.process_time()
+    ended = threading.Event()
+
+    def hear(record: logging.LogRecord) -> bool:
+        ended.set()
+        return False
+
+    logger = logging.getLogger("kb.llama")
+    logger.setLevel(logging.INFO)
+    logger.addFilter(hear)
+    model.prepare(request)
+    ended.wait()
+    logger.removeFilter(hear)
+    return 0, time.monotonic() - began, time.process_time() - cpu_began
+
+
+def report(title: str, ask: Ask, inbox: Inbox, objects: Sequence[str], ahead: Cost) -> None:
+    """Print one line of the table: preparation, the first inquiry, the median of the others."""
+    costs: list[Cost] = []
     for name in objects:
         began, cpu_began = time.monotonic(), time.process_time()
         ask(name)
-        tokens = usage(inbox).evaluated_tokens
-        costs.append((tokens, time.monotonic() - began, time.process_time() - cpu_began))
-    first, later = costs[0], [statistics.median(cost) for cost in zip(*costs[1:], strict=True)]
+        cost = usage(inbox)
+        ahead = ahead[0] + cost.prepared_tokens, *ahead[1:]
+        costs.append(
+            (cost.evaluated_tokens, time.monotonic() - began, time.process_time() - cpu_began)
+        )
+    later = [statistics.median(cost) for cost in zip(*costs[1:], strict=True)]
+    tokens, seconds, cpu = zip(ahead, costs[0], later, strict=True)
     print(
-        f"{title:44} {first[0]:6} {later[0]:6.0f} {later[0] / first[0]:6.2f} "
-        f"{first[1]:7.2f} {later[1]:7.2f} {first[2]:7.2f} {later[2]:7.2f}",
+        f"{title:48}"
+        + "".join(f"{count:7.0f}" for count in tokens)
+        + f"{tokens[2] / (tokens[0] + tokens[1]):7.2f}"
+        + "".join(f"{value:7.2f}" for value in (*seconds, *cpu)),
         flush=True,
     )
 
@@ -61,25 +92,26 @@ def main() -> None:
     except ModelError as error:
         parser.error(str(error))
     places = load_home(given.home).places()
-    print(f"{'':44} {'evaluated tokens':^20} {'seconds':^15} {'s of all cores':^15}")
-    print(f"{'':44} {'first':>6} {'later':>6} {'ratio':>6}" + 2 * f" {'first':>7} {'later':>7}")
-    for elicit in ("rank", "generate"):
-        for defaults in (False, True):
-            inbox, knowledge = Inbox(), Ontology(places, defaults=defaults)
-            with closing(LlamaCpp(path, inbox, threads=given.threads, max_tokens=256)) as model:
-                model.count_tokens("wait until it is loaded")
-                adviser = PlaceAdvisor(knowledge, model, remembers=False)
+    heads = ("ahead", "first", "later")
+    print(f"{'':48}{'evaluated tokens':^28}{'seconds':^21}{'s of all cores':^21}")
+    print(f"{'':48}" + "".join(f"{head:>7}" for head in (*heads, "ratio", *heads, *heads)))
+    for writes, recorded, cold in product((False, True), repeat=3):
+        inbox, knowledge = Inbox(), Ontology(places, defaults=recorded)
+        with closing(LlamaCpp(path, inbox, threads=given.threads, max_tokens=256)) as model:
+            model.count_tokens("wait until it is loaded")
+            adviser = PlaceAdvisor(knowledge, model, remembers=False)
 
-                def rank(name: str) -> int:
-                    return model.rank(adviser.ranking(name, ()))  # noqa: B023 - called at once
+            def rank(name: str) -> int:
+                return model.rank(adviser.ranking(name, ()))  # noqa: B023 - called at once
 
-                def write(name: str) -> int:
-                    return model.chat(adviser.inquiry(name, ()))  # noqa: B023 - called at once
+            def write(name: str) -> int:
+                return model.chat(adviser.inquiry(name, ()))  # noqa: B023 - called at once
 
-                ask = rank if elicit == "rank" else write
-                known = "default locations" if defaults else "nothing"
-                title = f"{elicit}, {len(places)} places, {known} recorded"
-                report(title, ask, inbox, knowledge.objects())
+            known = "default locations" if recorded else "nothing"
+            title = f"{'generate' if writes else 'rank'}, {known} recorded{', cold' * cold}"
+            asks = adviser.inquiry if writes else adviser.ranking
+            ahead = (0.0, 0.0, 0.0) if cold else prepare(model, asks("thing", ()))
+            report(title, write if writes else rank, inbox, knowledge.objects(), ahead)
 
 
 if __name__ == "__main__":
