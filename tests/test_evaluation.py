@@ -43,3 +43,14 @@ def test_the_confusions_are_drawn_with_their_numbers() -> None:
 def test_a_missing_detector_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--detector", str(tmp_path / "none.onnx"), "--scenes", "1"]) == 2
     assert "none.onnx: cannot be read" in capsys.readouterr().err
+
+
+@pytest.mark.physics
+def test_a_scene_is_rendered_judged_and_its_things_are_placed_by_depth(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["--scenes", "1", "--validation", "--workers", "1"]) == 0
+    said = capsys.readouterr().out
+    assert "detector.onnx: 1 scenes" in said
+    error_mm = float(said.split("error: median | ")[1].split(" mm")[0])
+    assert error_mm < 20
