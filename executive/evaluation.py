@@ -83,7 +83,8 @@ def _errors(picture: Judged, frame: Frame, scene: Scene) -> Iterator[float]:
         box = Box(left, top, right - left, bottom - top)
         truth = scene.truths[thing]
         seen = locate(Detection(truth.name, score, box, segment(frame, box)), frame)
-        pose = fit(load_objects()[truth.name], np.asarray(seen.points, np.float64))
+        points, eye = np.asarray(seen.points, np.float64), np.asarray(frame.pose.position)
+        pose = fit(load_objects()[truth.name], points, eye)
         off = np.subtract(pose.position, truth.pose.position)
         yield 1000 * float(np.hypot(off[0], off[1]))
 
