@@ -16,8 +16,8 @@ from sim.home import Home
 from sim.kinematics import Kinematics
 
 CHECKED: Floats = np.array([0.015, *[0.05] * 7])
-"""How far apart the joints are between checks of a path (metres, radians): the hand moves less than
-2 cm between them, so that what keeps a margin of 1 cm at each of them touches nothing between."""
+"""How far apart the joints are between checks of a path (metres, radians). The hand moves less than
+2 cm between them: where it is 1 cm away from things at each, it touches nothing between."""
 _GRAZE = 0.004
 """At the end of a reach, what is carried may be this far inside something: it is not known any
 better (metres)."""
