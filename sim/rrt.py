@@ -9,7 +9,7 @@ from ompl import base, geometric, util
 Floats = NDArray[np.float64]
 Free = Callable[[Floats], bool]
 
-_STEP = 4.0
+_STEP = 8.0
 """How far a tree grows at once."""
 _SEED = 1
 

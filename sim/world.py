@@ -14,6 +14,7 @@ from executive.types import Pose
 from sim.bodies import build_home, frame_pose, home_entities, place_objects
 from sim.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
 from sim.client import aim_window, connect
+from sim.contacts import FreshContacts
 from sim.faulty_hardware import FaultyHardware
 from sim.hardware import Floats, Hardware
 from sim.home import Home
@@ -82,6 +83,7 @@ class PhysicsWorld:
         self._let_sleep()
         self._planning = PlanningWorld(home)
         self._hardware, self._poltergeist = self._haunted(mishaps)
+        self._contacts = FreshContacts(self._client, self._hardware.body, self._things)
         numbers = count()
         camera = SimulatedCamera(self._client, self._camera_pose, LOOKING, numbers)
         glancing = SimulatedCamera(self._client, self._camera_pose, GLANCING, numbers)
@@ -166,6 +168,8 @@ class PhysicsWorld:
         if self._poltergeist:
             self._poltergeist.act()
         self.robot.control()
+        if self.robot.handling:
+            self._contacts.keep()
         self._use_steps(FINE_STEPS if self.robot.handling else COARSE_STEPS)
         for _ in range(self._steps):
             self._client.stepSimulation()

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from executive.events import Inbox
 from executive.perception import locate as locate_pixels
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
-from sim.grasps import WIDEST, find_grasps, varied
+from sim.grasps import WIDEST, HandPose, find_grasps, varied
 from sim.home import Home
 from sim.objects import load_objects
 from sim.placing import free_spots
@@ -107,6 +107,18 @@ def test_what_lies_under_a_board_is_taken_as_believed_and_put_down(name: str, pl
     assert bench.do(DriveTo(place)) == Succeeded()
     assert bench.do(Pick(bench.detection_of(name, view=1))) == Succeeded()
     assert off_in_hand(bench.world, name) < 0.02
+    assert bench.do(PutDown(place)) == Succeeded()
+    assert bench.world.resting_place(name) == place
+    bench.world.close()
+
+
+@pytest.mark.parametrize(
+    ("name", "place"), [("tomato_soup_can", "cabinet_kitchen"), ("banana", "shelf_lobby")]
+)
+def test_what_was_turned_or_passed_an_edge_in_the_hand_is_put_down(name: str, place: str) -> None:
+    bench = Kitchen(home_before(place).with_placement({name: place}), place)
+    assert bench.do(DriveTo(place)) == Succeeded()
+    assert bench.do(Pick(bench.detection_of(name))) == Succeeded()
     assert bench.do(PutDown(place)) == Succeeded()
     assert bench.world.resting_place(name) == place
     bench.world.close()
@@ -218,3 +230,16 @@ def test_furniture_in_the_way_of_the_arm_is_named(planning: PlanningWorld) -> No
     near = np.array([x + 0.25 * np.cos(yaw), y + 0.25 * np.sin(yaw), yaw])
     assert planning.obstacle(near, COMFORT) == "high_table"
     assert planning.base_obstacle(np.array([x, y, yaw])) is None
+
+
+def test_what_is_carried_keeps_a_margin_until_the_end_of_a_reach(planning: PlanningWorld) -> None:
+    base, table = np.array(four_rooms().robot_start), four_rooms().furniture_named("high_table")
+    (top,) = table.surfaces()
+    hand, turn_back = planning.hand(base, COMFORT), planning.hand(base, COMFORT).rotation.inv()
+    for height, on_the_way in ((0.005, "high_table"), (0.015, None)):
+        above = np.array(table.to_map((*top.center[:2], top.center[2] + height)))
+        offset = turn_back.apply(above - hand.position)
+        planning.carry(MODELS["cracker_box"].shapes, HandPose(offset, turn_back))
+        assert planning.obstacle(base, COMFORT) == on_the_way
+        assert planning.obstacle(base, COMFORT, 0.0, reaching=True) is None
+    planning.carry((), None)
