@@ -1,4 +1,8 @@
-"""Text from outside, made fit to be written down."""
+"""Text from outside, made fit to be written down; text for others, who may have read enough."""
+
+import os
+import sys
+from collections.abc import Callable
 
 
 def writable(text: str) -> str:
@@ -8,3 +12,14 @@ def writable(text: str) -> str:
     halves that came one after the other become the character that they are.
     """
     return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
+
+
+def piped(main: Callable[[], int]) -> int:
+    """Run a command whose output may be piped; if the reader (`head`) leaves, end in silence."""
+    try:
+        status = main()
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1

@@ -10,6 +10,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from executive.errors import ExecutiveError, InputError
+from executive.text import piped
 from kb.facts import FactStore
 from kb.ontology import Ontology
 from sim.home import load_home
@@ -157,4 +158,4 @@ def parser() -> argparse.ArgumentParser:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(piped(main))

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from executive.errors import ExecutiveError, InputError
+from executive.text import piped
 from logs import comparison, gantt, pictures, report, viewer
 from logs.reader import FILE_NAME, Run
 from logs.recovery import damaged_at, recover
@@ -204,4 +205,4 @@ def _view(options: argparse.Namespace) -> Answer:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(piped(main))

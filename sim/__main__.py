@@ -16,6 +16,7 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from executive.errors import ExecutiveError, InputError
+from executive.text import piped
 from executive.types import Intrinsics, Pose
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
@@ -131,4 +132,4 @@ def _png(picture: Image.Image) -> bytes:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(piped(main))

@@ -10,6 +10,7 @@ from py_trees.display import unicode_tree
 
 from executive.errors import ExecutiveError, InputError
 from executive.situation import Situation
+from executive.text import piped
 from trees.drawing import svg
 from trees.mission import mission
 from trees.team import Rules, Team
@@ -72,4 +73,4 @@ def _write(file: Path, text: str) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(piped(main))
