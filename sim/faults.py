@@ -214,10 +214,7 @@ class Rated(Fault):
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
         """Read `0.3`."""
-        rate = _number(value)
-        if not 0 < rate <= 1:
-            raise ValueError("should be a probability: more than 0, at most 1")
-        return cls(rate, during=during)
+        return cls(_up_to_one(value, "a probability"), during=during)
 
 
 @dataclass(frozen=True, slots=True)
@@ -292,10 +289,7 @@ class Noise(Fault):
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
         """Read `0.02`."""
-        deviation = _number(value)
-        if not 0 < deviation <= 1:
-            raise ValueError("should be a standard deviation in metres: more than 0, at most 1")
-        return cls(deviation, during=during)
+        return cls(_up_to_one(value, "a standard deviation in metres"), during=during)
 
 
 @dataclass(frozen=True, slots=True)
@@ -371,6 +365,13 @@ def _number(text: str) -> float:
         number = math.nan
     if not math.isfinite(number):
         raise ValueError(f"{text!r} is no number")
+    return number
+
+
+def _up_to_one(value: str, what: str) -> float:
+    number = _number(value)
+    if not 0 < number <= 1:
+        raise ValueError(f"should be {what}: more than 0, at most 1")
     return number
 
 
