@@ -134,8 +134,8 @@ def test_of_a_tree_that_only_changed_its_statuses_only_the_colours_are_drawn_aga
         for chunk in RrdReader(path).stream()
         if str(chunk.entity_path) == "/behaviour_tree/whole"
     ]
-    assert len(drawn) == 2
-    assert drawn[0] > drawn[1] == {"GraphNodes:colors"}
+    again, first = sorted(drawn, key=len)
+    assert again == {"GraphNodes:colors"} < first
 
 
 def test_pictures_keep_their_times_though_they_are_sent_together(tmp_path: Path) -> None:
@@ -146,7 +146,7 @@ def test_pictures_keep_their_times_though_they_are_sent_together(tmp_path: Path)
         if "EncodedImage:blob" in chunk.to_record_batch().schema.names
         for time in chunk.to_record_batch().column("mission_time").to_pylist()
     ]
-    assert times == [0.1, 1.234, 2.0]
+    assert sorted(times) == [0.1, 1.234, 2.0]
 
 
 def test_every_behaviour_has_a_lane_from_when_it_first_does_something(recording: Path) -> None:
