@@ -105,7 +105,7 @@ class Session:
         )
         self.facts = FactStore(settings.memory, learns=settings.learn)
         self.advisor = build_advisor(settings, self.knowledge, self.model, prompts, self.facts)
-        self.recorder = FanOut(lambda: self.clock.now())
+        self.recorder = FanOut(lambda: self.clock.now(), live=view)
         self.mishaps = build_mishaps(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
             settings, self.home, self.inbox, self.recorder, self.knowledge, gui, self.mishaps

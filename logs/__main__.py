@@ -1,6 +1,7 @@
 """`python -m logs`: questions to recorded missions."""
 
 import argparse
+import gc
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -170,6 +171,7 @@ def _compare(options: argparse.Namespace) -> Answer:
 def _replay(options: argparse.Namespace) -> Answer:
     from executive.replay import Replay, replay, replay_text, replays_text
 
+    gc.freeze()  # what is imported stays; to look through it for garbage takes a tenth of a second
     answers = list(_each(options.runs, replay))
     replays = [answer for answer in answers if isinstance(answer, Replay)]
     unread = [answer for answer in answers if not isinstance(answer, Replay)]

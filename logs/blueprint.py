@@ -11,6 +11,7 @@ from executive.types import Vector3
 from logs import rerun_candidates as candidates
 from logs import rerun_scene as scene
 from logs import rerun_tree as tree
+from logs.rerun_times import MISSION_TIME
 
 BELIEF = "belief"
 LLM = "llm"
@@ -40,7 +41,7 @@ def mission_blueprint(entities: Iterable[Entity] = ()) -> rrb.Blueprint:
         ),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
-        rrb.TimePanel(timeline=scene.MISSION_TIME, state="collapsed"),
+        rrb.TimePanel(timeline=MISSION_TIME, state="collapsed"),
         auto_views=False,
         auto_layout=False,
     )
@@ -89,7 +90,7 @@ def _behaviours() -> rrb.Tabs:
 
 def _words() -> rrb.Vertical:
     columns = rrb.TextLogColumns(
-        timeline_columns=[scene.MISSION_TIME], text_log_columns=["loglevel", "body"]
+        timeline_columns=[MISSION_TIME], text_log_columns=["loglevel", "body"]
     )
     return rrb.Vertical(
         rrb.TextDocumentView(origin=BELIEF, name="Where it may be"),

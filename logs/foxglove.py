@@ -23,7 +23,7 @@ from foxglove_schemas_protobuf.Vector3_pb2 import Vector3 as Vector3Message
 from google.protobuf.timestamp_pb2 import Timestamp
 
 from executive.records import Entity, Note, Path, Seen, Shape, Transform
-from executive.types import Box, Color, Frame, Pose, Vector3
+from executive.types import Box, Color, Frame, Pose, Quaternion, Vector3
 from logs.images import jpeg
 
 CAMERA_FRAME = "camera_optical"
@@ -86,14 +86,15 @@ def image_annotations(seen: Seen, ns: int) -> ImageAnnotations:
 
 def frame_transforms(transforms: Iterable[Transform], ns: int) -> FrameTransforms:
     """Where frames are in their parents."""
+    time = timestamp(ns)
     message = FrameTransforms()
     for t in transforms:
         message.transforms.add(
-            timestamp=timestamp(ns),
+            timestamp=time,
             parent_frame_id=t.parent,
             child_frame_id=t.child,
             translation=_vector(t.pose.position),
-            rotation=_pose(t.pose).orientation,
+            rotation=_quaternion(t.pose.orientation),
         )
     return message
 
@@ -177,8 +178,10 @@ def _vector(vector: Vector3) -> Vector3Message:
     return Vector3Message(x=x, y=y, z=z)
 
 
+def _quaternion(quaternion: Quaternion) -> QuaternionMessage:
+    x, y, z, w = quaternion
+    return QuaternionMessage(x=x, y=y, z=z, w=w)
+
+
 def _pose(pose: Pose) -> PoseMessage:
-    x, y, z, w = pose.orientation
-    return PoseMessage(
-        position=_vector(pose.position), orientation=QuaternionMessage(x=x, y=y, z=z, w=w)
-    )
+    return PoseMessage(position=_vector(pose.position), orientation=_quaternion(pose.orientation))

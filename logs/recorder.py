@@ -20,8 +20,11 @@ PATIENCE_S = 0.5
 POLL_S = 0.005
 """How often it looks for room."""
 FLUSH_S = 0.5
-"""So long after a record all is flushed, also while nothing more happens; short enough that with
-the time that flushing takes, on a busy machine too, no more than a second is lost."""
+"""How long records gather before they are written and flushed together. A thread that is woken for
+each record costs the mission half as much again; and with the time that writing takes, on a busy
+machine too, no more than a second is lost."""
+LIVE_FLUSH_S = 0.1
+"""The same while someone watches."""
 CLOSE_S = 30.0
 """How long `close` waits for what is queued to be written."""
 
@@ -57,15 +60,16 @@ class FanOut:
     told. Records are not copied: whoever hands one over must not change it afterwards.
     """
 
-    def __init__(self, now: Callable[[], float]) -> None:
-        """Stamp with what `now` returns: the mission time (s)."""
+    def __init__(self, now: Callable[[], float], *, live: bool = False) -> None:
+        """Stamp with what `now` returns: the mission time (s); `live` if someone watches."""
         self._now = now
+        self._live = live
         self._writer: _Writer | None = None
 
     def open(self, sinks: Sequence[Sink], started: datetime) -> None:
         """Begin a mission that started at this wall time; a mission still open is closed first."""
         self.close()
-        self._writer = _Writer(sinks)
+        self._writer = _Writer(sinks, LIVE_FLUSH_S if self._live else FLUSH_S)
         self.record(Note("info", f"mission time 0 is {started.isoformat()}"))
 
     def record(self, record: Record) -> None:
@@ -81,11 +85,14 @@ class FanOut:
 
 
 class _Writer:
-    """The thread that feeds one mission's sinks."""
+    """The thread that feeds one mission's sinks: writes what is there, flushes, and rests."""
 
-    def __init__(self, sinks: Sequence[Sink]) -> None:
+    def __init__(self, sinks: Sequence[Sink], rest_s: float) -> None:
         self._sinks = list(sinks)
+        self._rest_s = rest_s
         self._queue: queue.SimpleQueue[tuple[Stamp, Record | None]] = queue.SimpleQueue()
+        self._hurry = threading.Event()
+        """Ends the rest."""
         self._lost = 0
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
@@ -103,6 +110,8 @@ class _Writer:
         self._queue.put((stamp, record))
 
     def _has_room(self, patience_s: float) -> bool:
+        if self._queue.qsize() >= CAPACITY // 2:
+            self._hurry.set()
         latest = time.monotonic() + patience_s
         while self._queue.qsize() >= CAPACITY:
             if time.monotonic() >= latest:
@@ -112,25 +121,23 @@ class _Writer:
 
     def close(self, stamp: Stamp) -> None:
         self._queue.put((stamp, None))
+        self._hurry.set()
         self._thread.join(CLOSE_S)
         if self._thread.is_alive():
             log.warning("the logs were not finished within %g s", CLOSE_S)
 
     def _run(self) -> None:
-        stamp = Stamp(0.0, 0)
-        flush_at: float | None = None
         while True:
-            left = None if flush_at is None else max(0.0, flush_at - time.monotonic())
-            with contextlib.suppress(queue.Empty):
-                stamp, record = self._queue.get(timeout=left)
+            batch = [self._queue.get()]
+            batch += [self._queue.get() for _ in range(self._queue.qsize())]
+            for stamp, record in batch:
                 if record is None:
-                    break
+                    self._finish(stamp)
+                    return
                 self._write(stamp, record)
-                flush_at = flush_at or time.monotonic() + FLUSH_S
-            if flush_at is not None and time.monotonic() >= flush_at:
-                self._each(stamp, lambda sink: sink.flush())
-                flush_at = None
-        self._finish(stamp)
+            self._each(stamp, lambda sink: sink.flush())
+            self._hurry.wait(self._rest_s)
+            self._hurry.clear()
 
     def _write(self, stamp: Stamp, record: Record) -> None:
         self._each(stamp, lambda sink: sink.write(stamp, record))

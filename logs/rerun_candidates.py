@@ -1,6 +1,7 @@
 """In rerun: a ball above each place where the thing may be, and one where it was seen."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,8 @@ COLORS = {
 }
 _RADIUS_M, _ABOVE_M = 0.16, 0.35
 _TARGET_RADIUS_M = 0.10
+_CORNERS = np.array(list(product((-0.5, 0.5), repeat=3)))
+"""Of a cube of edge 1."""
 
 
 class CandidatesView:
@@ -72,17 +75,12 @@ def _balls(middles: list[Vector3], drawn: Mapping[str, State]) -> rr.Points3D:
     )
 
 
-def _above(shapes: Iterable[Shape]) -> Vector3:
+def _above(shapes: Sequence[Shape]) -> Vector3:
     """A point over the middle of shapes that stand in `map`."""
-    corners = np.concatenate([_corners(shape) for shape in shapes])
+    turns = Rotation.from_quat([shape.pose.orientation for shape in shapes]).as_matrix()
+    boxes = _CORNERS * np.array([shape.size for shape in shapes])[:, np.newaxis]
+    middles = np.array([shape.pose.position for shape in shapes])[:, np.newaxis]
+    corners = (boxes @ turns.transpose(0, 2, 1) + middles).reshape(-1, 3)
     low, high = corners.min(axis=0), corners.max(axis=0)
     x, y, _ = ((low + high) / 2).tolist()
     return x, y, float(high[2]) + _ABOVE_M
-
-
-def _corners(shape: Shape) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """The corners (8, 3) of the box around a shape."""
-    signs = np.array(np.meshgrid((-0.5, 0.5), (-0.5, 0.5), (-0.5, 0.5))).reshape(3, -1).T
-    turned = Rotation.from_quat(shape.pose.orientation).apply(signs * shape.size)
-    corners: np.ndarray[tuple[int, int], np.dtype[np.float64]] = turned + shape.pose.position
-    return corners

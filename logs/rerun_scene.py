@@ -14,11 +14,8 @@ import rerun as rr
 from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Path, Seen, Shape, Transform
-from executive.types import Color, Frame, Intrinsics, Pose
-from logs.images import jpeg
-
-MISSION_TIME, WALL_TIME, TICK = "mission_time", "wall_time", "tick"
-"""The timelines."""
+from executive.types import Color, Intrinsics, Pose
+from logs.rerun_times import At, time_columns
 
 FRAMES = "frames"
 SCENE = "scene"
@@ -37,13 +34,11 @@ _FOUND = (60, 220, 90)
 _PLANNED = (30, 130, 255)
 
 
-class Moved(NamedTuple):
-    """Where a frame was at a mission time (s), wall time (ns since 1970) and tick."""
+class Taken(NamedTuple):
+    """A picture as JPEG, and where the camera was in `map`."""
 
-    mission_s: float
-    wall_ns: int
-    tick: int
-    transform: Transform
+    pose: Pose
+    jpeg: bytes
 
 
 def log_frames(stream: rr.RecordingStream) -> None:
@@ -54,8 +49,11 @@ def log_frames(stream: rr.RecordingStream) -> None:
     stream.log(PLAN, rr.CoordinateFrame("map"), static=True)
     stream.log(CAMERA, rr.CoordinateFrame(IMAGE_FRAME), static=True)
     stream.log(DETECTIONS, rr.CoordinateFrame(IMAGE_FRAME), static=True)
-    _log_camera_pose(stream, Pose())
-    _log_pinhole(stream, Intrinsics(1, 1, 1.0, 1.0, 0.5, 0.5), 1e-6)
+    stream.log(
+        CAMERA_POSE,
+        rr.Transform3D(translation=(0, 0, 0), parent_frame="map", child_frame=PICTURE_FRAME),
+    )
+    log_intrinsics(stream, Intrinsics(1, 1, 1.0, 1.0, 0.5, 0.5), 1e-6)
 
 
 def log_scene(stream: rr.RecordingStream, entities: Iterable[Entity]) -> None:
@@ -110,17 +108,12 @@ def _log_mesh(
     )
 
 
-def log_transforms(stream: rr.RecordingStream, moved: Sequence[Moved]) -> None:
-    """Log where frames are in their parents, all in one call."""
-    times = (
-        rr.TimeColumn(MISSION_TIME, duration=[m.mission_s for m in moved]),
-        rr.TimeColumn(WALL_TIME, timestamp=[m.wall_ns * 1e-9 for m in moved]),
-        rr.TimeColumn(TICK, sequence=[m.tick for m in moved]),
-    )
-    transforms = [m.transform for m in moved]
+def send_transforms(stream: rr.RecordingStream, moved: Sequence[At[Transform]]) -> None:
+    """Send where frames are in their parents, a row each."""
+    transforms = [at.value for at in moved]
     stream.send_columns(
         FRAMES,
-        times,
+        time_columns([at.moment for at in moved]),
         rr.Transform3D.columns(
             translation=[t.pose.position for t in transforms],
             quaternion=[t.pose.orientation for t in transforms],
@@ -136,27 +129,8 @@ def log_path(stream: rr.RecordingStream, path: Path) -> None:
     stream.log(PLAN, rr.LineStrips3D(strips, colors=_PLANNED, radii=0.02))
 
 
-def log_picture(stream: rr.RecordingStream, frame: Frame, before: Frame | None) -> None:
-    """Log a picture with the camera that took it; of the camera what differs from `before`."""
-    _log_camera_pose(stream, frame.pose)
-    if before is None or before.intrinsics != frame.intrinsics:
-        _log_pinhole(stream, frame.intrinsics, 0.6)
-    stream.log(CAMERA, rr.EncodedImage(contents=jpeg(frame), media_type="image/jpeg"))
-
-
-def _log_camera_pose(stream: rr.RecordingStream, pose: Pose) -> None:
-    stream.log(
-        CAMERA_POSE,
-        rr.Transform3D(
-            translation=pose.position,
-            quaternion=rr.Quaternion(xyzw=pose.orientation),
-            parent_frame="map",
-            child_frame=PICTURE_FRAME,
-        ),
-    )
-
-
-def _log_pinhole(stream: rr.RecordingStream, i: Intrinsics, reach_m: float) -> None:
+def log_intrinsics(stream: rr.RecordingStream, i: Intrinsics, reach_m: float = 0.6) -> None:
+    """Log a pinhole camera whose picture is drawn so far in front of it."""
     stream.log(
         CAMERA,
         rr.Pinhole(
@@ -169,6 +143,28 @@ def _log_pinhole(stream: rr.RecordingStream, i: Intrinsics, reach_m: float) -> N
             color=_CAMERA,
             line_width=reach_m / 100,
         ),
+    )
+
+
+def send_pictures(stream: rr.RecordingStream, taken: Sequence[At[Taken]]) -> None:
+    """Send pictures and where the camera was, a row each."""
+    times = time_columns([at.moment for at in taken])
+    pictures = [at.value for at in taken]
+    count = len(pictures)
+    stream.send_columns(
+        CAMERA_POSE,
+        times,
+        rr.Transform3D.columns(
+            translation=[p.pose.position for p in pictures],
+            quaternion=[p.pose.orientation for p in pictures],
+            parent_frame=["map"] * count,
+            child_frame=[PICTURE_FRAME] * count,
+        ),
+    )
+    stream.send_columns(
+        CAMERA,
+        times,
+        rr.EncodedImage.columns(blob=[p.jpeg for p in pictures], media_type=["image/jpeg"] * count),
     )
 
 

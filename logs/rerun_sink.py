@@ -16,24 +16,25 @@ from executive.records import (
     Scene,
     Seen,
     Tick,
+    Transform,
     Transforms,
     TreeShape,
     Utterance,
     Verified,
 )
-from executive.types import Frame
+from executive.types import Frame, Intrinsics
 from logs import blueprint, markdown, rerun_scene, viewer
 from logs.event_messages import in_words
+from logs.images import jpeg
 from logs.recorder import Stamp
 from logs.rerun_candidates import CandidatesView
+from logs.rerun_scene import Taken
+from logs.rerun_times import MISSION_TIME, TICK, At, Moment
 from logs.rerun_tree import TreeView
 
 APPLICATION = "robot-executive"
 FLUSH_S = 5.0
 """How long a flush may take."""
-
-MOST_KEPT = 10
-"""Records of moved frames that are sent together; with 60 a second the live view stays smooth."""
 
 _LEVELS = {"debug": "DEBUG", "info": "INFO", "warning": "WARN", "error": "ERROR"}
 _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
@@ -65,28 +66,25 @@ class RerunSink:
         if self._viewer is not None:
             sinks.append(rr.GrpcSink(self._viewer.address))
         self._stream.set_sinks(*sinks, default_blueprint=blueprint.mission_blueprint())
-        self._stream.set_time(rerun_scene.MISSION_TIME, duration=0.0)
-        self._stream.set_time(rerun_scene.TICK, sequence=0)
+        self._stream.set_time(MISSION_TIME, duration=0.0)
+        self._stream.set_time(TICK, sequence=0)
         rerun_scene.log_frames(self._stream)
         self._candidates = CandidatesView(self._stream)
-        self._moved: list[rerun_scene.Moved] = []
-        self._kept = 0
-        self._picture: Frame | None = None
+        self._moved: list[At[Transform]] = []
+        self._taken: list[At[Taken]] = []
+        self._intrinsics: Intrinsics | None = None
         self._detections_shown = False
         self._tick = 0
         self._tree: TreeView | None = None
         self._call: LlmCall | None = None
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Log a record where the blueprint looks for it."""
-        mission_s = round(stamp.mission_s, 3)
+        """Log a record where the blueprint looks for it; what comes often, with the next flush."""
+        moment = Moment(round(stamp.mission_s * 1e3) * 1_000_000, stamp.wall_ns, self._tick)
         if isinstance(record, Transforms):
-            self._keep(mission_s, stamp.wall_ns, record)
+            self._moved += [At(moment, transform) for transform in record.transforms]
             return
-        self._send_moved()
-        self._stream.set_time(rerun_scene.MISSION_TIME, duration=mission_s)
-        self._stream.set_time(rerun_scene.WALL_TIME, timestamp=stamp.wall_ns * 1e-9)
-        self._stream.set_time(rerun_scene.TICK, sequence=self._tick)
+        moment.set_on(self._stream)
         match record:
             case TreeShape():
                 self._tree = TreeView(self._stream, record)
@@ -106,7 +104,7 @@ class RerunSink:
             case EventTaken():
                 self._write_event(record)
             case Picture(frame):
-                self._write_picture(frame)
+                self._write_picture(moment, frame)
             case Seen():
                 rerun_scene.log_detections(self._stream, record)
                 self._detections_shown = True
@@ -121,7 +119,7 @@ class RerunSink:
 
     def flush(self) -> None:
         """Bring everything to the file and the viewer."""
-        self._send_moved()
+        self._send_kept()
         try:
             self._stream.flush(timeout_sec=FLUSH_S)
         except RuntimeError:
@@ -131,20 +129,22 @@ class RerunSink:
 
     def close(self) -> None:
         """Write the footer and close the file."""
-        self._send_moved()
+        self._send_kept()
         self._stream.disconnect()
 
     def _write_tick(self, tick: Tick) -> None:
         self._tick = tick.number
-        self._stream.set_time(rerun_scene.TICK, sequence=tick.number)
+        self._stream.set_time(TICK, sequence=tick.number)
         if self._tree is not None:
             self._tree.show(tick)
         self._candidates.show(tick.situation)
         self._stream.log(blueprint.BELIEF, _document(markdown.belief(tick.situation)))
 
-    def _write_picture(self, frame: Frame) -> None:
-        rerun_scene.log_picture(self._stream, frame, self._picture)
-        self._picture = frame
+    def _write_picture(self, moment: Moment, frame: Frame) -> None:
+        if frame.intrinsics != self._intrinsics:
+            self._intrinsics = frame.intrinsics
+            rerun_scene.log_intrinsics(self._stream, frame.intrinsics)
+        self._taken.append(At(moment, Taken(frame.pose, jpeg(frame))))
         if self._detections_shown:
             rerun_scene.clear_detections(self._stream)
             self._detections_shown = False
@@ -163,18 +163,13 @@ class RerunSink:
         text = in_words(taken.event)
         self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
 
-    def _keep(self, mission_s: float, wall_ns: int, record: Transforms) -> None:
-        """Keep what moved until there is more to send: a call of rerun takes a millisecond."""
-        at = mission_s, wall_ns, self._tick
-        self._moved += [rerun_scene.Moved(*at, transform) for transform in record.transforms]
-        self._kept += 1
-        if self._kept >= MOST_KEPT:
-            self._send_moved()
-
-    def _send_moved(self) -> None:
+    def _send_kept(self) -> None:
+        """Send frames and pictures together: many rows cost rerun hardly more than one."""
         if self._moved:
-            rerun_scene.log_transforms(self._stream, self._moved)
-        self._moved, self._kept = [], 0
+            rerun_scene.send_transforms(self._stream, self._moved)
+        if self._taken:
+            rerun_scene.send_pictures(self._stream, self._taken)
+        self._moved, self._taken = [], []
 
 
 def _document(markdown_text: str) -> rr.TextDocument:

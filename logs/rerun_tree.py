@@ -1,6 +1,7 @@
 """The behaviour tree in rerun: a graph of the branch at work, and lanes of what ran when."""
 
 from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 import rerun as rr
@@ -44,7 +45,10 @@ class TreeView:
         self._lanes = {node.path: _lane(LANES, i, node) for i, node in enumerate(stages, start=1)}
         """The parts of the mission: the second level below the root."""
         self._every = {node.path: _lane(EVERY, i, node) for i, node in enumerate(tree.nodes)}
-        self._shown: dict[str, object] = {}
+        self._shown: dict[str, str] = {}
+        """What each lane says."""
+        self._graphs: dict[str, tuple[Sequence[NodeShape], list[int]]] = {}
+        """The nodes of each graph, and their colours."""
 
     def show(self, tick: Tick) -> None:
         """Log what changed with this tick."""
@@ -61,21 +65,26 @@ class TreeView:
     def _graph(
         self, path: str, nodes: Sequence[NodeShape], statuses: dict[str, str], layout: Layout
     ) -> None:
-        state = [(node.path, statuses[node.path]) for node in nodes]
-        if self._shown.get(path) == state:
+        colors = [COLORS[statuses[node.path]] for node in nodes]
+        before, self._graphs[path] = self._graphs.get(path), (nodes, colors)
+        if self._graphs[path] == before:
             return
-        self._shown[path] = state
+        colored = np.array(colors, np.uint32)
+        if before and before[0] == nodes:
+            self._stream.log(path, rr.GraphNodes.from_fields(colors=colored))
+            return
         labels = [f"{_SIGNS.get(node.kind, '')} {node.name}".strip() for node in nodes]
+        edges = [(node.parent, node.path) for node in nodes if node.parent]
         self._stream.log(
             path,
             rr.GraphNodes(
                 [node.path for node in nodes],
-                positions=layout(nodes, labels),
-                colors=np.array([COLORS[status] for _, status in state], np.uint32),
+                positions=np.array(layout(nodes, labels)),
+                colors=colored,
                 labels=labels,
                 show_labels=True,
             ),
-            rr.GraphEdges([(node.parent, node.path) for node in nodes if node.parent]),
+            rr.GraphEdges(np.array(edges).reshape(-1, 2)),
         )
 
     def _status(self, path: str, status: str) -> None:
@@ -89,7 +98,13 @@ class TreeView:
     def _lane(self, path: str, state: str) -> None:
         if state and self._shown.get(path) != state:
             self._shown[path] = state
-            self._stream.log(path, rr.StateChange(state=state))
+            self._stream.log(path, _change(state))
+
+
+@cache
+def _change(state: str) -> rr.StateChange:
+    """A few states change often."""
+    return rr.StateChange(state=state)
 
 
 def _lane(folder: str, number: int, node: NodeShape) -> str:

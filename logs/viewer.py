@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.errors import ExecutiveError
-from logs.rerun_scene import MISSION_TIME
+from logs.rerun_times import MISSION_TIME
 
 COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
 START_S = 20.0

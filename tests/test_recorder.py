@@ -120,6 +120,20 @@ def test_what_was_written_is_flushed_even_if_nothing_more_happens(
     fan_out.close()
 
 
+def test_records_that_come_fast_are_written_before_the_rest_is_over(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(recorder, "FLUSH_S", 60.0)
+    monkeypatch.setattr(recorder, "CAPACITY", 10)
+    sink = ListSink()
+    fan_out = FanOut(lambda: 0.0)
+    fan_out.open([sink], STARTED)
+    for number in range(100):
+        fan_out.record(Note("info", str(number)))
+    fan_out.close()
+    assert sink.texts[1:] == [str(number) for number in range(100)]
+
+
 def test_a_sink_that_hangs_delays_the_mission_once_and_costs_records_that_are_counted(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:

@@ -122,6 +122,33 @@ def test_a_tree_that_did_not_change_is_not_drawn_again(tmp_path: Path) -> None:
     assert rows(path)["/behaviour_tree/branch"] == 1
 
 
+def test_of_a_tree_that_only_changed_its_statuses_only_the_colours_are_drawn_again(
+    tmp_path: Path,
+) -> None:
+    tree, *_ = (record for _, record in mission())
+    statuses = (["RUNNING"] * 3 + ["INVALID"] * 2, ["RUNNING"] * 5)
+    ticks = [tick(n, "mission/which places/ask", *each) for n, each in enumerate(statuses)]
+    path = write(tmp_path / "a.rrd", (0.0, tree), *((1.0, t) for t in ticks))
+    drawn = [
+        {name for name in chunk.to_record_batch().schema.names if name.startswith("Graph")}
+        for chunk in RrdReader(path).stream()
+        if str(chunk.entity_path) == "/behaviour_tree/whole"
+    ]
+    again, first = sorted(drawn, key=len)
+    assert again == {"GraphNodes:colors"} < first
+
+
+def test_pictures_keep_their_times_though_they_are_sent_together(tmp_path: Path) -> None:
+    taken = ((time, Picture(frame(number))) for number, time in enumerate((0.1, 1.2345, 2.0)))
+    times = [
+        time.total_seconds()
+        for chunk in RrdReader(write(tmp_path / "a.rrd", *taken)).stream()
+        if "EncodedImage:blob" in chunk.to_record_batch().schema.names
+        for time in chunk.to_record_batch().column("mission_time").to_pylist()
+    ]
+    assert sorted(times) == [0.1, 1.234, 2.0]
+
+
 def test_every_behaviour_has_a_lane_from_when_it_first_does_something(recording: Path) -> None:
     logged = rows(recording)
     assert logged["/behaviours/2_ask"] == 1 + 2  # its colours, running, success

@@ -22,8 +22,8 @@ from logs import viewer
 from logs.__main__ import main
 from logs.mcap_sink import McapSink
 from logs.recorder import Stamp
-from logs.rerun_scene import MISSION_TIME
 from logs.rerun_sink import RerunSink
+from logs.rerun_times import MISSION_TIME
 
 pytestmark = [
     pytest.mark.viewer,
