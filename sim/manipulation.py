@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
+from sim.client import GRAVITY_M_S2
 from sim.clutter import over
 from sim.driving import CREEPING, drive
 from sim.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, varied
@@ -43,6 +44,9 @@ RISES_M = (0.10, 0.05, 0.02)
 """How far the hand goes up before the robot backs off, in order of preference."""
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 """How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
+TWIST_M = 0.004
+"""And firmly for what is taken far from its middle of mass: two pads that press with a force resist
+a torque of twice the force times this."""
 FEWEST_POINTS = 30
 _GOOD = 0.06
 """Grasps that cost more are tried only if no better one can be reached."""
@@ -216,7 +220,7 @@ class Manipulator:
         hardware.open_fingers(grasp.gap)
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
-        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg)
+        hardware.squeeze(_grip_force(model, pose, reach.hand))
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
         if not self.hand.holding:
@@ -270,10 +274,10 @@ class Manipulator:
     def _release(self, approach: Approach, gap: float) -> Skill:
         hardware = self._hardware
         reach = self._reach(approach, "I cannot reach a free spot")
-        yield from follow(hardware, reach.path)
+        yield from self.hand.keep(follow(hardware, reach.path))
         weight = yield from self.hand.weigh()
         set_down = partial(self.hand.meets, weight)
-        yield from follow(hardware, reach.last, SLOW, set_down)
+        yield from self.hand.keep(follow(hardware, reach.last, SLOW, set_down))
         hardware.open_fingers(gap)
         self.hand.take(None)
         yield from wait_until(lambda: not self.hand.holding, _CLOSING_S)
@@ -308,6 +312,13 @@ class Manipulator:
             name == model.name and (rotation.inv() * grasp.hand.rotation).magnitude() < _ALIKE
             for name, rotation in self._missed
         )
+
+
+def _grip_force(model: ObjectModel, pose: Pose, hand: HandPose) -> float:
+    """How hard each finger shall press (newtons) on a thing at `pose` in `map`, taken at `hand`."""
+    middle = Rotation.from_quat(pose.orientation).apply(model.center_of_mass) + pose.position
+    torque = model.mass_kg * GRAVITY_M_S2 * float(np.linalg.norm((middle - hand.position)[:2]))
+    return LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg + torque / (2 * TWIST_M)
 
 
 def _surface(model: ObjectModel, pose: Pose) -> Floats:
