@@ -42,6 +42,8 @@ APPROACH_M = (0.12, 0.05, 0.025)
 """Lengths of the last straight part of a reach, in order of preference."""
 RISES_M = (0.10, 0.05, 0.02)
 """How far the hand goes up before the robot backs off, in order of preference."""
+_RETREATS = 2
+"""How often the robot backs off to fold its arm."""
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 """How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
 TWIST_M = 0.004
@@ -145,7 +147,11 @@ class Manipulator:
         yield from self._check_stands(held.model, target, piece)
 
     def stow(self) -> Skill:
-        """Bring the arm back over the base: rise, back off, fold."""
+        """Bring the arm back over the base: rise, back off, fold.
+
+        Raises:
+            CannotError: if the arm would touch something; it stays out.
+        """
         if self._is_folded:
             return
         hardware, arm = self._hardware, self._hardware.arm_positions
@@ -156,12 +162,15 @@ class Manipulator:
             if up and self._planning.is_last_part_free(base, up[1:]):
                 yield from follow(hardware, up[1:], SLOW)
                 break
-        yield from self._creep([plan_retreat(self._planning, base)])
-        arm = hardware.arm_positions
-        folded = FOLDED.copy()
-        folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
-        path = any_path(self._planning, hardware.base_pose, arm, folded)
-        yield from follow(hardware, path or [folded])
+        for _ in range(_RETREATS):
+            yield from self._creep([plan_retreat(self._planning, hardware.base_pose)])
+            arm, folded = hardware.arm_positions, FOLDED.copy()
+            folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
+            path = any_path(self._planning, hardware.base_pose, arm, folded)
+            if path is not None:
+                yield from follow(hardware, path)
+                return
+        raise CannotError("I cannot fold my arm without touching anything")
 
     # --- steps of a pick ---
 
@@ -287,7 +296,9 @@ class Manipulator:
     def _check_stands(self, model: ObjectModel, spot: Pose, piece: Furniture) -> Skill:
         """Look whether what was put down stands where it was put."""
         yield from look_at(self._hardware, spot.position)
-        fault = stands(model, spot, over(piece, self._around.scan()))
+        height = spot.position[2]
+        board = min(piece.surfaces(), key=lambda surface: abs(surface.center[2] - height))
+        fault = stands(model, spot, over(piece, self._around.scan()), board.clearance)
         if fault:
             raise LostError(f"the {model.name} {fault} on the {piece.name}")
 
