@@ -13,20 +13,21 @@ from typing import Any
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.errors import ExecutiveError, InputError
 from executive.events import Inbox, StopRequested
+from executive.shell import BAD_INPUT, DONE, NOT_DONE, STOPPED, entry_point
 from executive.text import writable
 from executive.types import Outcome, Status
 
 EXIT = {
-    Status.DONE: 0,
-    Status.NOT_DONE: 1,
-    Status.NOT_UNDERSTOOD: 2,
-    Status.STOPPED: 130,
+    Status.DONE: DONE,
+    Status.NOT_DONE: NOT_DONE,
+    Status.NOT_UNDERSTOOD: BAD_INPUT,
+    Status.STOPPED: STOPPED,
 }
-NOT_DONE, BAD_INPUT, STOPPED = 1, 2, 130
 
 log = logging.getLogger(__name__)
 
 
+@entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a mission, or one for each line that the person types; return the exit code."""
     options = vars(parser().parse_args(arguments))
@@ -44,11 +45,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if words is None and settings.user != "console":
             raise InputError("command", "no words", 'say for example "Bring a sugar_box"')
         return serve(settings, words, inbox, view=view, gui=gui, as_json=as_json)
-    except ExecutiveError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return BAD_INPUT
-    except KeyboardInterrupt:
-        return STOPPED
+    except (ExecutiveError, BrokenPipeError):
+        raise
     except Exception as error:
         log.debug("internal error", exc_info=error)
         print(f"internal error: {type(error).__name__}: {error} (-vv says where)", file=sys.stderr)
@@ -65,7 +63,7 @@ def serve(
     try:
         if words is not None:
             return conclude(session.run(writable(words)), as_json)
-        code = 0
+        code = DONE
         print("What can I do for you? (stop ends)", file=sys.stderr)
         while (line := session.next_command()) is not None:
             code = conclude(session.run(line), as_json)

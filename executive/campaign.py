@@ -17,24 +17,21 @@ from executive import households, paper
 from executive.app import PACKAGES
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.engines import Engine, Here, Pool
-from executive.errors import ExecutiveError, InputError
+from executive.errors import InputError
 from executive.experiment import write_report
 from executive.journal import CRASHED, Entry, Journal, in_order, write_tables
 from executive.policies import POLICIES
+from executive.shell import DONE, STOPPED, entry_point
 
 OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
 """Settings that the campaign itself varies."""
-BAD_INPUT, STOPPED = 2, 130
 SHOWN_EVERY_S = 0.5
 
 
+@entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is left of a campaign, write its tables, return the exit code."""
-    try:
-        return Campaign(parser().parse_args(arguments)).run()
-    except ExecutiveError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return BAD_INPUT
+    return Campaign(parser().parse_args(arguments)).run()
 
 
 class Campaign:
@@ -79,7 +76,7 @@ class Campaign:
             signal.signal(signal.SIGINT, before)
             self._write()
         print(f"\n{self._out / 'report.md'}\n{self._out / 'report.html'}", file=sys.stderr)
-        return 0
+        return DONE
 
     def _engine_for(self, options: argparse.Namespace) -> Engine:
         if options.cluster:

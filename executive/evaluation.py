@@ -21,10 +21,11 @@ import cv2
 import numpy as np
 
 from executive.detector import LEARNED, LEAST_CONFIDENCE, Found, OnnxDetector
-from executive.errors import ExecutiveError, InputError
+from executive.errors import InputError
 from executive.metrics import ClassReport, Ints, Judged, by_class, confusion, match
 from executive.perception import locate
 from executive.segmentation import segment
+from executive.shell import DONE, entry_point
 from executive.types import Box, Detection, Frame
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.scenes import Scene, SceneMaker
@@ -203,8 +204,9 @@ def draw_confusion(table: Ints, names: Sequence[str]) -> str:
     return "\n".join([*parts, "</svg>"]) + "\n"
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; returns its exit status."""
+@entry_point
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Judge a detector."""
     parser = argparse.ArgumentParser(prog="python -m executive.evaluation", description=__doc__)
     parser.add_argument("--detector", default="learned", help="learned, or a FILE.onnx")
     parser.add_argument("--scenes", type=int, default=500)
@@ -213,25 +215,19 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--picture", type=Path, metavar="FILE.svg", help="draw confusions")
     options = parser.parse_args(arguments)
     path = LEARNED if options.detector == "learned" else Path(options.detector)
-    try:
-        milliseconds = time_of_one(OnnxDetector(path, lambda name: (name,)))
-        first = VALIDATION_SEED if options.validation else EVALUATION_SEED
-        seeds, judgements = range(first, first + options.scenes), []
-        for judgement in judge_all(path, seeds, options.workers):
-            judgements.append(judgement)
-            print(f"\r{len(judgements)} of {options.scenes} scenes", end="", file=sys.stderr)
-        print(file=sys.stderr)
-        print(report(judgements, milliseconds, path.name), end="")
-        if options.picture:
-            pictures = [one.picture for one in judgements]
-            table = confusion(pictures, len(class_names()), LEAST_CONFIDENCE)
-            _write(options.picture, draw_confusion(table, class_names()))
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        return 130
-    return 0
+    milliseconds = time_of_one(OnnxDetector(path, lambda name: (name,)))
+    first = VALIDATION_SEED if options.validation else EVALUATION_SEED
+    seeds, judgements = range(first, first + options.scenes), []
+    for judgement in judge_all(path, seeds, options.workers):
+        judgements.append(judgement)
+        print(f"\r{len(judgements)} of {options.scenes} scenes", end="", file=sys.stderr)
+    print(file=sys.stderr)
+    print(report(judgements, milliseconds, path.name), end="")
+    if options.picture:
+        pictures = [one.picture for one in judgements]
+        table = confusion(pictures, len(class_names()), LEAST_CONFIDENCE)
+        _write(options.picture, draw_confusion(table, class_names()))
+    return DONE
 
 
 def _write(path: Path, text: str) -> None:

@@ -1,8 +1,4 @@
-"""Text from outside, made fit to be written down; text for others, who may have read enough."""
-
-import os
-import sys
-from collections.abc import Callable
+"""Text from outside, made fit to be written down."""
 
 
 def writable(text: str) -> str:
@@ -12,14 +8,3 @@ def writable(text: str) -> str:
     halves that came one after the other become the character that they are.
     """
     return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
-
-
-def piped(main: Callable[[], int]) -> int:
-    """Run a command whose output may be piped; if the reader (`head`) leaves, end in silence."""
-    try:
-        status = main()
-        sys.stdout.flush()
-        return status
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1

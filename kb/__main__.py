@@ -9,8 +9,8 @@ from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 
-from executive.errors import ExecutiveError, InputError
-from executive.text import piped
+from executive.errors import InputError
+from executive.shell import DONE, NOT_DONE, entry_point
 from kb.facts import FactStore
 from kb.ontology import Ontology
 from sim.home import load_home
@@ -22,7 +22,7 @@ def show(ontology: Ontology, words: str) -> int:
     if not names:
         nearest = " or ".join(ontology.nearest_names(words)) or ", ".join(ontology.objects())
         print(f"nothing is called {words!r}: did you mean {nearest}?", file=sys.stderr)
-        return 1
+        return NOT_DONE
     for name in names:
         print(name)
         for title, known in (
@@ -32,7 +32,7 @@ def show(ontology: Ontology, words: str) -> int:
             ("preferred by", ontology.preferred_by(name)),
         ):
             print(f"  {title:12} {', '.join(known) or '-'}")
-    return 0
+    return DONE
 
 
 def check(ontology: Ontology) -> int:
@@ -64,12 +64,12 @@ def facts(file: Path, as_json: bool) -> int:
         known = memory.all()
     if as_json:
         print(json.dumps([asdict(fact) for fact in known]))
-        return 0
+        return DONE
     now = time.time()
     for fact in known:
         print(f"{fact.object:20} {fact.kind:6} {fact.place:20} {age(now - fact.time_s)} ago")
     print(f"{len(known)} facts", file=sys.stderr)
-    return 0
+    return DONE
 
 
 def forget(file: Path, words: str) -> int:
@@ -77,7 +77,7 @@ def forget(file: Path, words: str) -> int:
     names = Ontology().objects_named(words) or (words,) if words else (None,)
     with closing(_memory(file)) as memory:
         print(f"{sum(memory.forget(name) for name in names)} facts forgotten", file=sys.stderr)
-    return 0
+    return DONE
 
 
 def age(seconds: float) -> str:
@@ -100,24 +100,21 @@ def _memory(file: Path) -> FactStore:
     return FactStore(file)
 
 
-def main(arguments: list[str] | None = None) -> int:
+@entry_point
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; 0: well, 1: nothing found, or faults found, 2: bad input."""
     given = parser().parse_args(arguments)
-    try:
-        match given.command:
-            case "show":
-                return show(_ontology(given), " ".join(given.words))
-            case "check":
-                return check(_ontology(given, given.files))
-            case "query":
-                return query(_ontology(given), given.sparql, given.json)
-            case "facts":
-                return facts(given.memory, given.json)
-            case _:
-                return forget(given.memory, " ".join(given.words))
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
+    match given.command:
+        case "show":
+            return show(_ontology(given), " ".join(given.words))
+        case "check":
+            return check(_ontology(given, given.files))
+        case "query":
+            return query(_ontology(given), given.sparql, given.json)
+        case "facts":
+            return facts(given.memory, given.json)
+        case _:
+            return forget(given.memory, " ".join(given.words))
 
 
 def parser() -> argparse.ArgumentParser:
@@ -158,4 +155,4 @@ def parser() -> argparse.ArgumentParser:
 
 
 if __name__ == "__main__":
-    sys.exit(piped(main))
+    sys.exit(main())

@@ -15,9 +15,10 @@ from statistics import fmean
 
 import numpy as np
 
-from executive.errors import ExecutiveError, InputError
+from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import LanguageModel
+from executive.shell import DONE, entry_point
 from kb.llama import LlamaCpp, embedded_model
 from kb.measures import Measures, expected_of_chance, mean, measure
 from kb.names import words_of
@@ -115,17 +116,11 @@ def text(data: DataSet, rows: Sequence[Row]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the benchmark; 0: well, 2: bad input, 130: stopped."""
-    given = parser().parse_args(arguments)
-    try:
-        run(given)
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        return 130
-    return 0
+@entry_point
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the benchmark."""
+    run(parser().parse_args(arguments))
+    return DONE
 
 
 def run(given: argparse.Namespace) -> None:

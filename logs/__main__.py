@@ -8,8 +8,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from executive.errors import ExecutiveError, InputError
-from executive.text import piped
+from executive.errors import InputError
+from executive.shell import entry_point
 from logs import comparison, gantt, pictures, report, viewer
 from logs.reader import FILE_NAME, Run
 from logs.recovery import damaged_at, recover
@@ -26,15 +26,12 @@ class Answer(NamedTuple):
     status: int = 0
 
 
-def main(arguments: list[str] | None = None) -> int:
+@entry_point
+def main(arguments: Sequence[str] | None = None) -> int:
     """Answer one question; return the exit status (2: bad input)."""
     options = _parser().parse_args(arguments)
     ask: Callable[[argparse.Namespace], Answer] = options.ask
-    try:
-        answer = ask(options)
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
+    answer = ask(options)
     print(json.dumps(answer.data, default=str) if options.json else answer.text)
     return answer.status
 
@@ -205,4 +202,4 @@ def _view(options: argparse.Namespace) -> Answer:
 
 
 if __name__ == "__main__":
-    sys.exit(piped(main))
+    sys.exit(main())

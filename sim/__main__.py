@@ -7,7 +7,7 @@ import argparse
 import io
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
-from executive.errors import ExecutiveError, InputError
-from executive.text import piped
+from executive.errors import InputError
+from executive.shell import DONE, entry_point
 from executive.types import Intrinsics, Pose
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
@@ -36,7 +36,8 @@ MARGIN = 1.08
 """How much more than the home the picture shows."""
 
 
-def main(arguments: list[str] | None = None) -> int:
+@entry_point
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit status (0 done, 1 the home has faults, 2 bad input)."""
     parser = argparse.ArgumentParser(prog="python -m sim", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
@@ -58,11 +59,7 @@ def main(arguments: list[str] | None = None) -> int:
     generate.add_argument("--out", type=Path, help="FILE.toml; default: print it")
     generate.set_defaults(run=_generate)
     options = parser.parse_args(arguments)
-    try:
-        return int(options.run(options))
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
+    return int(options.run(options))
 
 
 def _view(options: argparse.Namespace) -> int:
@@ -71,11 +68,11 @@ def _view(options: argparse.Namespace) -> int:
         models = with_scans(models, options.ycb)
     if options.home == "objects":
         _write(options.out or Path("objects.png"), _png(contact_sheet(models.values())))
-        return 0
+        return DONE
     home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
     _write(out, _png(Image.fromarray(draw(home, models))))
-    return 0
+    return DONE
 
 
 def _check(options: argparse.Namespace) -> int:
@@ -93,7 +90,7 @@ def _generate(options: argparse.Namespace) -> int:
         print(text, end="")
     else:
         _write(options.out, text.encode())
-    return 0
+    return DONE
 
 
 def _write(path: Path, content: bytes) -> None:
@@ -132,4 +129,4 @@ def _png(picture: Image.Image) -> bytes:
 
 
 if __name__ == "__main__":
-    sys.exit(piped(main))
+    sys.exit(main())

@@ -2,15 +2,16 @@
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from py_trees.behaviour import Behaviour
 from py_trees.display import unicode_tree
 
-from executive.errors import ExecutiveError, InputError
+from executive.errors import InputError
+from executive.shell import DONE, entry_point
 from executive.situation import Situation
-from executive.text import piped
 from trees.drawing import svg
 from trees.mission import mission
 from trees.team import Rules, Team
@@ -18,7 +19,8 @@ from trees.team import Rules, Team
 KNOWLEDGE = ("okb", "okb+llm", "okb+llm+mem")
 
 
-def main(arguments: list[str] | None = None) -> int:
+@entry_point
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; return the exit status (0 done, 2 bad input)."""
     parser = argparse.ArgumentParser(prog="python -m trees", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
@@ -33,13 +35,9 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     tree = build(options.knowledge, options.elicit)
     print(unicode_tree(tree), end="")
-    try:
-        if options.svg:
-            _write(options.svg, svg(tree))
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+    if options.svg:
+        _write(options.svg, svg(tree))
+    return DONE
 
 
 def build(knowledge: str, elicit: str) -> Behaviour:
@@ -73,4 +71,4 @@ def _write(file: Path, text: str) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(piped(main))
+    sys.exit(main())

@@ -3,14 +3,17 @@
 import argparse
 import os
 import sys
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
-from executive.errors import ExecutiveError, InputError
+from executive.errors import InputError
+from executive.shell import DONE, entry_point
 from sim.learning.frames import SHARD, make_shards
 
 
-def main(arguments: list[str] | None = None) -> int:
+@entry_point
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit status (0 done, 2 bad input, 130 stopped)."""
     parser = argparse.ArgumentParser(prog="python -m sim.learning", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
@@ -35,13 +38,10 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     try:
         options.run(options)
-    except ExecutiveError as error:
-        print(error, file=sys.stderr)
-        return 2
     except KeyboardInterrupt:
         print("\nstopped; the same command goes on from here", file=sys.stderr)
-        return 130
-    return 0
+        raise
+    return DONE
 
 
 def _frames(options: argparse.Namespace) -> None:
