@@ -33,10 +33,12 @@ def home_before(place: str) -> Home:
 class Kitchen(Bench):
     """The robot before a piece of furniture: the counter wagon, where the sugar_box is."""
 
-    def __init__(self, home: Home | None = None, place: str = "counter_wagon") -> None:
+    def __init__(
+        self, home: Home | None = None, place: str = "counter_wagon", seed: int = 1
+    ) -> None:
         inbox = Inbox()
         self.world = PhysicsWorld(
-            home or home_before(place), MODELS, inbox, Notebook(), seed=1, camera_hz=0.0
+            home or home_before(place), MODELS, inbox, Notebook(), seed=seed, camera_hz=0.0
         )
         super().__init__(self.world.robot, inbox, self.world.advance, place)
 
@@ -125,6 +127,15 @@ def test_what_was_turned_or_passed_an_edge_in_the_hand_is_put_down(name: str, pl
     bench.world.close()
 
 
+def test_what_is_taken_off_its_middle_does_not_turn_in_the_fingers() -> None:
+    home = home_before("refrigerator").with_placement({"scissors": "refrigerator"})
+    bench = Kitchen(home, "refrigerator", seed=2)
+    assert bench.do(DriveTo("refrigerator")) == Succeeded()
+    assert bench.do(Pick(bench.detection_of("scissors"))) == Succeeded()
+    assert turned_in_hand(bench.world, "scissors") < np.radians(5.0)
+    bench.world.close()
+
+
 def test_what_is_knocked_out_of_the_hand_while_it_is_put_down_is_missed(kitchen: Kitchen) -> None:
     assert kitchen.do(Pick(kitchen.detection_of("sugar_box"))) == Succeeded()
     body, client = kitchen.world._body("sugar_box"), kitchen.world._client
@@ -147,6 +158,16 @@ def test_an_arm_that_cannot_be_folded_without_a_touch_stays_out(kitchen: Kitchen
     result = kitchen.do(DriveTo("desk"))
     assert result == Failed("I cannot fold my arm without touching anything")
     assert np.abs(hardware.arm_positions - COMFORT).max() < 0.1
+
+
+def turned_in_hand(world: PhysicsWorld, name: str) -> float:
+    """How far a thing is turned from how the robot believes it to be in the hand (radians)."""
+    manipulator = world.robot._manipulator
+    hardware, held = manipulator._hardware, manipulator.hand.held
+    assert held
+    hand = manipulator._planning.hand(hardware.base_pose, hardware.arm_positions)
+    truly = Rotation.from_quat(world.truth(name).orientation)
+    return float((hand.rotation * held.rotation * truly.inv()).magnitude())
 
 
 def off_in_hand(world: PhysicsWorld, name: str) -> float:
