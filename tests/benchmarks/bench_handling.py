@@ -141,11 +141,12 @@ def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--seeds", type=int, default=5)
     arguments.add_argument("--journal", type=Path, default=Path("bench_handling.jsonl"))
-    arguments.add_argument("--minutes", type=float, help="begin no more trials after so long")
+    arguments.add_argument("--minutes", type=float, help="stop after so long")
+    arguments.add_argument("--workers", type=int, default=1)
     options = arguments.parse_args()
     every = list(trials(options.seeds))
     limit_s = None if options.minutes is None else options.minutes * 60
-    rows = measure(every, handle, options.journal, limit_s)
+    rows = measure(every, handle, options.journal, limit_s, options.workers)
     held = [row for row in rows if not row["held"]]
     placed = [row for row in held if not row["placed"]]
     first = sum(row["tries"] == 1 for row in held)

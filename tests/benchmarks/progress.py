@@ -4,9 +4,12 @@ Beside the line a word on standard error says how many are done and how long the
 """
 
 import json
+import signal
 import sys
 import time
 from collections.abc import Callable, Iterable
+from functools import partial
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -14,36 +17,52 @@ Row = dict[str, Any]
 
 
 def measure(
-    trials: Iterable[Row], run: Callable[[Row], Row], journal: Path, limit_s: float | None = None
+    trials: Iterable[Row],
+    run: Callable[[Row], Row],
+    journal: Path,
+    limit_s: float | None = None,
+    workers: int = 1,
 ) -> list[Row]:
     """Run what the journal does not have yet; return all of these trials that it has.
 
     Args:
         trials: what to try; each row is a trial's name.
-        run: tries one; returns what came of it.
+        run: tries one; returns what came of it. A function of a module: workers import it.
         journal: a file of JSON lines, made if it is not there.
-        limit_s: begin no more trials after so long (seconds of wall time).
+        limit_s: stop after so long (seconds of wall time).
+        workers: processes to run them in.
     """
     wanted = [json.dumps(trial) for trial in trials]
     done = _read(journal)
     left = [trial for trial in wanted if trial not in done]
     began = time.monotonic()
     try:
-        for number, trial in enumerate(left, start=1):
-            if limit_s is not None and time.monotonic() - began > limit_s:
-                break
-            done[trial] = run(json.loads(trial))
-            with journal.open("a") as file:
-                file.write(json.dumps([json.loads(trial), done[trial]]) + "\n")
-            left_s = (time.monotonic() - began) / number * (len(left) - number)
-            count = len(wanted) - len(left) + number
-            print(
-                f"\r{count} of {len(wanted)}, {left_s / 60:.0f} min left ", end="", file=sys.stderr
-            )
+        with get_context("spawn").Pool(workers, _leave_stopping_to_the_parent) as pool:
+            ended = pool.imap_unordered(partial(_try, run), left)
+            for number, (trial, result) in enumerate(ended, start=1):
+                done[trial] = result
+                with journal.open("a") as file:
+                    file.write(json.dumps([json.loads(trial), result]) + "\n")
+                left_s = (time.monotonic() - began) / number * (len(left) - number)
+                _tell(len(wanted) - len(left) + number, len(wanted), left_s)
+                if limit_s is not None and time.monotonic() - began > limit_s:
+                    break
     except KeyboardInterrupt:
         print("\nstopped; the same command goes on", file=sys.stderr)
     print(file=sys.stderr)
     return [{**json.loads(trial), **done[trial]} for trial in wanted if trial in done]
+
+
+def _try(run: Callable[[Row], Row], trial: str) -> tuple[str, Row]:
+    return trial, run(json.loads(trial))
+
+
+def _leave_stopping_to_the_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _tell(count: int, total: int, left_s: float) -> None:
+    print(f"\r{count} of {total}, {left_s / 60:.0f} min left ", end="", file=sys.stderr)
 
 
 def _read(journal: Path) -> dict[str, Row]:
