@@ -7,12 +7,13 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
+from sim.arm import hold
 from sim.client import GRAVITY_M_S2
 from sim.grasps import HandPose
 from sim.hardware import Floats, Hardware
 from sim.objects import ObjectModel
 from sim.planning import PlanningWorld
-from sim.skill import CONTROL_S, CannotError
+from sim.skill import CONTROL_S, CannotError, Skill
 
 _UNFELT_S = 0.2
 """What the fingers have not felt for longer has fallen."""
@@ -101,6 +102,20 @@ class Hand:
             name = self.held.model.name
             self.take(None)
             raise LostError(f"the {name} fell from my hand")
+
+    def keep(self, motion: Skill) -> Skill:
+        """Move the arm with what is in the hand, and feel it all the while.
+
+        Raises:
+            LostError: if it is lost; the arm stops there.
+        """
+        for _ in motion:
+            try:
+                self.feel()
+            except LostError:
+                hold(self._hardware)
+                raise
+            yield
 
     def weigh(self) -> Generator[None, None, float]:
         """What the wrist carries (newtons), on average over a moment; with the arm at rest."""

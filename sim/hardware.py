@@ -29,8 +29,8 @@ HEAD = ("head_pan", "head_tilt")
 FOLDED: Floats = np.array([0.08, 0.0, -0.5, 0.0, -3.0, 0.0, 2.5, 0.785])
 """The arm over the base, hand pointing down, a thing in it upright: how the robot drives."""
 
-FINGER_FORCE = 40.0
-"""The most that each finger presses (newtons); the real hand can do 70."""
+FINGER_FORCE = 70.0
+"""The most that each finger presses (newtons), as with the real hand."""
 FINGER_TRAVEL = 0.04
 """How far each finger opens from the middle (metres)."""
 

@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.types import Detection, Pose
 from sim.arm import SLOW, follow
+from sim.client import GRAVITY_M_S2
 from sim.clutter import over
 from sim.driving import CREEPING, drive
 from sim.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, varied
@@ -41,8 +42,13 @@ APPROACH_M = (0.12, 0.05, 0.025)
 """Lengths of the last straight part of a reach, in order of preference."""
 RISES_M = (0.10, 0.05, 0.02)
 """How far the hand goes up before the robot backs off, in order of preference."""
+_RETREATS = 2
+"""How often the robot backs off to fold its arm."""
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
 """How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
+TWIST_M = 0.004
+"""And firmly for what is taken far from its middle of mass: two pads that press with a force resist
+a torque of twice the force times this."""
 FEWEST_POINTS = 30
 _GOOD = 0.06
 """Grasps that cost more are tried only if no better one can be reached."""
@@ -141,7 +147,11 @@ class Manipulator:
         yield from self._check_stands(held.model, target, piece)
 
     def stow(self) -> Skill:
-        """Bring the arm back over the base: rise, back off, fold."""
+        """Bring the arm back over the base: rise, back off, fold.
+
+        Raises:
+            CannotError: if the arm would touch something; it stays out.
+        """
         if self._is_folded:
             return
         hardware, arm = self._hardware, self._hardware.arm_positions
@@ -152,12 +162,15 @@ class Manipulator:
             if up and self._planning.is_last_part_free(base, up[1:]):
                 yield from follow(hardware, up[1:], SLOW)
                 break
-        yield from self._creep([plan_retreat(self._planning, base)])
-        arm = hardware.arm_positions
-        folded = FOLDED.copy()
-        folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
-        path = any_path(self._planning, hardware.base_pose, arm, folded)
-        yield from follow(hardware, path or [folded])
+        for _ in range(_RETREATS):
+            yield from self._creep([plan_retreat(self._planning, hardware.base_pose)])
+            arm, folded = hardware.arm_positions, FOLDED.copy()
+            folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
+            path = any_path(self._planning, hardware.base_pose, arm, folded)
+            if path is not None:
+                yield from follow(hardware, path)
+                return
+        raise CannotError("I cannot fold my arm without touching anything")
 
     # --- steps of a pick ---
 
@@ -216,7 +229,7 @@ class Manipulator:
         hardware.open_fingers(grasp.gap)
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
-        hardware.squeeze(LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg)
+        hardware.squeeze(_grip_force(model, pose, reach.hand))
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
         if not self.hand.holding:
@@ -270,10 +283,10 @@ class Manipulator:
     def _release(self, approach: Approach, gap: float) -> Skill:
         hardware = self._hardware
         reach = self._reach(approach, "I cannot reach a free spot")
-        yield from follow(hardware, reach.path)
+        yield from self.hand.keep(follow(hardware, reach.path))
         weight = yield from self.hand.weigh()
         set_down = partial(self.hand.meets, weight)
-        yield from follow(hardware, reach.last, SLOW, set_down)
+        yield from self.hand.keep(follow(hardware, reach.last, SLOW, set_down))
         hardware.open_fingers(gap)
         self.hand.take(None)
         yield from wait_until(lambda: not self.hand.holding, _CLOSING_S)
@@ -283,7 +296,9 @@ class Manipulator:
     def _check_stands(self, model: ObjectModel, spot: Pose, piece: Furniture) -> Skill:
         """Look whether what was put down stands where it was put."""
         yield from look_at(self._hardware, spot.position)
-        fault = stands(model, spot, over(piece, self._around.scan()))
+        height = spot.position[2]
+        board = min(piece.surfaces(), key=lambda surface: abs(surface.center[2] - height))
+        fault = stands(model, spot, over(piece, self._around.scan()), board.clearance)
         if fault:
             raise LostError(f"the {model.name} {fault} on the {piece.name}")
 
@@ -308,6 +323,13 @@ class Manipulator:
             name == model.name and (rotation.inv() * grasp.hand.rotation).magnitude() < _ALIKE
             for name, rotation in self._missed
         )
+
+
+def _grip_force(model: ObjectModel, pose: Pose, hand: HandPose) -> float:
+    """How hard each finger shall press (newtons) on a thing at `pose` in `map`, taken at `hand`."""
+    middle = Rotation.from_quat(pose.orientation).apply(model.center_of_mass) + pose.position
+    torque = model.mass_kg * GRAVITY_M_S2 * float(np.linalg.norm((middle - hand.position)[:2]))
+    return LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg + torque / (2 * TWIST_M)
 
 
 def _surface(model: ObjectModel, pose: Pose) -> Floats:

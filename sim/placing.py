@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
 from sim.clutter import rising_points
-from sim.furniture import Surface
+from sim.furniture import OPEN, Surface
 from sim.hardware import Floats
 from sim.home import Furniture
 from sim.objects import ObjectModel
@@ -61,18 +61,19 @@ def free_spots(
                 yield _pose(piece, (middle[0], middle[1], middle[2]), turned)
 
 
-def stands(model: ObjectModel, spot: Pose, seen: Floats) -> str | None:
+def stands(model: ObjectModel, spot: Pose, seen: Floats, clearance: float = OPEN) -> str | None:
     """What is wrong with a thing that was put down at `spot`; None if it stands there.
 
     Args:
         model: what was put down.
         spot: where, in `map`.
         seen: points (n, 3) in `map` that the depth camera sees now.
+        clearance: free height there (metres): what is seen higher is the board above.
     """
     local = Rotation.from_quat(spot.orientation).inv().apply(seen - np.asarray(spot.position))
     low, high = np.subtract(model.lower, _SHIFTED_M)[:2], np.add(model.upper, _SHIFTED_M)[:2]
     over = ((local[:, :2] > low) & (local[:, :2] < high)).all(axis=1)
-    highest = max(model.size) + _SHIFTED_M
+    highest = min(max(model.size) + _SHIFTED_M, clearance - FLAT_M)
     heights = local[over & (local[:, 2] > FLAT_M) & (local[:, 2] < highest), 2]
     if len(heights) < _FEW_POINTS:
         return None if model.size[2] < 2 * FLAT_M else "is not where I put it"

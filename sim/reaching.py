@@ -171,7 +171,10 @@ def plan_reach(world: PlanningWorld, start: Floats, approach: Approach) -> Reach
 def _last_parts(
     world: PlanningWorld, approach: Approach, postures: Iterable[Floats]
 ) -> Iterator[_LastPart]:
-    """Free straight ways to the end of an approach, for the fingers as they are and swapped."""
+    """Free straight ways to the end of an approach, for the fingers as they are and swapped.
+
+    They begin where there is room enough for a path to end.
+    """
     base, hand = approach.base, approach.hand
     swapped = HandPose(hand.position, hand.rotation * _HALF_TURN)
     for posture, target in product(postures, (hand, swapped)):
@@ -179,7 +182,7 @@ def _last_parts(
         if end is None or not world.is_last_part_free(base, [end]):
             continue
         before = world.solve(base, target.shifted(-approach.way), end)
-        if before is None:
+        if before is None or world.obstacle(base, before):
             continue
         joints = world.line(base, before, target)
         if joints and world.is_last_part_free(base, joints):

@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from executive.events import Inbox
 from executive.perception import locate as locate_pixels
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
+from sim.clutter import CELL_M, Column
 from sim.grasps import WIDEST, HandPose, find_grasps, varied
 from sim.home import Home
 from sim.objects import load_objects
@@ -32,10 +33,12 @@ def home_before(place: str) -> Home:
 class Kitchen(Bench):
     """The robot before a piece of furniture: the counter wagon, where the sugar_box is."""
 
-    def __init__(self, home: Home | None = None, place: str = "counter_wagon") -> None:
+    def __init__(
+        self, home: Home | None = None, place: str = "counter_wagon", seed: int = 1
+    ) -> None:
         inbox = Inbox()
         self.world = PhysicsWorld(
-            home or home_before(place), MODELS, inbox, Notebook(), seed=1, camera_hz=0.0
+            home or home_before(place), MODELS, inbox, Notebook(), seed=seed, camera_hz=0.0
         )
         super().__init__(self.world.robot, inbox, self.world.advance, place)
 
@@ -122,6 +125,49 @@ def test_what_was_turned_or_passed_an_edge_in_the_hand_is_put_down(name: str, pl
     assert bench.do(PutDown(place)) == Succeeded()
     assert bench.world.resting_place(name) == place
     bench.world.close()
+
+
+def test_what_is_taken_off_its_middle_does_not_turn_in_the_fingers() -> None:
+    home = home_before("refrigerator").with_placement({"scissors": "refrigerator"})
+    bench = Kitchen(home, "refrigerator", seed=2)
+    assert bench.do(DriveTo("refrigerator")) == Succeeded()
+    assert bench.do(Pick(bench.detection_of("scissors"))) == Succeeded()
+    assert turned_in_hand(bench.world, "scissors") < np.radians(5.0)
+    bench.world.close()
+
+
+def test_what_is_knocked_out_of_the_hand_while_it_is_put_down_is_missed(kitchen: Kitchen) -> None:
+    assert kitchen.do(Pick(kitchen.detection_of("sugar_box"))) == Succeeded()
+    body, client = kitchen.world._body("sugar_box"), kitchen.world._client
+    request = kitchen.robot.start(PutDown(kitchen.place))
+    while kitchen.robot._manipulator._is_folded:
+        kitchen.world.advance(0.1)
+    client.resetBasePositionAndOrientation(body, (5.0, 5.0, 0.1), (0, 0, 0, 1))
+    assert kitchen.end_of(request) == Failed("the sugar_box fell from my hand", lost=True)
+
+
+def test_an_arm_that_cannot_be_folded_without_a_touch_stays_out(kitchen: Kitchen) -> None:
+    hardware, planning = kitchen.robot._manipulator._hardware, kitchen.world._planning
+    for joint, position in zip(hardware._arm, COMFORT, strict=True):
+        kitchen.world._client.resetJointState(hardware.body, joint, position)
+    hardware.command_arm(COMFORT, np.zeros(len(COMFORT)))
+    hand = planning.hand(hardware.base_pose, COMFORT).position
+    around = np.arange(-0.6, 0.6, CELL_M)
+    full = [Column(hand[0] + dx, hand[1] + dy, 0.0, 2.0) for dx in around for dy in around]
+    planning.assume_clutter([], full)
+    result = kitchen.do(DriveTo("desk"))
+    assert result == Failed("I cannot fold my arm without touching anything")
+    assert np.abs(hardware.arm_positions - COMFORT).max() < 0.1
+
+
+def turned_in_hand(world: PhysicsWorld, name: str) -> float:
+    """How far a thing is turned from how the robot believes it to be in the hand (radians)."""
+    manipulator = world.robot._manipulator
+    hardware, held = manipulator._hardware, manipulator.hand.held
+    assert held
+    hand = manipulator._planning.hand(hardware.base_pose, hardware.arm_positions)
+    truly = Rotation.from_quat(world.truth(name).orientation)
+    return float((hand.rotation * held.rotation * truly.inv()).magnitude())
 
 
 def off_in_hand(world: PhysicsWorld, name: str) -> float:

@@ -44,6 +44,12 @@ def test_what_is_far_above_does_not_count():
     assert stands(MODELS["hammer"], SPOT, points) is None
 
 
+def test_the_board_above_does_not_count():
+    board = seen("hammer") + (0.0, 0.0, 0.28)
+    points = np.concatenate((seen("hammer"), board))
+    assert stands(MODELS["hammer"], SPOT, points, clearance=0.3) is None
+
+
 @pytest.mark.parametrize("name", ["sugar_box", "mustard_bottle", "tomato_soup_can", "mug"])
 @pytest.mark.parametrize("fall", [0, 1])
 def test_how_a_thing_lies_is_told_from_its_upper_side(name: str, fall: int):
