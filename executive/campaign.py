@@ -295,8 +295,14 @@ def parser() -> argparse.ArgumentParser:
         metavar="embedded, FILE.gguf, http://host:port/v1 or none",
         help="may be repeated",
     )
-    p.add_argument("--elicit", choices=["generate", "rank"])
-    p.add_argument("--top", type=_count, metavar="N", help="places of a ranking worth a visit")
+    p.add_argument(
+        "--elicit",
+        choices=["generate", "rank"],
+        help="default: rank for the embedded model, else generate",
+    )
+    p.add_argument(
+        "--top", type=_count, metavar="N", help="places of a ranking worth a visit (default: 5)"
+    )
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     return p
 
