@@ -230,7 +230,9 @@ def read_commands(file: Path) -> tuple[str, ...]:
     """
     try:
         lines = [line.strip() for line in file.read_text(encoding="utf-8").splitlines()]
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
+        raise InputError(f"--commands {file}", f"cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
         raise InputError(f"--commands {file}", f"cannot be read: {error}") from None
     commands = tuple(line for line in lines if line and not line.startswith("#"))
     if not commands or len(set(commands)) < len(commands):
