@@ -88,6 +88,6 @@ def _reaches(world: PlanningWorld, home: Home, model: ObjectModel) -> bool:
         for tilt in TILTS:
             grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:GRASPS_TRIED]
             for stance, grasp, length in product(stances, grasps, APPROACH_M):
-                yield grasp, Approach([stance], grasp.hand, length * grasp.hand.approach)
+                yield grasp, Approach([stance], grasp.hands, length * grasp.hand.approach)
 
     return choose_approach(world, FOLDED, options) is not None

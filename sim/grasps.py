@@ -75,6 +75,12 @@ class Grasp:
     gap: float
     cost: float
 
+    @property
+    def hands(self) -> tuple[HandPose, HandPose]:
+        """As it is, and turned by half a circle about the way it points: both fingers are alike."""
+        turned = self.hand.rotation * Rotation.from_euler("z", np.pi)
+        return self.hand, HandPose(self.hand.position, turned)
+
 
 def hand_rotation(yaw: float, tilt: float) -> Rotation:
     """The hand pointing down, its x axis to `yaw`, tilted up by `tilt` towards there (radians)."""

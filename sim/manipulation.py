@@ -212,7 +212,7 @@ class Manipulator:
             for tilt, stance in product(TILTS, stances):
                 some = [g for g in grasps(float(stance[-1][2]), tilt) if (g.cost < _GOOD) == good]
                 for grasp, length in product(some, APPROACH_M):
-                    yield grasp, Approach(stance, grasp.hand, length * grasp.hand.approach)
+                    yield grasp, Approach(stance, grasp.hands, length * grasp.hand.approach)
 
         for good in (True, False):
             chosen = choose_approach(self._planning, FOLDED, partial(options, good))
@@ -278,7 +278,7 @@ class Manipulator:
             hand = held.hand_for(spot)
             stances = self._around.stances(piece, np.asarray(spot.position))
             for stance, way in product(stances, _ways_to_put(hand)):
-                yield spot, Approach(stance, hand, way)
+                yield spot, Approach(stance, (hand,), way)
 
     def _release(self, approach: Approach, gap: float) -> Skill:
         hardware = self._hardware

@@ -6,7 +6,6 @@ from itertools import product
 from typing import TypeVar
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from sim.grasps import HandPose
 from sim.hardware import Floats
@@ -29,8 +28,6 @@ FLOOR_BEARINGS = tuple(np.radians((0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0,
 _SIMPLE_TRIES, _ROUNDABOUTS, _SAMPLES = 24, 12, 300
 """How many reaches are tried in a simple way, how many of them then in a roundabout way, and with
 how many random postures each."""
-_HALF_TURN = Rotation.from_euler("z", np.pi)
-"""The two fingers are alike."""
 COMFORT: Floats = np.array([0.15, 0.0, 0.1, 0.0, -2.0, 0.0, 2.1, 0.785])
 """The arm bent, hand pointing down before the robot: reaches end near it where they can."""
 _ELBOW_RIGHT: Floats = np.array([0.1, -0.7, 0.5, 0.9, -1.6, -0.4, 1.8, 0.785])
@@ -61,12 +58,12 @@ class Approach:
 
     Attributes:
         stance: poses (x, y, yaw) that the base passes; the last is where it stands.
-        hand: where the hand shall be.
+        hands: where the hand shall be; any of them will do.
         way: the last straight part of its way (metres, in `map`).
     """
 
     stance: list[Floats]
-    hand: HandPose
+    hands: tuple[HandPose, ...]
     way: Floats
 
     @property
@@ -171,13 +168,12 @@ def plan_reach(world: PlanningWorld, start: Floats, approach: Approach) -> Reach
 def _last_parts(
     world: PlanningWorld, approach: Approach, postures: Iterable[Floats]
 ) -> Iterator[_LastPart]:
-    """Free straight ways to the end of an approach, for the fingers as they are and swapped.
+    """Free straight ways to the end of an approach.
 
     They begin where there is room enough for a path to end.
     """
-    base, hand = approach.base, approach.hand
-    swapped = HandPose(hand.position, hand.rotation * _HALF_TURN)
-    for posture, target in product(postures, (hand, swapped)):
+    base = approach.base
+    for posture, target in product(postures, approach.hands):
         end = world.solve(base, target, posture)
         if end is None or not world.is_last_part_free(base, [end]):
             continue

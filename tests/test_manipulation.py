@@ -127,6 +127,23 @@ def test_what_was_turned_or_passed_an_edge_in_the_hand_is_put_down(name: str, pl
     bench.world.close()
 
 
+def test_every_way_to_a_spot_brings_the_thing_there_as_it_shall_stand(kitchen: Kitchen) -> None:
+    assert kitchen.do(Pick(kitchen.detection_of("sugar_box"))) == Succeeded()
+    manipulator = kitchen.robot._manipulator
+    held, piece = manipulator.hand.held, manipulator._home.furniture_named(kitchen.place)
+    assert held is not None
+    spots = list(free_spots(piece, piece.surfaces()[0], held.model, np.empty((0, 3))))[:3]
+    ends = [
+        (spot, hand.position + hand.rotation.apply(held.position), hand.rotation * held.rotation)
+        for spot, approach in manipulator._ways_to_spots(held, piece, spots)
+        for hand in approach.hands
+    ]
+    assert len(ends) > len(spots)
+    for spot, position, rotation in ends:
+        assert position == pytest.approx(spot.position, abs=1e-9)
+        assert (rotation * Rotation.from_quat(spot.orientation).inv()).magnitude() < 1e-6
+
+
 def test_what_is_taken_off_its_middle_does_not_turn_in_the_fingers() -> None:
     home = home_before("refrigerator").with_placement({"scissors": "refrigerator"})
     bench = Kitchen(home, "refrigerator", seed=2)
