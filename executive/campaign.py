@@ -230,7 +230,9 @@ def read_commands(file: Path) -> tuple[str, ...]:
     """
     try:
         lines = [line.strip() for line in file.read_text(encoding="utf-8").splitlines()]
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
+        raise InputError(f"--commands {file}", f"cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
         raise InputError(f"--commands {file}", f"cannot be read: {error}") from None
     commands = tuple(line for line in lines if line and not line.startswith("#"))
     if not commands or len(set(commands)) < len(commands):
@@ -295,8 +297,14 @@ def parser() -> argparse.ArgumentParser:
         metavar="embedded, FILE.gguf, http://host:port/v1 or none",
         help="may be repeated",
     )
-    p.add_argument("--elicit", choices=["generate", "rank"])
-    p.add_argument("--top", type=_count, metavar="N", help="places of a ranking worth a visit")
+    p.add_argument(
+        "--elicit",
+        choices=["generate", "rank"],
+        help="default: rank for the embedded model, else generate",
+    )
+    p.add_argument(
+        "--top", type=_count, metavar="N", help="places of a ranking worth a visit (default: 5)"
+    )
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     return p
 

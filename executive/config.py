@@ -36,13 +36,15 @@ class Settings(BaseSettings):
     grammar: bool = Field(False, description="hold the model's replies to their JSON schema")
     prompts: Path | None = Field(None, description="TOML file of texts that replace ours")
     kb: tuple[Path, ...] = Field(
-        (), description="a person's own OWL files, which add to ours or replace them"
+        (), description="a person's own OWL file, which adds to ours or replaces one; repeatable"
     )
     person: str | None = Field(None, description="who is at home, as an OWL file names them")
     elicit: Literal["generate", "rank"] | None = Field(
         None, description="let the model write a list (paper) or score each known place"
     )
-    user: Literal["console", "oracle", "none"] = Field("console", description="who answers")
+    user: Literal["console", "oracle", "none"] = Field(
+        "console", description="who answers: you, the paper's simulated user, or nobody"
+    )
     place: dict[str, str] = Field(
         default_factory=dict, description="where things truly are, beside the home file"
     )
@@ -51,7 +53,9 @@ class Settings(BaseSettings):
         "learned",
         description="learned, simulated (never wrong), or FILE.onnx; the fake world has its own",
     )
-    fault: tuple[str, ...] = Field((), description="what goes wrong in the simulated world")
+    fault: tuple[str, ...] = Field(
+        (), description="what goes wrong in the simulated world; repeatable"
+    )
     ycb: Path | None = Field(
         None, description="folder of YCB models to see instead of the packaged meshes"
     )
@@ -79,7 +83,9 @@ class Settings(BaseSettings):
     sure: float = Field(
         0.5, gt=0, le=1, description="confidence from which what is seen is believed"
     )
-    camera_hz: float = Field(1.0, ge=0, description="pictures for the log while the robot moves")
+    camera_hz: float = Field(
+        1.0, ge=0, description="pictures a second for the log while the robot moves"
+    )
 
     @field_validator("llm")
     @classmethod

@@ -208,10 +208,16 @@ def draw_confusion(table: Ints, names: Sequence[str]) -> str:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Judge a detector."""
     parser = argparse.ArgumentParser(prog="python -m executive.evaluation", description=__doc__)
-    parser.add_argument("--detector", default="learned", help="learned, or a FILE.onnx")
-    parser.add_argument("--scenes", type=int, default=500)
+    parser.add_argument("--detector", default="learned", help="learned (default), or a FILE.onnx")
+    parser.add_argument("--scenes", type=int, default=500, metavar="N", help="default: 500")
     parser.add_argument("--validation", action="store_true", help="scenes to choose a network by")
-    parser.add_argument("--workers", type=int, default=os.cpu_count())
+    parser.add_argument(
+        "--workers",
+        type=int,
+        default=os.cpu_count(),
+        metavar="N",
+        help="default: one for each core",
+    )
     parser.add_argument("--picture", type=Path, metavar="FILE.svg", help="draw confusions")
     options = parser.parse_args(arguments)
     path = LEARNED if options.detector == "learned" else Path(options.detector)

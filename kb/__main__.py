@@ -150,7 +150,9 @@ def parser() -> argparse.ArgumentParser:
     forgotten = commands.add_parser("forget", help="remove facts")
     forgotten.add_argument("words", nargs="*", metavar="OBJECT", help="about this; none: all")
     for command in (remembered, forgotten):
-        command.add_argument("--memory", required=True, type=Path, metavar="FILE")
+        command.add_argument(
+            "--memory", required=True, type=Path, metavar="FILE", help="as given to missions"
+        )
     return p
 
 

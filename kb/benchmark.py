@@ -231,7 +231,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--elicit", choices=("rank", "generate"), help="default: rank, if it can")
     p.add_argument("--grammar", action="store_true", help="hold replies to their JSON schema")
     p.add_argument("--prompts", type=Path, metavar="FILE", help="texts that replace ours")
-    p.add_argument("--seed", type=int, default=0)
+    p.add_argument("--seed", type=int, default=0, help="of what a model writes (default: 0)")
     p.add_argument("--objects", type=int, metavar="N", help="only the first N of each data set")
     p.add_argument("--journal", type=Path, metavar="FILE", help="keep answers, and go on from them")
     p.add_argument("--json", action="store_true", help="print JSON")

@@ -1,6 +1,7 @@
 """The camera's pictures as files: singly, or as a video in mission time."""
 
 from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
 
 import cv2
@@ -36,31 +37,28 @@ def write_files(frames: Iterable[At[bytes]], folder: Path, *, png: bool = False)
 def write_video(frames: Iterable[At[bytes]], file: Path) -> int:
     """Write an MP4 (MPEG-4) in which a second is a second of the mission; return its pictures.
 
+    All pictures are shown at the size of the largest.
+
     Raises:
         InputError: if there are no pictures, or the file cannot be written.
     """
-    video: cv2.VideoWriter | None = None
-    began, shown = 0.0, 0
-    last: NDArray[np.uint8] | None = None
-    for at in frames:
-        image = _image(at.value)
-        if video is None:
-            began, video = at.time_s, _open(file, image)
-        while last is not None and shown < (at.time_s - began) * VIDEO_HZ:
-            video.write(last)
-            shown += 1
-        last = image
-    if video is None or last is None:
+    taken = list(frames)
+    if not taken:
         raise InputError(str(file), "the recording holds no pictures to make a video of")
-    video.write(last)
+    height, width = max(_image(at.value).shape[:2] for at in taken)
+    video, shown = _open(file, (width, height)), 0
+    for at, following in pairwise(taken):
+        image = cv2.resize(_image(at.value), (width, height))
+        while shown < (following.time_s - taken[0].time_s) * VIDEO_HZ:
+            video.write(image)
+            shown += 1
+    video.write(cv2.resize(_image(taken[-1].value), (width, height)))
     video.release()
     return shown + 1
 
 
-def _open(file: Path, image: NDArray[np.uint8]) -> cv2.VideoWriter:
-    height, width = image.shape[:2]
-    fourcc = cv2.VideoWriter.fourcc(*"mp4v")
-    video = cv2.VideoWriter(str(file), fourcc, VIDEO_HZ, (width, height))
+def _open(file: Path, size: tuple[int, int]) -> cv2.VideoWriter:
+    video = cv2.VideoWriter(str(file), cv2.VideoWriter.fourcc(*"mp4v"), VIDEO_HZ, size)
     if not video.isOpened():
         raise InputError(str(file), "cannot be written", "name a .mp4 file in an existing folder")
     return video

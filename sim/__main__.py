@@ -43,9 +43,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     commands = parser.add_subparsers(required=True, metavar="command")
     view = commands.add_parser("view", help="draw a home from above, or all objects, as a PNG file")
     view.add_argument(
-        "home", nargs="?", default="four_rooms", help="name or FILE.toml; or: objects"
+        "home",
+        nargs="?",
+        default="four_rooms",
+        help="name or FILE.toml (default: four_rooms); or: objects",
     )
-    view.add_argument("--out", type=Path, help="the picture; default HOME.png or objects.png")
+    view.add_argument(
+        "--out", type=Path, metavar="FILE.png", help="default: HOME.png or objects.png"
+    )
     view.add_argument("--ycb", type=Path, metavar="DIR", help="YCB models to see instead of ours")
     view.set_defaults(run=_view)
     check = commands.add_parser("check", help="name all that is wrong with a home")
@@ -53,10 +58,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     check.add_argument("--json", action="store_true", help="print a JSON array of sentences")
     check.set_defaults(run=_check)
     generate = commands.add_parser("generate", help="make a home file of any size")
-    generate.add_argument("--rooms", type=int, default=12)
-    generate.add_argument("--furniture", type=int, default=60)
-    generate.add_argument("--seed", type=int, default=0)
-    generate.add_argument("--out", type=Path, help="FILE.toml; default: print it")
+    generate.add_argument("--rooms", type=int, default=12, metavar="N", help="default: 12")
+    generate.add_argument("--furniture", type=int, default=60, metavar="N", help="default: 60")
+    generate.add_argument("--seed", type=int, default=0, metavar="N", help="default: 0")
+    generate.add_argument("--out", type=Path, metavar="FILE.toml", help="default: print it")
     generate.set_defaults(run=_generate)
     options = parser.parse_args(arguments)
     return int(options.run(options))

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from onnx import TensorProto, helper, numpy_helper
 
 from executive.config import load_settings
-from executive.detector import OnnxDetector, letterbox
+from executive.detector import LEARNED, OnnxDetector, letterbox
 from executive.errors import InputError
 from executive.types import Frame, Intrinsics, Pose
 
@@ -186,3 +186,8 @@ def test_the_setting_takes_learned_simulated_or_an_onnx_file() -> None:
     assert load_settings(detector="my.onnx").detector == "my.onnx"
     with pytest.raises(InputError, match="learned, simulated or a FILE.onnx"):
         load_settings(detector="yolo")
+
+
+def test_our_network_names_no_path_of_the_machine_that_trained_it() -> None:
+    assert b"/python3" not in LEARNED.read_bytes()
+    assert b"network.py" not in LEARNED.read_bytes()

@@ -8,6 +8,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import cv2
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from mcap.reader import make_reader
@@ -19,7 +20,8 @@ from logs.__main__ import main
 from logs.comparison import compare
 from logs.difference import parting
 from logs.mcap_sink import McapSink
-from logs.reader import Run
+from logs.pictures import write_video
+from logs.reader import At, Run
 from logs.recorder import Stamp
 from logs.recovery import damaged_at, recover
 from logs.why import Alternative, why
@@ -246,6 +248,19 @@ def test_a_second_of_the_video_is_a_second_of_the_mission(tmp_path: Path) -> Non
     video = cv2.VideoCapture(str(out))
     pictures, hz = video.get(cv2.CAP_PROP_FRAME_COUNT), video.get(cv2.CAP_PROP_FPS)
     assert pictures / hz == pytest.approx(4.1)
+
+
+def test_pictures_of_two_sizes_are_all_in_the_video(tmp_path: Path) -> None:
+    seen = [At(0.0, picture(40, 30)), At(1.0, picture(80, 60)), At(2.0, picture(40, 30))]
+    out = tmp_path / "mission.mp4"
+    count = write_video(seen, out)
+    video = cv2.VideoCapture(str(out))
+    assert video.get(cv2.CAP_PROP_FRAME_COUNT) == count == 21
+    assert video.get(cv2.CAP_PROP_FRAME_WIDTH) == 80
+
+
+def picture(width: int, height: int) -> bytes:
+    return cv2.imencode(".jpg", np.full((height, width, 3), 128, np.uint8))[1].tobytes()
 
 
 def test_a_recording_without_pictures_makes_no_video(

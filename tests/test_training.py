@@ -99,3 +99,4 @@ def test_the_exported_file_says_what_the_network_says(tmp_path: Path) -> None:
     best = expected[4:].max(axis=0).argmax()
     assert found.scores[0] == pytest.approx(expected[4:, best].max(), rel=1e-3)
     assert found.boxes[0] == pytest.approx(edges[best], abs=0.5)
+    assert b"network.py" not in (tmp_path / "network.onnx").read_bytes()

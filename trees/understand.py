@@ -120,5 +120,5 @@ class NotUnderstood(Step):
         self.situation.status = MissionStatus.NOT_UNDERSTOOD
         return self.fail(
             f"I do not understand '{self.situation.words}'; "
-            "say for example: Find an apple. Take the mug. Bring a sugar_box."
+            'say for example "Find an apple", "Take the mug" or "Bring a sugar_box"'
         )

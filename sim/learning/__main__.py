@@ -19,19 +19,36 @@ def main(arguments: Sequence[str] | None = None) -> int:
     commands = parser.add_subparsers(required=True, metavar="command")
     frames = commands.add_parser("frames", help="render scenes drawn by chance")
     frames.add_argument("folder", type=Path, help="where the shards go, or some are already")
-    frames.add_argument("--frames", type=int, default=3000)
+    frames.add_argument("--frames", type=int, default=3000, metavar="N", help="default: 3000")
     frames.add_argument("--seed", type=int, default=0, help="of the first frame (default: 0)")
-    frames.add_argument("--workers", type=int, default=os.cpu_count())
+    frames.add_argument(
+        "--workers",
+        type=int,
+        default=os.cpu_count(),
+        metavar="N",
+        help="default: one for each core",
+    )
     frames.add_argument("--ycb", type=Path, metavar="DIR", help="scans to show instead of ours")
     frames.set_defaults(run=_frames)
     train = commands.add_parser("train", help="train on them (needs the train extra)")
     train.add_argument("folder", type=Path, help="the frames")
-    train.add_argument("--out", type=Path, default=Path("detector.onnx"))
-    train.add_argument("--checkpoint", type=Path, default=Path("detector.pt"))
+    train.add_argument(
+        "--out", type=Path, default=Path("detector.onnx"), help="default: %(default)s"
+    )
+    train.add_argument(
+        "--checkpoint",
+        type=Path,
+        default=Path("detector.pt"),
+        help="where it goes on from when stopped (default: %(default)s)",
+    )
     train.add_argument("--start", type=Path, help="checkpoint whose weights to start with")
-    train.add_argument("--crops", type=int, default=160_000, help="to learn from, in all")
-    train.add_argument("--batch", type=int, default=32)
-    train.add_argument("--rate", type=float, default=2e-3, help="of learning, at most")
+    train.add_argument(
+        "--crops", type=int, default=160_000, help="to learn from, in all (default: %(default)s)"
+    )
+    train.add_argument("--batch", type=int, default=32, help="crops a step (default: %(default)s)")
+    train.add_argument(
+        "--rate", type=float, default=2e-3, help="of learning, at most (default: %(default)s)"
+    )
     train.add_argument("--seed", type=int, default=0)
     train.add_argument("--threads", type=int, help="default: one for each core")
     train.set_defaults(run=_train)

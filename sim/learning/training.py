@@ -128,8 +128,16 @@ def export(network: Network, path: Path) -> None:
     graph = onnx.load(path)
     names = dict(enumerate(class_names()))
     graph.metadata_props.add(key="names", value=json.dumps(names))
+    forget_origins(graph.graph)
     onnx.checker.check_model(graph)
     onnx.save(graph, path)
+
+
+def forget_origins(graph: onnx.GraphProto) -> None:
+    """Leave out where in whose source files each part comes from: paths of this machine."""
+    ends = (*graph.input, *graph.output, *graph.value_info)
+    for part in (graph, *graph.node, *graph.initializer, *ends):
+        del part.metadata_props[:]
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,8 +42,17 @@ RECIPES: dict[str, Callable[[], list[Part]]] = {
 def main(arguments: list[str] | None = None) -> None:
     """Write the files of all objects, or of those named."""
     parser = argparse.ArgumentParser(prog="python -m sim.modelling", description=__doc__)
-    parser.add_argument("names", nargs="*", choices=[*RECIPES, []], metavar="OBJECT", default=[])
-    parser.add_argument("--out", type=Path, default=ASSETS)
+    parser.add_argument(
+        "names",
+        nargs="*",
+        choices=[*RECIPES, []],
+        metavar="OBJECT",
+        default=[],
+        help="default: all",
+    )
+    parser.add_argument(
+        "--out", type=Path, default=ASSETS, metavar="DIR", help="default: the packaged objects"
+    )
     options = parser.parse_args(arguments)
     models = load_objects()
     for name in options.names or RECIPES:
