@@ -180,6 +180,13 @@ class Intrinsics:
     cx: float
     cy: float
 
+    def scaled(self, factor: float) -> "Intrinsics":
+        """The same camera with so many times as many pixels in a row."""
+        width, height = round(self.width * factor), round(self.height * factor)
+        return Intrinsics(
+            width, height, self.fx * factor, self.fy * factor, self.cx * factor, self.cy * factor
+        )
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frame:

@@ -26,6 +26,9 @@ DETECTIONS = "camera/detections"
 PICTURE_FRAME = "picture"
 """Where the camera was when it took the latest picture."""
 IMAGE_FRAME = "picture_plane"
+PICTURE_WIDTH = 640
+"""Of every picture (pixels). The viewer takes JPEGs that follow one another for a video, which has
+one size; but what the robot looks at is larger than what is taken by the way."""
 
 _GLTF_TURN = Rotation.from_quat((0.5, 0.5, 0.5, 0.5))
 """glTF has y up and looks along z; the viewer takes its coordinates as they are."""
@@ -173,14 +176,14 @@ def clear_detections(stream: rr.RecordingStream) -> None:
     stream.log(DETECTIONS, rr.Clear(recursive=False))
 
 
-def log_detections(stream: rr.RecordingStream, seen: Seen) -> None:
-    """Log a labelled rectangle for each detection."""
+def log_detections(stream: rr.RecordingStream, seen: Seen, scale: float) -> None:
+    """Log a labelled rectangle for each detection, on a picture that was scaled."""
     boxes = [d.box for d in seen.detections]
     stream.log(
         DETECTIONS,
         rr.Boxes2D(
-            mins=[(box.left, box.top) for box in boxes],
-            sizes=[(box.width, box.height) for box in boxes],
+            mins=[(scale * box.left, scale * box.top) for box in boxes],
+            sizes=[(scale * box.width, scale * box.height) for box in boxes],
             labels=[f"{d.label} {d.confidence:.2f}" for d in seen.detections],
             colors=_FOUND,
         ),

@@ -25,7 +25,7 @@ from executive.records import (
 from executive.types import Frame, Intrinsics
 from logs import blueprint, markdown, rerun_scene, viewer
 from logs.event_messages import in_words
-from logs.images import jpeg
+from logs.images import jpeg_scaled
 from logs.recorder import Stamp
 from logs.rerun_candidates import CandidatesView
 from logs.rerun_scene import Taken
@@ -72,6 +72,7 @@ class RerunSink:
         self._candidates = CandidatesView(self._stream)
         self._moved: list[At[Transform]] = []
         self._taken: list[At[Taken]] = []
+        self._scale = 1.0
         self._intrinsics: Intrinsics | None = None
         self._detections_shown = False
         self._tick = 0
@@ -106,7 +107,7 @@ class RerunSink:
             case Picture(frame):
                 self._write_picture(moment, frame)
             case Seen():
-                rerun_scene.log_detections(self._stream, record)
+                rerun_scene.log_detections(self._stream, record, self._scale)
                 self._detections_shown = True
             case Scene(entities):
                 rerun_scene.log_scene(self._stream, entities)
@@ -141,10 +142,12 @@ class RerunSink:
         self._stream.log(blueprint.BELIEF, _document(markdown.belief(tick.situation)))
 
     def _write_picture(self, moment: Moment, frame: Frame) -> None:
-        if frame.intrinsics != self._intrinsics:
-            self._intrinsics = frame.intrinsics
-            rerun_scene.log_intrinsics(self._stream, frame.intrinsics)
-        self._taken.append(At(moment, Taken(frame.pose, jpeg(frame))))
+        self._scale = rerun_scene.PICTURE_WIDTH / frame.intrinsics.width
+        intrinsics = frame.intrinsics.scaled(self._scale)
+        if intrinsics != self._intrinsics:
+            self._intrinsics = intrinsics
+            rerun_scene.log_intrinsics(self._stream, intrinsics)
+        self._taken.append(At(moment, Taken(frame.pose, jpeg_scaled(frame, self._scale))))
         if self._detections_shown:
             rerun_scene.clear_detections(self._stream)
             self._detections_shown = False

@@ -3,15 +3,19 @@
 import os
 import signal
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 import rerun as rr
 from rerun.chunk import RrdReader
-from sample_mission import frame, mission, robot_at, scene, tick
+from sample_mission import detection, frame, mission, robot_at, scene, tick
 
 from executive.errors import ExecutiveError
 from executive.records import Picture, Record, Scene, Seen, Shape
+from executive.types import Box
 from logs import viewer
 from logs.recorder import Stamp
 from logs.rerun_sink import RerunSink
@@ -147,6 +151,27 @@ def test_pictures_keep_their_times_though_they_are_sent_together(tmp_path: Path)
         for time in chunk.to_record_batch().column("mission_time").to_pylist()
     ]
     assert sorted(times) == [0.1, 1.234, 2.0]
+
+
+def test_all_pictures_have_one_size_and_boxes_are_where_the_things_are(tmp_path: Path) -> None:
+    glance = frame(1)
+    small = replace(glance, color=glance.color[::2, ::2], intrinsics=glance.intrinsics.scaled(0.5))
+    path = write(
+        tmp_path / "a.rrd",
+        *((0.0, Picture(frame())), (1.0, Picture(small))),
+        (1.1, Seen(1, (replace(detection(), box=Box(35, 25, 15, 15)),))),
+    )
+    sizes, boxes = set(), []
+    for chunk in RrdReader(path).stream():
+        batch = chunk.to_record_batch()
+        for name in batch.schema.names:
+            if name == "EncodedImage:blob":
+                for (blob,) in batch.column(name).to_pylist():
+                    sizes.add(cv2.imdecode(np.asarray(blob, np.uint8), cv2.IMREAD_COLOR).shape)
+            elif name in ("Boxes2D:centers", "Boxes2D:half_sizes"):
+                boxes += [row[0] for row in batch.column(name).to_pylist() if row]
+    assert sizes == {(480, 640, 3)}
+    assert sorted(boxes) == [[60.0, 60.0], [340.0, 260.0]]
 
 
 def test_every_behaviour_has_a_lane_from_when_it_first_does_something(recording: Path) -> None:
