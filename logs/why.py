@@ -243,7 +243,7 @@ def _outranked(call: LlmCall) -> list[Alternative]:
 
 def why_text(decisions: Iterable[Decision]) -> str:
     """A paragraph for each decision: what was settled, by whom, and what was not taken."""
-    return "\n".join(_text(decision) for decision in decisions)
+    return "\n".join(map(_text, decisions)) or "nothing was decided: the recording has no ticks"
 
 
 def _text(decision: Decision) -> str:

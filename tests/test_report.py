@@ -24,7 +24,7 @@ from logs.pictures import write_video
 from logs.reader import At, Run
 from logs.recorder import Stamp
 from logs.recovery import damaged_at, recover
-from logs.why import Alternative, why
+from logs.why import Alternative, why, why_text
 
 
 def record(folder: Path, records: Iterable[tuple[float, Record]], config: str = "") -> Path:
@@ -95,6 +95,10 @@ def test_what_failed_on_the_way_to_a_decision_says_why(tmp_path: Path) -> None:
     (decision,) = why(Run(record(tmp_path, [(0.0, TREE), (1.0, failed)])))
     assert decision.answer == "nothing worked"
     assert decision.alternatives == (Alternative("ask", "no"),)
+
+
+def test_of_a_recording_without_ticks_it_says_that_nothing_was_decided(tmp_path: Path) -> None:
+    assert "no ticks" in why_text(why(Run(record(tmp_path, [(0.0, TREE)]))))
 
 
 def test_what_the_model_named_in_vain_is_an_alternative(tmp_path: Path) -> None:
