@@ -100,9 +100,15 @@ class Manipulator:
     def pick(self, detection: Detection) -> Skill:
         """Grasp the detected thing, lift it, and fold the arm.
 
+        If it is in the hand already, since the arm could not be folded with it, only that is left.
+
         Raises:
             CannotError: if it is unknown, not well seen, out of reach, or slips.
         """
+        held = self.hand.held
+        if held and held.model.name == detection.label and self.hand.holding:
+            yield from self.stow()
+            return
         model = self._model_of(detection)
         points = np.asarray(detection.points, dtype=np.float64)
         piece = self._around.furniture_below(points)

@@ -17,6 +17,7 @@ from sim.placing import free_spots
 from sim.planning import PlanningWorld
 from sim.reaching import COMFORT
 from sim.registration import locate
+from sim.skill import CannotError, Skill
 from sim.solids import sample_surface, signed_distance
 from sim.world import PhysicsWorld
 
@@ -161,6 +162,23 @@ def test_what_is_knocked_out_of_the_hand_while_it_is_put_down_is_missed(kitchen:
         kitchen.world.advance(0.1)
     client.resetBasePositionAndOrientation(body, (5.0, 5.0, 0.1), (0, 0, 0, 1))
     assert kitchen.end_of(request) == Failed("the sugar_box fell from my hand", lost=True)
+
+
+def test_what_stayed_in_the_hand_of_an_arm_that_was_not_folded_is_not_grasped_again(
+    kitchen: Kitchen, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen = kitchen.detection_of("sugar_box")
+    with monkeypatch.context() as stiff:
+        stiff.setattr(kitchen.robot._manipulator, "stow", cannot_fold)
+        assert kitchen.do(Pick(seen)) == Failed("I cannot fold my arm")
+    assert kitchen.robot.holding
+    assert kitchen.do(Pick(seen)) == Succeeded()
+    assert kitchen.robot.holding
+
+
+def cannot_fold() -> Skill:
+    raise CannotError("I cannot fold my arm")
+    yield
 
 
 def test_an_arm_that_cannot_be_folded_without_a_touch_stays_out(kitchen: Kitchen) -> None:
