@@ -4,7 +4,6 @@ An engine is given what is left to do, and appends each mission to the journal w
 """
 
 import multiprocessing
-import signal
 import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, wait
@@ -16,6 +15,7 @@ from executive import households
 from executive.errors import ExecutiveError
 from executive.households import Household
 from executive.journal import Entry, Journal
+from executive.shell import leave_stopping_to_the_parent
 
 POLL_S = 0.5
 """How often the journal is looked at while workers write it."""
@@ -121,7 +121,7 @@ def start_worker(stop: Event) -> None:
     """Leave Ctrl-C to the parent, which sets `stop`."""
     global _stop
     _stop = stop
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    leave_stopping_to_the_parent()
 
 
 def work(household: Household, before: Sequence[Entry], journal: Journal) -> None:

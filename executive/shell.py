@@ -1,6 +1,7 @@
 """How every command of the project ends: its exit status, and a line that says why."""
 
 import os
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from functools import wraps
@@ -38,3 +39,8 @@ def entry_point(main: Callable[[Sequence[str] | None], int]) -> EntryPoint:
             return NOT_DONE
 
     return ended
+
+
+def leave_stopping_to_the_parent() -> None:
+    """For a command's worker processes, which a terminal's Ctrl-C reaches, too."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -5,7 +5,6 @@ into the same folder goes on with what is missing.
 """
 
 import os
-import signal
 import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from executive.errors import InputError
+from executive.shell import leave_stopping_to_the_parent
 from sim.learning.scenes import Scene, SceneMaker
 from sim.objects import ObjectModel, load_objects
 from sim.ycb import with_scans
@@ -77,12 +77,8 @@ def make_shards(
         for start in starts
     ]
     missing = [job for job in jobs if not job[0].exists()]
-    with get_context("spawn").Pool(workers, _leave_stopping_to_the_parent) as pool:
+    with get_context("spawn").Pool(workers, leave_stopping_to_the_parent) as pool:
         yield from pool.imap_unordered(_make_shard, missing)
-
-
-def _leave_stopping_to_the_parent() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _make_shard(job: tuple[Path, int, int, Mapping[str, ObjectModel]]) -> Path:

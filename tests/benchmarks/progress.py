@@ -4,7 +4,6 @@ Beside the line a word on standard error says how many are done and how long the
 """
 
 import json
-import signal
 import sys
 import time
 from collections.abc import Callable, Iterable
@@ -12,6 +11,8 @@ from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
+
+from executive.shell import leave_stopping_to_the_parent
 
 Row = dict[str, Any]
 
@@ -37,7 +38,7 @@ def measure(
     left = [trial for trial in wanted if trial not in done]
     began = time.monotonic()
     try:
-        with get_context("spawn").Pool(workers, _leave_stopping_to_the_parent) as pool:
+        with get_context("spawn").Pool(workers, leave_stopping_to_the_parent) as pool:
             ended = pool.imap_unordered(partial(_try, run), left)
             for number, (trial, result) in enumerate(ended, start=1):
                 done[trial] = result
@@ -55,10 +56,6 @@ def measure(
 
 def _try(run: Callable[[Row], Row], trial: str) -> tuple[str, Row]:
     return trial, run(json.loads(trial))
-
-
-def _leave_stopping_to_the_parent() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _tell(count: int, total: int, left_s: float) -> None:
