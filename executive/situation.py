@@ -87,6 +87,8 @@ class Situation:
     """Whether the person cannot or will not help."""
     llm_calls: int = 0
     thinking_time_s: float = 0.0
+    model_failure: str = ""
+    """Why the language model was of no help, as a clause; empty if it was, or was not asked."""
     status: Status = Status.NOT_DONE
     reason: str = ""
     """What is told at the end: what was done, or why it was not."""
@@ -190,6 +192,7 @@ class Situation:
             thinking_time_s=round(self.thinking_time_s, 3),
             wall_time_s=round(wall_time_s, 3),
             run_dir=run_dir,
+            model_failure=self.model_failure,
         )
 
 

@@ -1,4 +1,9 @@
-"""Text from outside, made fit to be written down."""
+"""Text from outside, made fit to be written down, and fit to be shown."""
+
+import unicodedata
+
+_HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
+"""Unicode categories of what is not seen: controls, marks of direction, line separators, ..."""
 
 
 def writable(text: str) -> str:
@@ -8,3 +13,20 @@ def writable(text: str) -> str:
     halves that came one after the other become the character that they are.
     """
     return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
+
+
+def printable(text: object) -> str:
+    """The text on one line, as a terminal may have it.
+
+    What a terminal would obey, or what nobody sees (control characters, marks of direction, line
+    breaks), is spelled out as Python does: `\\x1b`, `\\n`, `\\u202e`.
+    """
+    return "".join(_spelled(c) if _is_hidden(c) else c for c in str(text))
+
+
+def _is_hidden(character: str) -> bool:
+    return not character.isprintable() and unicodedata.category(character) in _HIDDEN
+
+
+def _spelled(character: str) -> str:
+    return character.encode("unicode_escape").decode("ascii")

@@ -89,6 +89,8 @@ class Outcome:
     thinking_time_s: float
     wall_time_s: float
     run_dir: str | None
+    model_failure: str = ""
+    """Why the language model was of no help, as a clause; empty if it was, or was not asked."""
 
 
 # --- space ---

@@ -280,4 +280,5 @@ def outcome_from_message(message: Any) -> Outcome:
         thinking_time_s=message.thinking_time_s,
         wall_time_s=message.wall_time_s,
         run_dir=optional("run_dir"),
+        model_failure=getattr(message, "model_failure", ""),
     )

@@ -130,6 +130,7 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "thinking_time_s": "double",
         "wall_time_s": "double",
         "run_dir": "optional string",
+        "model_failure": "string",
     },
 }
 
