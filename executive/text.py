@@ -16,10 +16,10 @@ def writable(text: str) -> str:
 
 
 def printable(text: object) -> str:
-    """The text on one line, as a terminal may have it.
+    r"""The text on one line, as a terminal may have it.
 
     What a terminal would obey, or what nobody sees (control characters, marks of direction, line
-    breaks), is spelled out as Python does: `\\x1b`, `\\n`, `\\u202e`.
+    breaks), is spelled out as Python does: `\x1b`, `\n`, `\u202e`.
     """
     return "".join(_spelled(c) if _is_hidden(c) else c for c in str(text))
 
