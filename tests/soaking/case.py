@@ -1,0 +1,327 @@
+"""One household: a few missions in a row, in which anything may go wrong."""
+
+import contextlib
+import io
+import json
+import random
+import signal
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import FrameType
+from typing import Any
+
+from mcap.reader import make_reader
+
+from executive.app import Session
+from executive.config import KnowledgeSystem, Settings
+from executive.errors import InputError
+from executive.events import Inbox, StopRequested
+from executive.replay import replay, replay_text
+from executive.text import printable
+from executive.types import FLOOR, Kind, Outcome, Status
+from logs.reader import Run
+from sim.faults import parse_faults
+from sim.generation import generate_home
+from sim.home import Home, load_home
+from soaking.chaos import Chaos, ChaosEyes, ChaosModel, ChaosRobot, ChaosSink
+from soaking.claims import Notes, Witness, false_searches, looked_at, ticked_after_stop
+from soaking.people import Person, words
+
+LONGEST_S = 60.0
+"""Wall time after which a mission counts as one that does not end."""
+MOST_ACTIONS = 400
+"""No mission does more than this; each has a deadline, so that gives the longest mission."""
+MOST_MISSIONS = 4
+SOMETHING = "something"
+"""What the robot calls what it feels in its hand and does not know."""
+
+
+class HungError(BaseException):
+    """A mission does not end."""
+
+
+@dataclass
+class Household:
+    """What a seed draws: the home, the settings, what goes wrong."""
+
+    seed: int
+    chance: random.Random = field(init=False)
+    missions: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.chance = random.Random(self.seed)
+        self.missions = self.chance.randint(1, MOST_MISSIONS)
+
+
+def missions_of(seed: int) -> int:
+    """How many missions the household of a seed has."""
+    return Household(seed).missions
+
+
+def run_household(seed: int, at_most: int = MOST_MISSIONS) -> list[str]:
+    """Run the missions of a seed's household; what was violated, a line each."""
+    with TemporaryDirectory() as folder, _watchdog():
+        return [f"seed {seed}: {line}" for line in _Soak(seed, at_most, Path(folder)).run()]
+
+
+@cache
+def _homes() -> tuple[str, ...]:
+    """The packaged home, more often than not, and some generated ones."""
+    folder = Path(_kept.name)
+    files = []
+    for seed, (rooms, furniture) in enumerate(((3, 8), (4, 12), (6, 24))):
+        file = folder / f"home{seed}.toml"
+        file.write_text(generate_home(rooms, furniture, seed))
+        files.append(str(file))
+    return ("four_rooms",) * 5 + tuple(files)
+
+
+_kept = TemporaryDirectory()
+
+
+class _Soak:
+    """The missions of one household, one after the other."""
+
+    def __init__(self, seed: int, at_most: int, runs: Path) -> None:
+        drawn = Household(seed)
+        chance = self._chance = drawn.chance
+        self._missions = min(drawn.missions, at_most)
+        self._chaos = Chaos(
+            chance,
+            rate=chance.choice((0.0, 0.0, 0.02, 0.1, 0.3)),
+            stops_at=[chance.randint(1, 60) for _ in range(chance.choice((0, 0, 0, 1, 2, 5)))],
+        )
+        home_name = chance.choice(_homes())
+        self._home = load_home(home_name)
+        self._settings = Settings(
+            home=home_name,
+            world="fake",
+            runs=runs,
+            user="none",
+            seed=chance.randrange(1000),
+            knowledge=chance.choice(list(KnowledgeSystem)),
+            defaults=chance.random() < 0.5,
+            elicit=chance.choice(("rank", "generate")),
+            learn=chance.random() < 0.8,
+            fault=tuple(_faults(chance, self._home)),
+            place=_placement(chance, self._home),
+            action_timeout_s=chance.choice((1.0, 5.0, 120.0, 120.0)),
+            answer_timeout_s=chance.choice((5.0, 120.0)),
+            llm_timeout_s=chance.choice((5.0, 60.0)),
+        )
+        self._inbox = Inbox()
+
+    def run(self) -> Iterator[str]:
+        threads = threading.active_count()
+        self._build()
+        try:
+            for number in range(self._missions):
+                yield from (f"mission {number}: {line}" for line in self._mission())
+            yield from (f"afterwards: {line}" for line in self._all_is_well_again())
+        finally:
+            self._session.close()
+        if threading.active_count() > threads + 1:
+            yield f"{threading.active_count() - threads} threads are left"
+
+    def _build(self) -> None:
+        chaos, inbox = self._chaos, self._inbox
+        self._notes = Notes()
+        health = self._chance.choice((0.0, 0.5, 0.9, 1.0))
+        model = ChaosModel(chaos, inbox, health, self._chance.choice((60, 512, 4096)))
+        self._model = model if self._settings.uses_llm else None
+        rate, chaos.rate = chaos.rate, 0.0  # while the parts are built, all is well
+        self._session = session = Session(
+            self._settings,
+            inbox=inbox,
+            model=self._model,
+            out=io.StringIO(),
+            sinks=[self._notes, ChaosSink(chaos)],
+        )
+        chaos.rate = rate
+        self._witness = Witness(session.world, self._home.objects)
+        places = [place.name for place in self._home.places()]
+        self._person = Person(
+            chaos, inbox, session.world.resting_place, places, self._witness.heard
+        )
+        session.user = self._person
+        self._robot = ChaosRobot(session.robot, chaos, inbox)
+        session.robot = self._robot
+        self._eyes = ChaosEyes(session.eyes, chaos, inbox)
+        session.eyes = self._eyes  # type: ignore[assignment]
+
+    def _mission(self) -> Iterator[str]:
+        said = words(self._chance, self._home)
+        if self._chance.random() < 0.02:
+            self._inbox.post(StopRequested("the person"))
+        self._begin()
+        try:
+            outcome = self._session.run(said)
+        except InputError as error:  # words that are none: refused in a sentence
+            if str(error) != printable(error):
+                yield f"{said!r} is refused with {str(error)!r}"
+            return
+        except (Exception, HungError) as error:
+            yield f"{said!r} raised {error!r}"
+            return
+        yield from (f"{said!r}: {line}" for line in self._judge(outcome))
+
+    def _begin(self) -> None:
+        self._witness.begin()
+        self._notes.records.clear()
+        self._robot.goals.clear()
+        self._robot.halts = 0
+        self._chaos.struck.clear()
+        if self._model:
+            self._model.failed = self._model.unanswered = 0
+
+    # --- what must hold ---
+
+    def _judge(self, outcome: Outcome) -> Iterator[str]:
+        yield from self._witness.wrong
+        yield from self._of_the_outcome(outcome)
+        yield from self._at_rest()
+        yield from self._of_the_hand()
+        if self._session.folder:
+            yield from _whole(self._session.folder, outcome)
+
+    def _of_the_outcome(self, outcome: Outcome) -> Iterator[str]:
+        records, settings = self._notes.records, self._settings
+        reason = outcome.reason
+        if not reason.strip() or reason != printable(reason) or "internal error" in reason:
+            yield f"{outcome.status} for the reason {reason!r}"
+        longest = MOST_ACTIONS * max(
+            settings.action_timeout_s, settings.answer_timeout_s, settings.llm_timeout_s
+        )
+        if outcome.mission_time_s > longest:
+            yield f"it took {outcome.mission_time_s} s"
+        if ticked_after_stop(records):
+            yield "ticked after a stop"
+        seen = looked_at(records, dict(self._robot.goals), lambda place: 1)
+        yield from false_searches((*self._witness.said, reason), seen)
+        if outcome.status == Status.DONE:
+            yield from self._not_done(outcome)
+        if self._model and self._model.failed and not outcome.model_failure:
+            yield "the model failed, and the outcome does not say so"
+        if not self._model and outcome.model_failure:
+            yield f"there is no model, but {outcome.model_failure!r}"
+
+    def _not_done(self, outcome: Outcome) -> Iterator[str]:
+        """Why what is called done is not done."""
+        world, name = self._session.world, outcome.object or ""
+        match outcome.kind:
+            case Kind.BRING if (place := world.resting_place(name)) != "delivery":
+                if f"on the {place}" not in outcome.reason:
+                    yield f"brought, but it is at {place}: {outcome.reason}"
+            case Kind.TAKE if world.held != name:
+                yield f"taken, but it holds {world.held}"
+            case Kind.FIND if outcome.location not in self._witness.was_at[name]:
+                if world.held != name:
+                    yield f"found at {outcome.location}, where it never was"
+
+    def _at_rest(self) -> Iterator[str]:
+        struck = self._chaos.struck
+        could_halt = not struck & {"start", "robot hangs", "robot fails", "cancel"}
+        if self._session.world.busy and (could_halt or not self._robot.halts):
+            yield f"not at rest, {self._robot.halts} halts"
+        if self._inbox._open:
+            yield f"requests {sorted(self._inbox._open)} are still open"
+        if isinstance(self._inbox.has_events, bool) and self._inbox.has_events:
+            left = self._inbox.take_all()
+            if any(isinstance(event, StopRequested) for event in left):
+                yield "a stop was not heard"
+
+    def _of_the_hand(self) -> Iterator[str]:
+        believed, held = self._session._in_hand, self._session.world.held
+        if "holding" in self._chaos.struck:
+            return
+        if bool(believed) != bool(held) or (believed not in (held, SOMETHING) and held):
+            yield f"it believes that it holds {believed}, and holds {held}"
+
+    def _all_is_well_again(self) -> Iterator[str]:
+        """When nothing goes wrong any more, a thing that lies about is brought."""
+        self._chaos.rate, self._person.helpful = 0.0, 1.0
+        self._chaos._stops_at.clear()
+        self._inbox.take_all()
+        if self._session.mishaps:
+            self._session.mishaps._chances.clear()
+        if self._settings.action_timeout_s < 60:
+            return
+        world = self._session.world
+        here = [n for n in self._home.objects if world.resting_place(n) not in (None, FLOOR)]
+        name = world.held or self._chance.choice(here)
+        self._begin()
+        outcome = self._session.run(f"Bring the {name}")
+        yield from self._judge(outcome)
+        if outcome.status != Status.DONE:
+            yield f"{name} is not brought: {outcome.reason}"
+
+
+def _whole(folder: Path, outcome: Outcome) -> Iterator[str]:
+    """What is wrong with the recording of a mission."""
+    with (folder / "mission.mcap").open("rb") as file:
+        summary = make_reader(file).get_summary()
+    if summary is None or summary.statistics is None:
+        yield "the mcap has no summary"
+    kept = Run(folder).outcome()
+    if kept != outcome:
+        yield f"the mcap's outcome is {kept}"
+    if json.loads((folder / "outcome.json").read_text())["reason"] != outcome.reason:
+        yield "outcome.json tells another reason"
+    again = replay(folder)
+    if again.parting is not None or again.notes:
+        yield f"the replay is not the same: {printable(replay_text(again))}"
+
+
+def _faults(chance: random.Random, home: Home) -> Iterator[str]:
+    """Orders of what goes wrong in the world."""
+    doors = [f for f in ("kitchen-lobby", "bedroom-lobby", "living_room-lobby")]
+    things, places = sorted(home.objects), [place.name for place in home.places()]
+    kinds = ("moved", "blocked", "slip", "drop", "stuck", "blind", "noise", "miss")
+    for kind in chance.sample(kinds, chance.choice((0, 0, 1, 2, 3))):
+        value = {
+            "moved": f"={chance.choice(things)}:{chance.choice(places)}",
+            "blocked": f"={chance.choice(doors)}",
+            "slip": f"={chance.choice((0.3, 1))}",
+            "stuck": f"=joint{chance.randint(1, 7)}",
+            "noise": "=0.02",
+            "miss": f"={chance.choice((0.2, 0.9))}",
+        }.get(kind, "")
+        start = chance.randint(0, 40)
+        span = chance.choice(("", f"@{start}", f"@{start}-{start + chance.randint(1, 40)}"))
+        with contextlib.suppress(InputError):
+            parse_faults([order := f"{kind}{value}{span}"], home)
+            yield order
+
+
+def _placement(chance: random.Random, home: Home) -> dict[str, str]:
+    """Some things are elsewhere than the home file says."""
+    if chance.random() < 0.5:
+        return {}
+    places = [place.name for place in home.places()]
+    placed: dict[str, Any] = {}
+    for name in chance.sample(sorted(home.objects), 3):
+        trial = {**placed, name: chance.choice(places)}
+        with contextlib.suppress(InputError):
+            home.with_placement(trial).arrangement()
+            placed = trial
+    return placed
+
+
+@contextlib.contextmanager
+def _watchdog() -> Iterator[None]:
+    """Break off what does not end; only in a main thread."""
+
+    def hung(number: int, frame: FrameType | None) -> None:
+        raise HungError(f"no end after {LONGEST_S:g} s")
+
+    before = signal.signal(signal.SIGALRM, hung)
+    signal.setitimer(signal.ITIMER_REAL, LONGEST_S * MOST_MISSIONS)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)

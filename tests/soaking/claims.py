@@ -1,0 +1,136 @@
+"""Whether what the robot says is so, by the truth of the simulator."""
+
+import re
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from executive.events import Ended, StopRequested
+from executive.interfaces import SimulatedHome
+from executive.records import EventTaken, Record, Tick
+from executive.text import printable
+from executive.types import FLOOR, Goal, LookAt, Saw, Succeeded
+from logs.recorder import Stamp
+
+NAME = r"(?P<thing>[a-z][a-z0-9_]*)"
+PLACE = r"(?P<place>[a-z][a-z0-9_]*)"
+NOT_FOUND = re.compile(r"I did not find the (?P<thing>\w+) at (?P<places>\w+(?:, \w+)*)")
+BY_THE_PERSON = "delivery"
+
+
+@dataclass
+class Notes:
+    """A sink that keeps what the questions below are asked of, in order."""
+
+    records: list[Record] = field(default_factory=list)
+    walls_ns: list[int] = field(default_factory=list)
+
+    def write(self, stamp: Stamp, record: Record) -> None:
+        if isinstance(record, EventTaken | Tick):
+            self.records.append(record)
+            self.walls_ns.append(stamp.wall_ns)
+
+    def flush(self) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+
+class Witness:
+    """Hears what the robot says, and knows the truth at that moment."""
+
+    def __init__(self, world: SimulatedHome, names: Iterable[str]) -> None:
+        self._world = world
+        self._names = tuple(names)
+        self.said: list[str] = []
+        self.wrong: list[str] = []
+        self.was_at: defaultdict[str, set[str]] = defaultdict(set)
+        """Where each thing has been so far in this mission."""
+
+    def begin(self) -> None:
+        """A mission begins."""
+        self.said.clear()
+        self.wrong.clear()
+        self.was_at.clear()
+        self.look()
+
+    def look(self) -> None:
+        """Note where everything is."""
+        for name in self._names:
+            if place := self._world.resting_place(name):
+                self.was_at[name].add(place)
+
+    def heard(self, text: str) -> None:
+        """Judge a sentence of the robot's."""
+        self.look()
+        self.said.append(text)
+        if not text.strip() or text != printable(text):
+            self.wrong.append(f"no sentence for a terminal: {text!r}")
+        self.wrong += [f"said {text!r}, but {but}" for but in self._untrue(text)]
+
+    def _untrue(self, text: str) -> Iterator[str]:
+        """What of a sentence is not so now."""
+        held = self._world.held
+        if re.search(r"\bNone\b|: \.|: *$|\(\)|''", text):
+            yield "that is no sentence"
+        for pattern in (rf"I took the {NAME} from", rf"[Ii] hold the {NAME}"):
+            for match in re.finditer(pattern, text):
+                if match["thing"] != held:
+                    yield f"it holds {held}"
+        for match in re.finditer(rf"my hand holds the {NAME}", text):
+            if match["thing"] not in (held, "something"):
+                yield f"it holds {held}"
+        if "my hand is empty" in text and held:
+            yield f"it holds {held}"
+        if match := re.match(rf"Here is the {NAME}", text):
+            place = self._world.resting_place(match["thing"])
+            if place != BY_THE_PERSON:
+                yield f"it is at {place}"
+        if match := re.match(rf"The {NAME} is here already", text):
+            place = self._world.resting_place(match["thing"])
+            if place != BY_THE_PERSON:
+                yield f"it is at {place}"
+        if match := re.match(rf"The {NAME} is at {PLACE}\.", text):
+            been = self.was_at[match["thing"]]
+            if match["place"] not in been:
+                yield f"it was only at {sorted(been)}"
+
+
+def looked_at(
+    records: Iterable[Record], goals: Mapping[int, Goal], views: Callable[[str], int]
+) -> frozenset[str]:
+    """The places of which every view was seen, by a picture after the head was there."""
+    seen: defaultdict[str, set[int]] = defaultdict(set)
+    aim: LookAt | None = None
+    for record in records:
+        if not (isinstance(record, EventTaken) and isinstance(record.event, Ended)):
+            continue
+        result, goal = record.event.result, goals.get(record.event.request)
+        if goal is not None:
+            aim = goal if isinstance(goal, LookAt) and isinstance(result, Succeeded) else None
+        elif isinstance(result, Saw) and aim is not None:
+            seen[aim.place].add(aim.view)
+    return frozenset(
+        place for place, looks in seen.items() if place == FLOOR or len(looks) >= views(place)
+    )
+
+
+def false_searches(texts: Iterable[str], seen: frozenset[str]) -> Iterator[str]:
+    """Places at which the robot says that it did not find a thing, though it did not look there."""
+    for text in texts:
+        for match in NOT_FOUND.finditer(text):
+            for place in match["places"].split(", "):
+                if place not in seen:
+                    yield f"said {match[0]!r}, but did not see all of {place}"
+
+
+def ticked_after_stop(records: Iterable[Record]) -> bool:
+    """Whether the tree went on although somebody said stop."""
+    stopped = False
+    for record in records:
+        if isinstance(record, EventTaken) and isinstance(record.event, StopRequested):
+            stopped = True
+        elif isinstance(record, Tick) and stopped:
+            return True
+    return False
