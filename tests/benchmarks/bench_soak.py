@@ -1,31 +1,49 @@
 """Missions in which everything may go wrong: `python tests/benchmarks/bench_soak.py`.
 
 Random missions in the instant world, drawn from seeds: faults of the world, collaborators that
-raise, hang and talk nonsense, odd people, models that write garbage, stops at random moments. After
-each the invariants of tests/soaking are checked; what is violated is printed with the seed, and
-`--missions 1 --seed SEED` runs that household again.
+raise, hang and talk nonsense, odd people, models that write garbage, stops at random moments. With
+`--physics` they run in PyBullet, and with `--stops` the whole program is started and told to stop.
+After each the invariants of tests/soaking are checked. What is violated is printed with its seed:
+`--seed SEED --missions 1` runs that household again.
 """
 
 import argparse
 import sys
 import tempfile
+from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from progress import measure
 from soaking.case import missions_of, run_household
+from soaking.physics import run_in_physics
+from soaking.stops import stop_once
+
+Row = dict[str, Any]
 
 
-def run(trial: dict[str, Any]) -> dict[str, Any]:
-    """Run one household."""
+def run_instant(trial: Row) -> Row:
+    """Run one household in the instant world."""
     return {"violations": run_household(trial["seed"], trial["missions"])}
 
 
-def households(missions: int, seed: int) -> list[dict[str, Any]]:
+def run_physics(trial: Row) -> Row:
+    """Run one mission in PyBullet."""
+    return {"violations": run_in_physics(trial["seed"])}
+
+
+def run_stop(trial: Row) -> Row:
+    """Start the program and stop it."""
+    return asdict(stop_once(trial["seed"]))
+
+
+def households(missions: int, seed: int) -> list[Row]:
     """As many households from this seed on as it takes for so many missions."""
-    trials: list[dict[str, Any]] = []
+    trials: list[Row] = []
     while missions > 0:
         some = min(missions, missions_of(seed))
         trials.append({"seed": seed, "missions": some})
@@ -40,14 +58,27 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0, metavar="S")
     parser.add_argument("--workers", type=int, default=2, metavar="N")
     parser.add_argument("--journal", type=Path, metavar="FILE", help="to go on where it was")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--physics", action="store_true", help="in PyBullet")
+    where.add_argument("--stops", action="store_true", help="the program in PyBullet, stopped")
     options = parser.parse_args()
+    trials = [
+        {"seed": seed, "missions": 1}
+        for seed in range(options.seed, options.seed + options.missions)
+    ]
+    run: Callable[[Row], Row] = run_stop if options.stops else run_physics
+    if not (options.physics or options.stops):
+        trials, run = households(options.missions, options.seed), run_instant
     with tempfile.TemporaryDirectory() as folder:
         journal = options.journal or Path(folder) / "journal.jsonl"
-        trials = households(options.missions, options.seed)
         rows = measure(trials, run, journal, workers=options.workers)
     violations = [line for row in rows for line in row["violations"]]
     for line in violations:
         print(line)
+    if options.stops:
+        for what in ("rest_s", "exit_s"):
+            times = [row[what] for row in rows if row[what] is not None]
+            print(f"{what}: median {median(times):.2f}, worst {max(times):.2f}, of {len(times)}")
     done = sum(row["missions"] for row in rows)
     print(f"{done} missions, {len(violations)} violations")
     return 1 if violations or done < options.missions else 0

@@ -6,7 +6,7 @@ import json
 import random
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -25,6 +25,7 @@ from executive.text import printable
 from executive.types import FLOOR, Kind, Outcome, Status
 from logs.reader import Run
 from sim.faults import parse_faults
+from sim.floorplan import doors_between
 from sim.generation import generate_home
 from sim.home import Home, load_home
 from soaking.chaos import Chaos, ChaosEyes, ChaosModel, ChaosRobot, ChaosSink
@@ -36,6 +37,8 @@ LONGEST_S = 60.0
 MOST_ACTIONS = 400
 """No mission does more than this; each has a deadline, so that gives the longest mission."""
 MOST_MISSIONS = 4
+INSTANT = ("moved", "blocked", "slip", "drop", "stuck", "blind", "noise", "miss")
+"""Faults of the instant world that leave the truth to be told."""
 SOMETHING = "something"
 """What the robot calls what it feels in its hand and does not know."""
 
@@ -63,9 +66,9 @@ def missions_of(seed: int) -> int:
 
 
 def run_household(seed: int, at_most: int = MOST_MISSIONS) -> list[str]:
-    """Run the missions of a seed's household; what was violated, a line each."""
-    with TemporaryDirectory() as folder, _watchdog():
-        return [f"seed {seed}: {line}" for line in _Soak(seed, at_most, Path(folder)).run()]
+    """Run the missions of a seed's household in the instant world; a line each violation."""
+    with TemporaryDirectory() as folder, watchdog():
+        return [f"seed {seed}: {line}" for line in Soak(seed, at_most, Path(folder)).run()]
 
 
 @cache
@@ -83,21 +86,29 @@ def _homes() -> tuple[str, ...]:
 _kept = TemporaryDirectory()
 
 
-class _Soak:
+class Soak:
     """The missions of one household, one after the other."""
 
     def __init__(self, seed: int, at_most: int, runs: Path) -> None:
         drawn = Household(seed)
         chance = self._chance = drawn.chance
         self._missions = min(drawn.missions, at_most)
-        self._chaos = Chaos(
+        self._chaos = self._draw_chaos(chance)
+        self._settings = self._draw_settings(chance, runs)
+        self._home = load_home(self._settings.home)
+        self._inbox = Inbox()
+
+    def _draw_chaos(self, chance: random.Random) -> Chaos:
+        return Chaos(
             chance,
             rate=chance.choice((0.0, 0.0, 0.02, 0.1, 0.3)),
             stops_at=[chance.randint(1, 60) for _ in range(chance.choice((0, 0, 0, 1, 2, 5)))],
         )
+
+    def _draw_settings(self, chance: random.Random, runs: Path) -> Settings:
         home_name = chance.choice(_homes())
-        self._home = load_home(home_name)
-        self._settings = Settings(
+        home = load_home(home_name)
+        return Settings(
             home=home_name,
             world="fake",
             runs=runs,
@@ -107,13 +118,12 @@ class _Soak:
             defaults=chance.random() < 0.5,
             elicit=chance.choice(("rank", "generate")),
             learn=chance.random() < 0.8,
-            fault=tuple(_faults(chance, self._home)),
-            place=_placement(chance, self._home),
+            fault=tuple(faults(chance, home, INSTANT)),
+            place=_placement(chance, home),
             action_timeout_s=chance.choice((1.0, 5.0, 120.0, 120.0)),
             answer_timeout_s=chance.choice((5.0, 120.0)),
             llm_timeout_s=chance.choice((5.0, 60.0)),
         )
-        self._inbox = Inbox()
 
     def run(self) -> Iterator[str]:
         threads = threading.active_count()
@@ -200,7 +210,7 @@ class _Soak:
             yield f"it took {outcome.mission_time_s} s"
         if ticked_after_stop(records):
             yield "ticked after a stop"
-        seen = looked_at(records, dict(self._robot.goals), lambda place: 1)
+        seen = looked_at(records, dict(self._robot.goals), self._session.robot.views)
         yield from false_searches((*self._witness.said, reason), seen)
         if outcome.status == Status.DONE:
             yield from self._not_done(outcome)
@@ -223,16 +233,17 @@ class _Soak:
                     yield f"found at {outcome.location}, where it never was"
 
     def _at_rest(self) -> Iterator[str]:
+        yield from self._body_at_rest()
+        if self._inbox._open:
+            yield f"requests {sorted(self._inbox._open)} are still open"
+        if any(isinstance(event, StopRequested) for event in self._inbox.take_all()):
+            yield "a stop was not heard"
+
+    def _body_at_rest(self) -> Iterator[str]:
         struck = self._chaos.struck
         could_halt = not struck & {"start", "robot hangs", "robot fails", "cancel"}
         if self._session.world.busy and (could_halt or not self._robot.halts):
             yield f"not at rest, {self._robot.halts} halts"
-        if self._inbox._open:
-            yield f"requests {sorted(self._inbox._open)} are still open"
-        if isinstance(self._inbox.has_events, bool) and self._inbox.has_events:
-            left = self._inbox.take_all()
-            if any(isinstance(event, StopRequested) for event in left):
-                yield "a stop was not heard"
 
     def _of_the_hand(self) -> Iterator[str]:
         believed, held = self._session._in_hand, self._session.world.held
@@ -276,15 +287,15 @@ def _whole(folder: Path, outcome: Outcome) -> Iterator[str]:
         yield f"the replay is not the same: {printable(replay_text(again))}"
 
 
-def _faults(chance: random.Random, home: Home) -> Iterator[str]:
-    """Orders of what goes wrong in the world."""
-    doors = [f for f in ("kitchen-lobby", "bedroom-lobby", "living_room-lobby")]
+def faults(chance: random.Random, home: Home, kinds: Sequence[str]) -> Iterator[str]:
+    """Orders of what goes wrong in the world, as `--fault` has them."""
+    doors = ["-".join(rooms) for rooms in doors_between(home.rooms, home.doors).values()]
     things, places = sorted(home.objects), [place.name for place in home.places()]
-    kinds = ("moved", "blocked", "slip", "drop", "stuck", "blind", "noise", "miss")
     for kind in chance.sample(kinds, chance.choice((0, 0, 1, 2, 3))):
         value = {
             "moved": f"={chance.choice(things)}:{chance.choice(places)}",
             "blocked": f"={chance.choice(doors)}",
+            "crate": f"={chance.uniform(0, 8):.1f},{chance.uniform(0, 8):.1f}",
             "slip": f"={chance.choice((0.3, 1))}",
             "stuck": f"=joint{chance.randint(1, 7)}",
             "noise": "=0.02",
@@ -312,7 +323,7 @@ def _placement(chance: random.Random, home: Home) -> dict[str, str]:
 
 
 @contextlib.contextmanager
-def _watchdog() -> Iterator[None]:
+def watchdog() -> Iterator[None]:
     """Break off what does not end; only in a main thread."""
 
     def hung(number: int, frame: FrameType | None) -> None:
