@@ -8,6 +8,8 @@ from executive.interfaces import World
 
 PACE_S = 0.02
 """While a person or a model thinks and the robot still moves, the world catches up this often."""
+HANGING_S = 60.0
+"""What is computed for longer than this (real seconds) hangs: from then on, time passes."""
 
 
 class SimulatedClock:
@@ -30,10 +32,12 @@ class SimulatedClock:
     def wait(self, deadline: float | None) -> None:
         """Let time pass until an event is in the inbox or the deadline is reached.
 
+        While something is computed, time stands still.
+
         Raises:
             ExecutiveError: if nothing is under way that could ever end the wait.
         """
-        while not self._inbox.has_events and (deadline is None or self._now < deadline):
+        while self._goes_on(deadline):
             left = float("inf") if deadline is None else deadline - self._now
             if self._inbox.awaits_real:
                 self._wait_in_real_time(left)
@@ -44,12 +48,20 @@ class SimulatedClock:
             else:
                 raise ExecutiveError("the mission waits for nothing: no request, no deadline")
 
+    def _goes_on(self, deadline: float | None) -> bool:
+        """Have all computed first; whether nothing has come of it, nor of anything else."""
+        while not self._inbox.await_computed(HANGING_S):
+            self._now += HANGING_S
+            if deadline is not None and self._now >= deadline:
+                return False
+        return not self._inbox.has_events and (deadline is None or self._now < deadline)
+
     def _wait_in_real_time(self, left: float) -> None:
         longest = min(left, PACE_S) if self._world.busy else left
         began = time.monotonic()
         self._inbox.wait(None if longest == float("inf") else longest)
         passed = time.monotonic() - began
         caught_up = 0.0
-        while self._world.busy and caught_up < passed:
+        while self._world.busy and caught_up < passed and not self._inbox.computes:
             caught_up += self._world.advance(passed - caught_up)
         self._now += passed

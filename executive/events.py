@@ -5,11 +5,18 @@ elsewhere, and end as an `Ended` event. The Inbox is the only thing that threads
 """
 
 import queue
+import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, TypeVar
 
+from executive.computing import Computation, Worker
 from executive.text import writable
 from executive.types import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +65,15 @@ class Broke:
 Event = Started | Ended | DeadlinePassed | StopRequested | HandFelt | Broke
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Computed:
+    """Not an event: nobody ticks for it. Its sequel may post one."""
+
+    computation: Computation[Any]
+
+
 class Inbox:
-    """Events on their way to the thread that ticks.
+    """Events on their way to the thread that ticks, and what is computed for it meanwhile.
 
     `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant); the
     rest belongs to the thread that ticks.
@@ -67,10 +81,12 @@ class Inbox:
 
     def __init__(self) -> None:
         """Make an empty box with nothing under way."""
-        self._queue: queue.SimpleQueue[Event] = queue.SimpleQueue()
+        self._queue: queue.SimpleQueue[Event | _Computed] = queue.SimpleQueue()
         self._taken: deque[Event] = deque()
         self._open: dict[int, bool] = {}
         self._last = 0
+        self._ready: deque[tuple[Worker, Computation[Any]]] = deque()
+        self._wanted: dict[Computation[Any], tuple[Callable[[], None], int | None]] = {}
 
     def open(self, *, real: bool = False) -> int:
         """Number a new request; `real` if a person or a model, not the simulator, will end it."""
@@ -79,8 +95,13 @@ class Inbox:
         return self._last
 
     def drop(self, request: int) -> None:
-        """Forget a cancelled request: its end, should it still come, is not delivered."""
+        """Forget a cancelled request: its end, should it still come, is not delivered.
+
+        What is computed for it is given up.
+        """
         self._open.pop(request, None)
+        for computation in [c for c, (_, of) in self._wanted.items() if of == request]:
+            self.give_up(computation)
 
     def drop_all(self) -> None:
         """Forget every request that is under way: what was asked for is not wanted any more."""
@@ -119,14 +140,55 @@ class Inbox:
         """Whether this request was neither ended (and its end taken) nor dropped."""
         return request in self._open
 
+    def compute(
+        self,
+        worker: Worker,
+        work: Callable[[], T],
+        sequel: Callable[[Computation[T]], None],
+        request: int | None = None,
+    ) -> Computation[T]:
+        """Have something computed, while mission time stands still.
+
+        Args:
+            worker: who does it, as soon as the ticking thread sleeps.
+            work: what.
+            sequel: done by the ticking thread when it wakes.
+            request: for which it is; where that is dropped, there is no sequel.
+        """
+        computation = Computation(work)
+        self._ready.append((worker, computation))
+        self._wanted[computation] = (partial(sequel, computation), request)
+        return computation
+
+    def give_up(self, computation: Computation[T]) -> None:
+        """Nobody waits for it any more: there will be no sequel."""
+        computation.given_up = True
+        self._wanted.pop(computation, None)
+
+    @property
+    def computes(self) -> bool:
+        """Whether something is computed that is still wanted."""
+        self._collect()
+        return bool(self._wanted)
+
+    def await_computed(self, seconds: float) -> bool:
+        """Sleep until all is computed or someone says stop; False if the real time is up first.
+
+        Other events wait: which of them would come before the end is the machine's chance.
+        """
+        latest = time.monotonic() + seconds
+        while self.computes and not self._stop_waits:
+            left = latest - time.monotonic()
+            if left <= 0:
+                return False
+            self._sleep(left)
+        return True
+
     def wait(self, seconds: float | None) -> bool:
         """Sleep until an event is there or the time (real seconds; None: no limit) is up."""
         if self._collect():
             return True
-        try:
-            self._taken.append(self._queue.get(timeout=seconds))
-        except queue.Empty:
-            return False
+        self._sleep(seconds)
         return self._collect()
 
     @property
@@ -154,13 +216,35 @@ class Inbox:
         """Move what was posted to the taken side, less the ends of dropped requests."""
         while True:
             try:
-                self._taken.append(self._queue.get_nowait())
+                self._receive(self._queue.get_nowait())
             except queue.Empty:
                 break
         self._taken = deque(
             e for e in self._taken if not isinstance(e, Ended) or e.request in self._open
         )
         return bool(self._taken)
+
+    def _sleep(self, seconds: float | None) -> None:
+        """Have computed what is ready, until something comes or the time is up."""
+        while self._ready:
+            worker, computation = self._ready.popleft()
+            if computation in self._wanted:
+                worker.start(computation, partial(self._queue.put, _Computed(computation)))
+        try:
+            self._receive(self._queue.get(timeout=seconds))
+        except queue.Empty:
+            return
+
+    def _receive(self, item: Event | _Computed) -> None:
+        if not isinstance(item, _Computed):
+            self._taken.append(item)
+        elif wanted := self._wanted.pop(item.computation, None):
+            item.computation.settle()
+            wanted[0]()
+
+    @property
+    def _stop_waits(self) -> bool:
+        return any(isinstance(event, StopRequested) for event in self._taken)
 
 
 def _fit(result: Result) -> Result:

@@ -1,16 +1,23 @@
 """From pictures to things in the map: pure functions over arrays, and the Eyes that use them."""
 
+import logging
+import traceback
 from dataclasses import replace
+from functools import partial
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from executive.computing import Computation, Worker
 from executive.events import Inbox
 from executive.interfaces import Camera, Detector, Recorder
-from executive.records import Picture, Seen
+from executive.records import Note, Picture, Seen
+from executive.text import printable
 from executive.types import Box, Detection, Failed, Frame, Intrinsics, Pose, Saw
+
+log = logging.getLogger(__name__)
 
 _EDGE_PIXELS = 3
 """A detection this near to the edge of the picture may go on beyond it."""
@@ -19,7 +26,7 @@ _EDGE_PIXELS = 3
 class Eyes:
     """A camera and a detector: takes a picture, recognises, and finds where things are by depth.
 
-    It all happens within `see` (some tens of milliseconds), so that nothing moves in between.
+    The picture is taken within `see`. What takes longer is computed meanwhile nothing moves.
     """
 
     def __init__(
@@ -30,23 +37,47 @@ class Eyes:
         self._detector = detector
         self._inbox = inbox
         self._recorder = recorder
+        self._worker = Worker("eyes")
 
     def see(self) -> int:
-        """Take a picture and recognise; ends Saw, or Failed if the picture is wholly black."""
+        """Take a picture and recognise; ends Saw, or Failed if either did or all is black."""
         request = self._inbox.open()
-        frame = self._camera.capture()
+        try:
+            frame = self._camera.capture()
+        except Exception as error:
+            self._fail(request, "my camera failed", error)
+            return request
         self._recorder.record(Picture(frame))
         if not frame.color.any():
             self._inbox.end(request, Failed("my camera shows nothing"))
             return request
-        found = tuple(locate(d, frame) for d in self._detector.detect(frame))
-        self._recorder.record(Seen(frame.number, found))
-        self._inbox.end(request, Saw(frame.number, found))
+        say = partial(self._say, request, frame.number)
+        self._inbox.compute(self._worker, partial(self._recognise, frame), say, request)
         return request
 
     def cancel(self, request: int) -> None:
         """Forget the picture."""
         self._inbox.drop(request)
+
+    def _recognise(self, frame: Frame) -> tuple[Detection, ...]:
+        return tuple(locate(d, frame) for d in self._detector.detect(frame))
+
+    def _say(
+        self, request: int, number: int, computation: Computation[tuple[Detection, ...]]
+    ) -> None:
+        try:
+            found = computation.result()
+        except Exception as error:
+            self._fail(request, "my eyes failed", error)
+            return
+        self._recorder.record(Seen(number, found))
+        self._inbox.end(request, Saw(number, found))
+
+    def _fail(self, request: int, what: str, error: Exception) -> None:
+        log.debug(what, exc_info=error)
+        self._recorder.record(Note("error", "".join(traceback.format_exception(error))))
+        why = printable(f"{what}: {error}" if str(error) else f"{what}: {type(error).__name__}")
+        self._inbox.end(request, Failed(why))
 
 
 def locate(detection: Detection, frame: Frame) -> Detection:

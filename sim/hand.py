@@ -12,7 +12,6 @@ from sim.client import GRAVITY_M_S2
 from sim.grasps import HandPose
 from sim.hardware import Floats, Hardware
 from sim.objects import ObjectModel
-from sim.planning import PlanningWorld
 from sim.skill import CONTROL_S, CannotError, Skill
 
 _UNFELT_S = 0.2
@@ -66,41 +65,73 @@ class Held:
 
 
 class Hand:
-    """Keeps what it should hold apart from what it feels."""
+    """Keeps what it should hold in step with what it feels."""
 
-    def __init__(self, hardware: Hardware, planning: PlanningWorld) -> None:
+    def __init__(self, hardware: Hardware) -> None:
         """Begin with nothing in it."""
         self._hardware = hardware
-        self._planning = planning
-        self._unfelt_s = 0.0
+        self._unfelt_s = np.inf
+        self._around: Held | None = None
+        self._opened = False
         self.held: Held | None = None
-        """What should be in it, by all that was done."""
+        """What should be in it, by all that was done and felt."""
+
+    @property
+    def touches(self) -> bool:
+        """Whether both fingers touch a thing at this moment."""
+        return bool(self._hardware.touched())
 
     @property
     def holding(self) -> bool:
-        """Whether both fingers touch a thing, now."""
-        return bool(self._hardware.touched())
+        """Whether both fingers touch a thing; they may miss it for moments."""
+        return self.touches or self._unfelt_s <= _UNFELT_S
 
-    def take(self, held: Held | None) -> None:
-        """From now on this should be in the hand; the planner minds it."""
-        self.held, self._unfelt_s = held, 0.0
-        if held is None:
-            self._planning.carry((), None)
-        else:
-            self._planning.carry(held.model.shapes, HandPose(held.position, held.rotation))
+    @property
+    def wavers(self) -> bool:
+        """Whether they do miss it for a moment, or have lost it."""
+        return self.holding and not self.touches
+
+    def close_on(self, held: Held, force: float) -> None:
+        """Press with this force (newtons): what both fingers will feel is this."""
+        self._around, self._opened = held, False
+        self._hardware.squeeze(force)
+
+    def open(self, gap: float) -> None:
+        """Let go; a thing is in the hand as long as it is felt there."""
+        self._opened = True
+        self._hardware.open_fingers(gap)
+
+    def hold(self) -> None:
+        """Stop the fingers where they are; if they touch a thing, they go on pressing or opening.
+
+        So what is gripped stays gripped, and what is let go is let go.
+        """
+        if not self.holding:
+            self._hardware.open_fingers(self._hardware.gap)
+
+    def sense(self) -> None:
+        """Feel what is in the hand; called once per control period, whatever the robot does."""
+        if self.touches:
+            self._unfelt_s = 0.0
+            self.held = self.held or self._around
+            return
+        self._unfelt_s += CONTROL_S
+        if self._opened:
+            self.held = self._around = None
+
+    def settle(self) -> None:
+        """Believe the fingers: what they do not feel is not in the hand."""
+        if not self.holding:
+            self.held = None
 
     def feel(self) -> None:
-        """Feel whether what should be in the hand is there; called once per control period.
+        """Make sure that what should be in the hand is there; called once per control period.
 
         Raises:
             LostError: if it is not.
         """
-        if self.held is None:
-            return
-        self._unfelt_s = 0.0 if self.holding else self._unfelt_s + CONTROL_S
-        if self._unfelt_s > _UNFELT_S:
-            name = self.held.model.name
-            self.take(None)
+        if self.held is not None and not self.holding:
+            name, self.held = self.held.model.name, None
             raise LostError(f"the {name} fell from my hand")
 
     def keep(self, motion: Skill) -> Skill:

@@ -34,6 +34,9 @@ FINGER_FORCE = 70.0
 FINGER_TRAVEL = 0.04
 """How far each finger opens from the middle (metres)."""
 
+STILL = {"base": 5e-3, "arm": 2e-2, "fingers": 2e-3, "head": 2e-2}
+"""A part whose joints are all slower than this is at rest (m/s, rad/s)."""
+
 
 class Hardware:
     """A robot standing in a PyBullet world."""
@@ -119,7 +122,21 @@ class Hardware:
     @property
     def fingers_still(self) -> bool:
         """Whether neither finger moves any more."""
-        return bool(np.abs(self._states(self._fingers)[1]).max() < 2e-3)
+        return bool(np.abs(self._states(self._fingers)[1]).max() < STILL["fingers"])
+
+    @property
+    def gap(self) -> float:
+        """How far the pads are from each other (metres)."""
+        return float(self._states(self._fingers)[0].sum())
+
+    def moving(self) -> tuple[str, ...]:
+        """Which parts move: of base, arm, fingers and head."""
+        parts = (self._base, self._arm, self._fingers, self._head)
+        return tuple(
+            name
+            for (name, most), joints in zip(STILL.items(), parts, strict=True)
+            if np.abs(self._states(joints)[1]).max() > most
+        )
 
     @property
     def head_positions(self) -> Floats:

@@ -7,6 +7,7 @@ import numpy as np
 from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
+from executive.computing import still_wanted
 from sim.client import connect
 from sim.grasps import HandPose
 from sim.hardware import ARM, BASE, Floats, Hardware
@@ -110,6 +111,7 @@ class Kinematics:
         return HandPose(np.array(pose.position), Rotation.from_quat(pose.orientation))
 
     def _assume(self, base: Floats, arm: Floats) -> None:
+        still_wanted()
         values = np.concatenate((base, arm))
         self._client.resetJointStatesMultiDof(
             self._robot.body, self._moved, values[:, np.newaxis].tolist()

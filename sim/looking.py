@@ -27,6 +27,12 @@ def look_at(hardware: Hardware, target: Vector3) -> Skill:
         raise CannotError("I cannot turn my head that far")
 
 
+def hold_head(hardware: Hardware) -> None:
+    """Look on to where the head looks now."""
+    pan, tilt = (float(value) for value in hardware.head_positions)
+    hardware.command_head(pan, tilt)
+
+
 def aim(hardware: Hardware, target: Vector3) -> tuple[float, float]:
     """Pan and tilt (radians) that bring a point in `map` to the middle of the picture."""
     x, y, z = hardware.link_pose("camera_link").position

@@ -8,6 +8,7 @@ from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, partial
 from itertools import islice, product
+from typing import TypeVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -17,6 +18,7 @@ from sim.arm import SLOW, follow
 from sim.client import GRAVITY_M_S2
 from sim.clutter import over
 from sim.driving import CREEPING, drive
+from sim.furniture import Surface
 from sim.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, varied
 from sim.hand import Hand, Held, LostError
 from sim.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
@@ -34,7 +36,7 @@ from sim.reaching import (
     plan_retreat,
 )
 from sim.registration import locate_fallen
-from sim.skill import CannotError, Skill, attempt, pause, wait_until
+from sim.skill import CannotError, Skill, Thinker, attempt, pause, wait_until
 from sim.solids import sample_surface
 from sim.surroundings import Surroundings, support
 
@@ -63,6 +65,8 @@ _SETTLING_S = 0.3
 _UPRIGHT = 0.99
 """Cosine of the tilt up to which a hand points down."""
 _DOWN = np.array([0.0, 0.0, -1.0])
+_NOTHING: Floats = np.empty((0, 3))
+T = TypeVar("T")
 _CARRY_TURNS = (FOLDED[7] + np.pi / 2, FOLDED[7] - np.pi / 2)
 """Values of the last joint that put the long side of a held thing across the robot (radians)."""
 
@@ -77,14 +81,19 @@ class Manipulator:
         home: Home,
         models: Mapping[str, ObjectModel],
         scan: Callable[[], Floats],
+        thinker: Thinker,
     ) -> None:
-        """Use these parts; `scan` gives the points (n, 3) in `map` that the depth camera sees."""
+        """Use these parts; `scan` gives the points (n, 3) in `map` that the depth camera sees.
+
+        The planning world is used by what is computed, only: never by two threads at once.
+        """
         self._hardware = hardware
         self._planning = planning
         self._home = home
         self._models = models
         self._around = Surroundings(hardware, planning, home, scan)
-        self.hand = Hand(hardware, planning)
+        self._thinker = thinker
+        self.hand = Hand(hardware)
         self._missed: list[tuple[str, Rotation]] = []
 
     @property
@@ -118,12 +127,13 @@ class Manipulator:
         else:
             yield from self._look_at(np.median(points, axis=0))
         eye = np.asarray(self._hardware.link_pose("camera_link").position)
-        model, pose = locate_fallen(model, points, eye, support(piece, points))
-        grasp, approach = self._choose_grasp(model, pose, points, piece)
+        lies = partial(locate_fallen, model, points, eye, support(piece, points))
+        model, pose = yield from self._thinker.compute(lies)
+        grasp, approach = yield from self._choose_grasp(model, pose, points, piece)
         yield from self._creep(approach.stance)
         tare = yield from self.hand.weigh()
         failure = yield from attempt(self._grasp(model, pose, grasp, approach))
-        self._planning.forget_target()
+        yield from self._planned(self._planning.forget_target)
         yield from self.stow()
         failure = failure or (yield from attempt(self._check_lifted(model, tare)))
         if failure:
@@ -137,9 +147,9 @@ class Manipulator:
         Raises:
             CannotError: if nothing is held, or there is no free spot within reach.
         """
+        self.hand.settle()
         held = self.hand.held
-        if held is None or not self.hand.holding:
-            self.hand.take(None)
+        if held is None:
             raise CannotError("my hand is empty")
         piece = self._home.furniture_named(place)
         target, approach = yield from self._choose_spot(held, piece)
@@ -160,19 +170,20 @@ class Manipulator:
         """
         if self._is_folded:
             return
-        hardware, arm = self._hardware, self._hardware.arm_positions
-        base = hardware.base_pose
-        hand = self._planning.hand(base, arm)
-        for rise in RISES_M:
-            up = self._planning.line(base, arm, hand.shifted(-rise * _DOWN))
-            if up and self._planning.is_last_part_free(base, up[1:]):
-                yield from follow(hardware, up[1:], SLOW)
-                break
+        hardware = self._hardware
+        up = yield from self._planned(
+            partial(self._way_up, hardware.base_pose, hardware.arm_positions)
+        )
+        if up:
+            yield from follow(hardware, up, SLOW)
         for _ in range(_RETREATS):
-            yield from self._creep([plan_retreat(self._planning, hardware.base_pose)])
+            back = partial(plan_retreat, self._planning, hardware.base_pose)
+            yield from self._creep([(yield from self._planned(back))])
             arm, folded = hardware.arm_positions, FOLDED.copy()
             folded[7] = min(_CARRY_TURNS, key=lambda turn: abs(turn - arm[7]))
-            path = any_path(self._planning, hardware.base_pose, arm, folded)
+            path = yield from self._planned(
+                partial(any_path, self._planning, hardware.base_pose, arm, folded)
+            )
             if path is not None:
                 yield from follow(hardware, path)
                 return
@@ -203,10 +214,25 @@ class Manipulator:
 
     def _choose_grasp(
         self, model: ObjectModel, pose: Pose, points: Floats, piece: Furniture | None
-    ) -> tuple[Grasp, Approach]:
+    ) -> Generator[None, None, tuple[Grasp, Approach]]:
         """A grasp, and how to get to it. Approaches that missed before come last."""
-        self._around.mind_clutter(piece, np.concatenate((points, _surface(model, pose))))
-        stances = list(self._around.stances(piece, np.asarray(pose.position)))
+        seen = self._around.scan() if piece else _NOTHING
+        here = self._hardware.base_pose
+        chosen = partial(self._best_grasp, model, pose, points, piece, seen, here)
+        return (yield from self._planned(chosen))
+
+    def _best_grasp(
+        self,
+        model: ObjectModel,
+        pose: Pose,
+        points: Floats,
+        piece: Furniture | None,
+        seen: Floats,
+        here: Floats,
+    ) -> tuple[Grasp, Approach]:
+        target = np.concatenate((points, _surface(model, pose)))
+        self._around.mind_clutter(piece, target, seen)
+        stances = list(self._around.stances(piece, np.asarray(pose.position), here))
 
         @cache
         def grasps(facing: float, tilt: float) -> list[Grasp]:
@@ -231,19 +257,19 @@ class Manipulator:
 
     def _grasp(self, model: ObjectModel, pose: Pose, grasp: Grasp, approach: Approach) -> Skill:
         hardware, name = self._hardware, model.name
-        reach = self._reach(approach, f"I cannot reach the {name}")
-        hardware.open_fingers(grasp.gap)
+        reach = yield from self._reach(approach, f"I cannot reach the {name}")
+        self.hand.open(grasp.gap)
         yield from follow(hardware, reach.path)
         yield from follow(hardware, reach.last, SLOW)
-        hardware.squeeze(_grip_force(model, pose, reach.hand))
+        facing = float(hardware.base_pose[2])
+        held = Held.taken(model, pose, reach.hand, grasp.gap, facing)
+        self.hand.close_on(held, _grip_force(model, pose, reach.hand))
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
-        if not self.hand.holding:
-            hardware.open_fingers(grasp.gap)
+        if not self.hand.touches:
+            self.hand.open(grasp.gap)
             yield from follow(hardware, reach.way_back, SLOW)
             raise CannotError(f"I could not get hold of the {name}")
-        facing = float(hardware.base_pose[2])
-        self.hand.take(Held.taken(model, pose, reach.hand, grasp.gap, facing))
 
     def _check_lifted(self, model: ObjectModel, tare: float) -> Skill:
         """See whether the thing is in the hand: felt by the fingers, and by its weight."""
@@ -251,8 +277,9 @@ class Manipulator:
             weight = (yield from self.hand.weigh()) - tare
             if self.hand.is_lifted(model, weight):
                 return
-            self._hardware.open_fingers(2 * FINGER_TRAVEL)
-        self.hand.take(None)
+            self.hand.open(2 * FINGER_TRAVEL)
+            yield from wait_until(lambda: not self.hand.holding, _CLOSING_S)
+        self.hand.settle()
         raise CannotError(f"the {model.name} slipped from my fingers")
 
     # --- steps of putting down ---
@@ -266,36 +293,49 @@ class Manipulator:
             piece.surfaces(), self._home.view_targets(piece.name), strict=True
         ):
             yield from look_at(self._hardware, middle)
-            self._around.mind_clutter(piece, np.empty((0, 3)))
-            free = free_spots(piece, surface, held.model, self._around.scan(), held.turn)
-            spots = list(islice(free, _SPOTS_TRIED))
-            any_free = any_free or bool(spots)
-            options = partial(self._ways_to_spots, held, piece, spots)
-            chosen = choose_approach(self._planning, carrying, options)
+            seen, here = self._around.scan(), self._hardware.base_pose
+            found = partial(self._best_spot, held, piece, surface, carrying, seen, here)
+            chosen, is_free = yield from self._planned(found)
+            any_free = any_free or is_free
             if chosen:
                 return chosen
         clause = "I cannot reach a free spot on" if any_free else "there is no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
 
+    def _best_spot(
+        self,
+        held: Held,
+        piece: Furniture,
+        surface: Surface,
+        carrying: Floats,
+        seen: Floats,
+        here: Floats,
+    ) -> tuple[tuple[Pose, Approach] | None, bool]:
+        """A spot on a surface and how to get there, if there is one; and whether any is free."""
+        self._around.mind_clutter(piece, _NOTHING, seen)
+        spots = list(islice(free_spots(piece, surface, held.model, seen, held.turn), _SPOTS_TRIED))
+
+        ways = partial(self._ways_to_spots, held, piece, spots, here)
+        return choose_approach(self._planning, carrying, ways), bool(spots)
+
     def _ways_to_spots(
-        self, held: Held, piece: Furniture, spots: list[Pose]
+        self, held: Held, piece: Furniture, spots: list[Pose], here: Floats
     ) -> Iterator[tuple[Pose, Approach]]:
         for spot in spots:
             hand = held.hand_for(spot)
-            stances = self._around.stances(piece, np.asarray(spot.position))
+            stances = self._around.stances(piece, np.asarray(spot.position), here)
             for stance, way in product(stances, _ways_to_put(hand)):
                 yield spot, Approach(stance, (hand,), way)
 
     def _release(self, approach: Approach, gap: float) -> Skill:
         hardware = self._hardware
-        reach = self._reach(approach, "I cannot reach a free spot")
+        reach = yield from self._reach(approach, "I cannot reach a free spot")
         yield from self.hand.keep(follow(hardware, reach.path))
         weight = yield from self.hand.weigh()
         set_down = partial(self.hand.meets, weight)
         yield from self.hand.keep(follow(hardware, reach.last, SLOW, set_down))
-        hardware.open_fingers(gap)
-        self.hand.take(None)
-        yield from wait_until(lambda: not self.hand.holding, _CLOSING_S)
+        self.hand.open(gap)
+        yield from wait_until(lambda: not self.hand.touches, _CLOSING_S)
         yield from pause(_SETTLING_S)
         yield from follow(hardware, reach.way_back, SLOW)
 
@@ -310,10 +350,33 @@ class Manipulator:
 
     # --- helpers ---
 
-    def _reach(self, approach: Approach, otherwise: str) -> Reach:
+    def _planned(self, work: Callable[[], T]) -> Generator[None, None, T]:
+        """Have something planned, with what is in the hand."""
+        held = self.hand.held
+
+        def plan() -> T:
+            if held is None:
+                self._planning.carry((), None)
+            else:
+                self._planning.carry(held.model.shapes, HandPose(held.position, held.rotation))
+            return work()
+
+        return (yield from self._thinker.compute(plan))
+
+    def _way_up(self, base: Floats, arm: Floats) -> list[Floats] | None:
+        """Joints that raise the hand as far as there is room."""
+        hand = self._planning.hand(base, arm)
+        for rise in RISES_M:
+            up = self._planning.line(base, arm, hand.shifted(-rise * _DOWN))
+            if up and self._planning.is_last_part_free(base, up[1:]):
+                return up[1:]
+        return None
+
+    def _reach(self, approach: Approach, otherwise: str) -> Generator[None, None, Reach]:
         """The motion by an approach from where the robot stands now."""
         here = replace(approach, stance=[self._hardware.base_pose])
-        reach = plan_reach(self._planning, self._hardware.arm_positions, here)
+        plan = partial(plan_reach, self._planning, self._hardware.arm_positions, here)
+        reach = yield from self._planned(plan)
         if reach is None:
             raise CannotError(otherwise)
         return reach

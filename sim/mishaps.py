@@ -6,10 +6,12 @@ Everything here wraps a part that knows nothing of faults. Whatever strikes is r
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
 
+from executive.computing import afterwards
 from executive.interfaces import Camera, Detector, Recorder
 from executive.records import Mishap
 from executive.types import Detection, Frame
@@ -65,7 +67,7 @@ class Mishaps:
     def strike(self, fault: Fault, what: str) -> None:
         """Record what a fault does, and that it has struck."""
         self._struck.add(fault)
-        self._recorder.record(Mishap(str(fault), what))
+        afterwards(partial(self._recorder.record, Mishap(str(fault), what)))
 
 
 class FaultyCamera:

@@ -10,7 +10,7 @@ from sim.hardware import Floats, Hardware
 from sim.home import PlanarPose
 from sim.laser import Laser
 from sim.navigation import OccupancyGrid, Point, Unreachable, plan
-from sim.skill import Skill, pause
+from sim.skill import Skill, Thinker, pause
 
 SCAN_EVERY = 10
 """Control periods between turns of the laser: six a second."""
@@ -30,6 +30,7 @@ class Navigator:
         grid: OccupancyGrid,
         recorder: Recorder,
         now: Callable[[], float],
+        thinker: Thinker,
     ) -> None:
         """Use these parts; `now` gives the robot's time (s)."""
         self._hardware = hardware
@@ -37,6 +38,7 @@ class Navigator:
         self._costmap = Costmap(grid)
         self._recorder = recorder
         self._now = now
+        self._thinker = thinker
         self._periods = 0
 
     def go(self, goal: PlanarPose, limits: Limits) -> Skill:
@@ -60,14 +62,18 @@ class Navigator:
         """A way; if only what was seen leaves none, wait a little, have another look, try again."""
         self._look()
         try:
-            return plan(self._costmap.grid(), self._here, goal)
+            return (yield from self._way(goal))
         except Unreachable:
             if self._costmap.is_empty:
                 raise
         self._costmap.forget(self._now())
         yield from pause(PATIENCE_S)
         self._look()
-        return plan(self._costmap.grid(), self._here, goal)
+        return (yield from self._way(goal))
+
+    def _way(self, goal: Point) -> Generator[None, None, tuple[Point, ...]]:
+        here = self._here
+        return (yield from self._thinker.compute(lambda: plan(self._costmap.grid(), here, goal)))
 
     def _blocked(self, way: Floats) -> bool:
         """Look now and then whether something is in the way."""

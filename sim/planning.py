@@ -38,6 +38,7 @@ class PlanningWorld(Kinematics):
         self._target: set[int] = set()
         self._others: set[int] = set()
         self._load: int | None = None
+        self._shapes: Sequence[Shape] = ()
         self._in_hand: HandPose | None = None
 
     def assume_clutter(self, target: Sequence[Column], others: Sequence[Column]) -> None:
@@ -64,10 +65,13 @@ class PlanningWorld(Kinematics):
             shapes: in the thing's frame.
             in_hand: that frame as the hand sees it.
         """
+        self._in_hand = in_hand
+        if shapes == self._shapes:
+            return
         if self._load is not None:
             self._client.removeBody(self._load)
         self._load = create_body(self._client, shapes, Pose()) if shapes else None
-        self._in_hand = in_hand
+        self._shapes = shapes
 
     def is_last_part_free(self, base: Floats, joints: Sequence[Floats]) -> bool:
         """Whether the arm touches nothing but the target, slow and near to things as it may be."""

@@ -22,16 +22,16 @@ from sim.driving import CARRYING, FREE, brake
 from sim.hand import LostError
 from sim.hardware import Hardware
 from sim.home import FLOOR_VIEWS, PERSON, Home
-from sim.looking import look_at
+from sim.looking import hold_head, look_at
 from sim.manipulation import Manipulator
 from sim.navigation import Unreachable
 from sim.navigator import Navigator
-from sim.skill import CannotError, Skill, pause, wait_until
+from sim.skill import CannotError, Skill, Thinker, pause, wait_until
 
 FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
 """Where the robot looks for what fell to the floor: to the left of where it faces (radians)."""
-FINGERS_STOP_S = 1.0
-"""The longest that fingers move on when the robot comes to rest."""
+REST_S = 1.5
+"""The longest that anything moves on when the base stands."""
 ROLLING_S = 1.5
 """How long the robot waits for what fell to come to rest before it says so."""
 FLOOR_AHEAD_M = 0.9
@@ -48,6 +48,7 @@ class SimulatedRobot:
         manipulator: Manipulator,
         home: Home,
         inbox: Inbox,
+        thinker: Thinker,
     ) -> None:
         """Stand idle."""
         self._hardware = hardware
@@ -55,6 +56,7 @@ class SimulatedRobot:
         self._manipulator = manipulator
         self._home = home
         self._inbox = inbox
+        self._thinker = thinker
         self._skill: Skill | None = None
         self._request: int | None = None
         self._at: str | None = None
@@ -76,7 +78,7 @@ class SimulatedRobot:
             self._inbox.end(self._request, Failed("replaced by another goal"))
             hold(self._hardware)
         self._request = self._inbox.open()
-        self._skill = self._skill_for(goal)
+        self._pursue(self._skill_for(goal))
         return self._request
 
     def cancel(self, request: int) -> None:
@@ -84,7 +86,13 @@ class SimulatedRobot:
         self._inbox.drop(request)
         if request == self._request:
             self._request = None
-            self._skill = self._rest()
+            self._pursue(self._rest())
+
+    def close(self) -> None:
+        """Give up what it does and computes."""
+        if self._skill is not None:
+            self._skill.close()
+        self._thinker.close()
 
     # --- for the world ---
 
@@ -104,6 +112,15 @@ class SimulatedRobot:
         """Whether a skill is under way."""
         return self._skill is not None
 
+    @property
+    def computing(self) -> bool:
+        """Whether the skill waits for something to be computed; no time shall pass meanwhile."""
+        return self._thinker.busy
+
+    def feel(self) -> None:
+        """Feel what is in the hand; called once per control period, whether it acts or not."""
+        self._manipulator.hand.sense()
+
     def control(self) -> None:
         """Let the skill command the motors for the next control period."""
         if self._skill is None:
@@ -114,6 +131,11 @@ class SimulatedRobot:
             self._end(Succeeded())
         except CannotError as failure:
             self._end(Failed(str(failure), lost=isinstance(failure, LostError)))
+
+    def _pursue(self, skill: Skill) -> None:
+        if self._skill is not None:
+            self._skill.close()
+        self._skill = skill
 
     def _end(self, result: Succeeded | Failed) -> None:
         self._skill = None
@@ -178,9 +200,25 @@ class SimulatedRobot:
         yield from self._manipulator.put_down(place)
 
     def _rest(self) -> Skill:
+        """Come to rest with base, arm, fingers and head; what is in the hand stays there.
+
+        Raises:
+            CannotError: if something goes on moving.
+        """
         hold(self._hardware)
+        hold_head(self._hardware)
+        self._manipulator.hand.hold()
         yield from brake(self._hardware)
-        yield from wait_until(lambda: self._hardware.fingers_still, FINGERS_STOP_S)
+        at_rest = wait_until(lambda: not self._unrest(), REST_S)
+        if not (yield from at_rest):
+            raise CannotError(f"I cannot come to rest: my {' and my '.join(self._unrest())} moves")
+        self._manipulator.hand.settle()
+
+    def _unrest(self) -> tuple[str, ...]:
+        """What moves; while the fingers do not know what they hold, they are not at rest either."""
+        moving = self._hardware.moving()
+        wavers = self._manipulator.hand.wavers and "fingers" not in moving
+        return (*moving, "fingers") if wavers else moving
 
     # --- helpers ---
 

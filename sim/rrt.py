@@ -34,18 +34,48 @@ def connect(
     util.RNG.setSeed(_SEED)
     space = _box(lower, upper)
     setup = geometric.SimpleSetup(space)
-    setup.setStateValidityChecker(lambda state: bool(free(_point(state, len(start)))))
+    asked = _Asked(free, len(start))
+    setup.setStateValidityChecker(asked.is_free)
     setup.setStartAndGoalStates(_state(space, start), _state(space, goal))
     planner = geometric.RRTConnect(setup.getSpaceInformation())
     planner.setRange(_STEP)
     setup.setPlanner(planner)
     tries = iter(range(samples))
-    setup.solve(base.PlannerTerminationCondition(lambda: next(tries, None) is None))
+    over = base.PlannerTerminationCondition(lambda: asked.failed or next(tries, None) is None)
+    setup.solve(over)
+    if setup.haveExactSolutionPath():
+        setup.simplifySolution()
+    asked.check()
     if not setup.haveExactSolutionPath():
         return None
-    setup.simplifySolution()
     path = setup.getSolutionPath()
     return [_point(path.getState(i), len(start)) for i in range(path.getStateCount())]
+
+
+class _Asked:
+    """Answers OMPL; what is raised meanwhile must not go through its C++, but afterwards."""
+
+    def __init__(self, free: Free, size: int) -> None:
+        self._free = free
+        self._size = size
+        self._error: Exception | None = None
+
+    @property
+    def failed(self) -> bool:
+        return self._error is not None
+
+    def is_free(self, state: base.State) -> bool:
+        if self._error is None:
+            try:
+                return bool(self._free(_point(state, self._size)))
+            except Exception as error:
+                self._error = error
+        return False
+
+    def check(self) -> None:
+        """Raise what was raised."""
+        if self._error is not None:
+            raise self._error
 
 
 def _box(lower: Floats, upper: Floats) -> base.RealVectorStateSpace:

@@ -65,18 +65,25 @@ class Surroundings:
         closely: Floats = seen[near & rises & ~mine]
         return closely if len(closely) > len(points) else points
 
-    def mind_clutter(self, piece: Furniture | None, target: Floats) -> None:
-        """Plan around what stands on the furniture; the points (n, 3) are those of the target."""
+    def mind_clutter(self, piece: Furniture | None, target: Floats, seen: Floats) -> None:
+        """Plan around what stands on the furniture: `seen` less what is near `target` (both n, 3).
+
+        To be computed: see `Thinker`.
+        """
         near: list[Column] = []
         others: list[Column] = []
-        for column in columns(piece, self.scan()) if piece else ():
+        for column in columns(piece, seen) if piece else ():
             off = np.abs(target[:, :2] - (column.x, column.y)).max(axis=1)
             (near if (off < CELL_M).any() else others).append(column)
         self._planning.assume_clutter(near, others)
 
-    def stances(self, piece: Furniture | None, target: Floats) -> Iterator[list[Floats]]:
-        """Ways of the base to where a point on the furniture or the floor may be reached from."""
-        here = self._hardware.base_pose
+    def stances(
+        self, piece: Furniture | None, target: Floats, here: Floats
+    ) -> Iterator[list[Floats]]:
+        """Ways of the base from here to where a point on the furniture or the floor is in reach.
+
+        To be computed: see `Thinker`.
+        """
         for base in standing_poses(piece, target) if piece else floor_poses(here, target):
             way = plan_stance(self._planning, here, base)
             if way is not None:

@@ -28,7 +28,7 @@ from sim.objects import ObjectModel
 from sim.planning import PlanningWorld
 from sim.poltergeist import Poltergeist
 from sim.robot import SimulatedRobot
-from sim.skill import CONTROL_S
+from sim.skill import CONTROL_S, Thinker
 from sim.transforms import FrameTree
 
 COARSE_STEPS, FINE_STEPS = 2, 4
@@ -40,6 +40,8 @@ RESTING_M_S = 0.01
 """A thing slower than this is at rest."""
 SETTLING_PERIODS = 60
 """The longest that the world goes on after the robot is done, for what it let go of."""
+HANGING_S = 60.0
+"""The longest wait (real seconds) for what is computed, until someone may look at the clock."""
 _SHIFT_M, _TURN = 0.015, 0.2
 """How far the seed moves things from their spots (metres, radians)."""
 
@@ -92,9 +94,12 @@ class PhysicsWorld:
         self.detector = SimulatedDetector(camera, self._things)
         laser = Laser(self._client, self._hardware)
         grid = OccupancyGrid.from_home(home)
-        navigator = Navigator(self._hardware, laser, grid, recorder, self._time)
-        manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan)
-        self.robot = SimulatedRobot(self._hardware, navigator, manipulator, home, inbox)
+        thinker = Thinker(inbox)
+        navigator = Navigator(self._hardware, laser, grid, recorder, self._time, thinker)
+        manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan, thinker)
+        self.robot = SimulatedRobot(self._hardware, navigator, manipulator, home, inbox, thinker)
+        self._inbox = inbox
+        self._waits = False
         self._periods = 0
         self._steps = 0
         self._owed = 0.0
@@ -113,16 +118,27 @@ class PhysicsWorld:
         return self._periods - self._last_act < SETTLING_PERIODS and self._unsettled()
 
     def advance(self, at_most: float) -> float:
-        """Let at most one control period pass; physics follows in whole periods."""
+        """Let at most one control period pass; physics follows in whole periods.
+
+        No time passes while the robot has something computed: that is waited for, until a stop.
+        """
+        if self.robot.computing:
+            self._inbox.await_computed(HANGING_S)
+            if self.robot.computing:
+                return 0.0
         passed = min(at_most, CONTROL_S)
-        self._owed += passed
-        if self._owed > CONTROL_S - 1e-9:
-            self._owed -= CONTROL_S
+        if self._owed + passed > CONTROL_S - 1e-9:
+            self._control()
+            if self.robot.computing:
+                return 0.0
             self._pass_period()
+            self._owed -= CONTROL_S
+        self._owed += passed
         return passed
 
     def close(self) -> None:
         """Free the simulator."""
+        self.robot.close()
         self._planning.close()
         self._client.disconnect()
 
@@ -162,12 +178,19 @@ class PhysicsWorld:
 
     # --- physics ---
 
-    def _pass_period(self) -> None:
-        if self.robot.active:
-            self._last_act = self._periods
-        if self._poltergeist:
-            self._poltergeist.act()
+    def _control(self) -> None:
+        """Begin a control period, or go on with one in which the robot had something computed."""
+        if not self._waits:
+            if self.robot.active:
+                self._last_act = self._periods
+            if self._poltergeist:
+                self._poltergeist.act()
+            self.robot.feel()
         self.robot.control()
+        self._waits = self.robot.computing
+
+    def _pass_period(self) -> None:
+        """Let physics follow the motors."""
         if self.robot.handling:
             self._contacts.keep()
         self._use_steps(FINE_STEPS if self.robot.handling else COARSE_STEPS)
