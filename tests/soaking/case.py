@@ -108,6 +108,7 @@ class Soak:
     def _draw_settings(self, chance: random.Random, runs: Path) -> Settings:
         home_name = chance.choice(_homes())
         home = load_home(home_name)
+        placement = _placement(chance, home)
         return Settings(
             home=home_name,
             world="fake",
@@ -118,8 +119,8 @@ class Soak:
             defaults=chance.random() < 0.5,
             elicit=chance.choice(("rank", "generate")),
             learn=chance.random() < 0.8,
-            fault=tuple(faults(chance, home, INSTANT)),
-            place=_placement(chance, home),
+            fault=tuple(faults(chance, home.with_placement(placement), INSTANT)),
+            place=placement,
             action_timeout_s=chance.choice((1.0, 5.0, 120.0, 120.0)),
             answer_timeout_s=chance.choice((5.0, 120.0)),
             llm_timeout_s=chance.choice((5.0, 60.0)),
@@ -210,7 +211,7 @@ class Soak:
             yield f"it took {outcome.mission_time_s} s"
         if ticked_after_stop(records):
             yield "ticked after a stop"
-        seen = looked_at(records, dict(self._robot.goals), self._session.robot.views)
+        seen = looked_at(records, dict(self._robot.goals), self._robot.inner.views)
         yield from false_searches((*self._witness.said, reason), seen)
         if outcome.status == Status.DONE:
             yield from self._not_done(outcome)

@@ -99,7 +99,7 @@ class ChaosRobot:
 
     def __init__(self, robot: Robot, chaos: Chaos, inbox: Inbox) -> None:
         """Pass on to `robot` what is not struck."""
-        self._robot = robot
+        self.inner = robot
         self._chaos = chaos
         self._inbox = inbox
         self._hung: set[int] = set()
@@ -111,11 +111,11 @@ class ChaosRobot:
     @property
     def holding(self) -> bool:
         self._chaos.may_raise("holding")
-        return self._robot.holding
+        return self.inner.holding
 
     def views(self, place: str) -> int:
         self._chaos.may_raise("views")
-        return self._robot.views(place)
+        return self.inner.views(place)
 
     def start(self, goal: Goal) -> int:
         self._chaos.call(self._inbox)
@@ -133,7 +133,7 @@ class ChaosRobot:
         if chaos.strikes("robot fails"):
             inbox.end(request := inbox.open(), Failed(chaos.reason()))
             return request
-        request = self._robot.start(goal)
+        request = self.inner.start(goal)
         if chaos.strikes("robot ends what it never began"):
             inbox.end(request + 1000, Succeeded())
         return request
@@ -144,7 +144,7 @@ class ChaosRobot:
             self._inbox.end(request, Succeeded())
         self._chaos.may_raise("cancel")
         if request not in self._hung:
-            self._robot.cancel(request)
+            self.inner.cancel(request)
         else:
             self._inbox.drop(request)
 

@@ -14,7 +14,7 @@ from logs.recorder import Stamp
 
 NAME = r"(?P<thing>[a-z][a-z0-9_]*)"
 PLACE = r"(?P<place>[a-z][a-z0-9_]*)"
-NOT_FOUND = re.compile(r"I did not find the (?P<thing>\w+) at (?P<places>\w+(?:, \w+)*)")
+NOT_FOUND = re.compile(r"I did not find the (?P<thing>\w+) at (?P<places>\w+(?:, (?!and\b)\w+)*)")
 BY_THE_PERSON = "delivery"
 
 
