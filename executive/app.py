@@ -17,8 +17,9 @@ from typing import TextIO
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
 from executive.config import Settings
+from executive.control import control
 from executive.errors import InputError
-from executive.events import Ended, Inbox, Started, StopRequested
+from executive.events import THE_PERSON, Ended, Inbox, Started, StopRequested
 from executive.interfaces import (
     Advisor,
     Camera,
@@ -36,8 +37,9 @@ from executive.records import Finished
 from executive.rules import rules
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
-from executive.types import Answered, Outcome, Vector3
-from executive.user import Console, Nobody, Oracle
+from executive.text import one_line, too_long, writable
+from executive.types import Answered, Outcome, Status, Vector3
+from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
 from kb.advisor import PlaceAdvisor
 from kb.facts import FactStore
 from kb.llama import LlamaCpp, embedded_model
@@ -120,10 +122,19 @@ class Session:
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
         """Where the last mission left its recording."""
+        self.stopped_by = ""
+        """Who stopped the last mission; empty if nobody did."""
 
     def run(self, words: str) -> Outcome:
-        """One mission, from words to its outcome, with its own run folder if it is recorded."""
+        """One mission, from words to its outcome, with its own run folder if it is recorded.
+
+        Words that are too long are refused at once; words that say stop are a mission that is over.
+        """
         began = time.monotonic()
+        self.stopped_by = ""
+        if why := too_long(words):
+            return refused(why)
+        words = one_line(writable(words))
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
         self.folder = folder
@@ -145,9 +156,13 @@ class Session:
             recorder=self.recorder,
         )
         self.inbox.post(Started(words))
+        if control(words):
+            self.user.tell(NOTHING_TO_STOP)
+            self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
         try:
             executive.run()
             self.ticks = executive.ticks
+            self.stopped_by = situation.stopped_by
             self._in_hand = situation.in_hand
             outcome = situation.outcome(
                 mission_time_s=self.clock.now(),
@@ -162,22 +177,30 @@ class Session:
         return outcome
 
     def next_command(self) -> str | None:
-        """Wait for the person to type a command; None at the end of input.
+        """Wait for the person to type a command; None at the end of input, or of the session.
 
         Raises:
-            KeyboardInterrupt: if the person says stop instead.
+            KeyboardInterrupt: if a signal says stop.
         """
         assert isinstance(self.user, Console)
         request = self.user.listen()
         while True:
             self.clock.wait(None)
             events = self.inbox.take_all()
-            if any(isinstance(event, StopRequested) for event in events):
-                raise KeyboardInterrupt
+            command: str | None = None
             for event in events:
-                if isinstance(event, Ended) and event.request == request:
-                    answer = event.result
-                    return answer.text if isinstance(answer, Answered) else None
+                if isinstance(event, StopRequested):
+                    if event.by != THE_PERSON:
+                        raise KeyboardInterrupt
+                    command = None  # it was taken back at once
+                elif isinstance(event, Ended) and event.request == request:
+                    if not isinstance(event.result, Answered):
+                        return None
+                    command = event.result.text
+            if command is not None:
+                return command
+            if not self.inbox.is_open(request):
+                request = self.user.listen()
 
     def close(self) -> None:
         """Free the model, the simulator and the file of facts."""
@@ -230,6 +253,12 @@ class Session:
             lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
             lambda: RerunSink(folder / "mission.rrd", view=self._view),
         )
+
+
+def refused(why: str) -> Outcome:
+    """The outcome of words that are not read."""
+    situation = Situation(status=Status.NOT_UNDERSTOOD, reason=why)
+    return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
 
 
 def furniture_at(home: Home, point: Vector3) -> str | None:

@@ -26,6 +26,7 @@ from executive.metrics import ClassReport, Ints, Judged, by_class, confusion, ma
 from executive.perception import locate
 from executive.segmentation import segment
 from executive.shell import DONE, entry_point
+from executive.terminal import show_over
 from executive.types import Box, Detection, Frame
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.scenes import Scene, SceneMaker
@@ -226,7 +227,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     seeds, judgements = range(first, first + options.scenes), []
     for judgement in judge_all(path, seeds, options.workers):
         judgements.append(judgement)
-        print(f"\r{len(judgements)} of {options.scenes} scenes", end="", file=sys.stderr)
+        show_over(f"{len(judgements)} of {options.scenes} scenes")
     print(file=sys.stderr)
     print(report(judgements, milliseconds, path.name), end="")
     if options.picture:

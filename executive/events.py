@@ -8,7 +8,11 @@ import queue
 from collections import deque
 from dataclasses import dataclass
 
-from executive.types import Result
+from executive.control import control
+from executive.types import Answered, Result
+
+THE_PERSON = "the person"
+"""Who says stop in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +76,9 @@ class Inbox:
         self._queue.put(event)
 
     def end(self, request: int, result: Result) -> None:
-        """Post the end of a request."""
-        self.post(Ended(request, result))
+        """Post the end of a request; an answer that says stop is one, whoever was asked."""
+        stops = isinstance(result, Answered) and control(result.text)
+        self.post(StopRequested(THE_PERSON) if stops else Ended(request, result))
 
     @property
     def last(self) -> int:

@@ -66,7 +66,7 @@ class RecordedTime:
         for event in turn.events:
             match event:
                 case Ended(request, result):
-                    self._inbox.end(request - self._requests_before, result)
+                    self._inbox.post(Ended(request - self._requests_before, result))
                 case DeadlinePassed():
                     pass  # the executive finds its inbox empty, as it did then
                 case StopRequested(by):
