@@ -1,6 +1,6 @@
 """The door: `python -m executive "Bring a sugar_box"`."""
 
-from executive.shell import begin
+from executive.start import begin
 
 if __name__ == "__main__":
     begin()

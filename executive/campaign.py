@@ -1,5 +1,10 @@
 """Many missions: `python -m executive.campaign` runs the paper's experiment and tabulates it."""
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import json
 import os

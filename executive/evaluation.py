@@ -5,6 +5,11 @@ draws which things are taken for which. `--validation` takes other such scenes: 
 between networks, so that the ones that judge the chosen network have had no say.
 """
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import os
 import sys

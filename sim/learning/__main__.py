@@ -1,5 +1,10 @@
 """Teaching the detector: `frames` renders what it learns from, `train` makes an ONNX file of it."""
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import os
 import sys
