@@ -1,21 +1,44 @@
 """The door: `python -m executive "Bring a sugar_box"`."""
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import logging
+import os
 import signal
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.errors import ExecutiveError, InputError
-from executive.events import Inbox, StopRequested
-from executive.shell import BAD_INPUT, DONE, NOT_DONE, STOPPED, entry_point
-from executive.text import writable
+from executive.events import THE_PERSON, Inbox, StopRequested
+from executive.shell import (
+    BAD_INPUT,
+    DONE,
+    NOT_DONE,
+    STOPPED,
+    end_at_once,
+    entry_point,
+    handle_stop_signals,
+    leave,
+    leave_within,
+    on_stop_signals,
+)
+from executive.terminal import Terminal
+from executive.text import printable, too_long
 from executive.types import Outcome, Status
+from executive.user import STOPPING, Console
+
+if TYPE_CHECKING:
+    from executive.app import Session
 
 EXIT = {
     Status.DONE: DONE,
@@ -27,6 +50,11 @@ EXIT = {
 log = logging.getLogger(__name__)
 
 
+STDERR = 2
+CLOSED_S = 1.0
+"""How long the model and the simulator may take to be freed before the program ends without."""
+
+
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a mission, or one for each line that the person types; return the exit code."""
@@ -34,43 +62,44 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = options.pop("words")
     as_json, verbose = options.pop("json"), options.pop("verbose")
     view, gui = options.pop("view"), options.pop("gui")
-    logging.basicConfig(
-        level=[logging.WARNING, logging.INFO, logging.DEBUG][min(verbose, 2)],
-        format="%(levelname)s %(name)s: %(message)s",
-    )
-    inbox = Inbox()
-    stop_on_signals(inbox)
-    try:
-        settings = load_settings(**options)
-        if words is None and settings.user != "console":
-            raise InputError("command", "no words", 'say for example "Bring a sugar_box"')
-        return serve(settings, words, inbox, view=view, gui=gui, as_json=as_json)
-    except (ExecutiveError, BrokenPipeError):
-        raise
-    except Exception as error:
-        log.debug("internal error", exc_info=error)
-        print(f"internal error: {type(error).__name__}: {error} (-vv says where)", file=sys.stderr)
-        return NOT_DONE
+    with on_stop_signals(end_at_once):
+        log_to_stderr(verbose)
+        if isinstance(sys.stdout, Terminal):
+            sys.stdout.dispensable = True  # a mission does not end for want of a reader
+        try:
+            settings = load_settings(**options)
+            if words is None and settings.user != "console":
+                raise InputError("command", "no words", 'say for example "Bring a sugar_box"')
+            if why := too_long(words or ""):
+                raise InputError("command", why, "say it in fewer words")
+            return serve(settings, words, Inbox(), view=view, gui=gui, as_json=as_json)
+        except ExecutiveError:
+            raise
+        except Exception as error:
+            log.debug("internal error", exc_info=error)
+            what = printable(f"{type(error).__name__}: {error}")
+            print(f"internal error: {what} (-vv says where)", file=sys.stderr)
+            return NOT_DONE
 
 
 def serve(
     settings: Settings, words: str | None, inbox: Inbox, *, view: bool, gui: bool, as_json: bool
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
+    user = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
     from executive.app import Session  # heavy: not for --help or a wrong option
 
-    session = Session(settings, inbox=inbox, view=view, gui=gui)
+    session = Session(settings, inbox=inbox, user=user, view=view, gui=gui)
+    stop_on_signals(inbox)
+    code = STOPPED
     try:
-        if words is not None:
-            return conclude(session.run(writable(words)), as_json)
-        code = DONE
-        print("What can I do for you? (stop ends)", file=sys.stderr)
-        while (line := session.next_command()) is not None:
-            code = conclude(session.run(line), as_json)
-            if code == STOPPED:
-                break
+        if words is None:
+            code = converse(session, as_json)
+        else:
+            code = conclude(session.run(words), as_json)
         return code
     finally:
+        leave_within(CLOSED_S, code)
         session.close()
 
 
@@ -81,30 +110,64 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
 
         print(to_json(outcome), flush=True)
     else:
-        print(f"{outcome.status}: {outcome.reason}", flush=True)
+        visited = ", ".join(outcome.visited) or "nothing"
         print(
+            f"{outcome.status}: {printable(outcome.reason)}\n"
             f"  {outcome.mission_time_s:.1f} s of mission, {outcome.wall_time_s:.1f} s of yours; "
-            f"visited {', '.join(outcome.visited) or 'nothing'}; "
-            f"asked you {outcome.inquiries}, the model {outcome.llm_calls} times\n"
-            f"  recorded in {outcome.run_dir}",
+            f"visited {printable(visited)}; "
+            f"asked you {outcome.inquiries}, the model {outcome.llm_calls} times",
             flush=True,
         )
+        if outcome.run_dir:
+            print(f"  recorded in {printable(outcome.run_dir)}", flush=True)
+    if isinstance(sys.stdout, Terminal) and sys.stdout.lost:
+        print(f"warning: standard output is lost: {sys.stdout.lost}", file=sys.stderr)
     return EXIT[outcome.status]
 
 
+def converse(session: "Session", as_json: bool) -> int:
+    """Do what the person types, until they end the session; the exit code of the last command."""
+    code = DONE
+    print("What can I do for you? (stop ends what I do, quit ends the session)", file=sys.stderr)
+    while (line := session.next_command()) is not None:
+        code = conclude(session.run(line), as_json)
+        if session.stopped_by not in ("", THE_PERSON):
+            break
+        print("What can I do for you?", file=sys.stderr)
+    return code
+
+
 def stop_on_signals(inbox: Inbox) -> None:
-    """Ctrl-C and SIGTERM stop the robot; a second one ends the program at once."""
+    """Have a signal stop the robot, and answer at once; a second Ctrl-C ends the program."""
     asked = False
 
     def stop(number: int, frame: FrameType | None) -> None:
         nonlocal asked
-        if asked:
+        if asked and number == signal.SIGINT:
             raise KeyboardInterrupt
-        asked = True
-        inbox.post(StopRequested("Ctrl-C" if number == signal.SIGINT else "SIGTERM"))
+        if not asked:
+            asked = True
+            name = signal.Signals(number).name
+            inbox.post(StopRequested("Ctrl-C" if number == signal.SIGINT else name))
+            with suppress(OSError):  # not `print`, which the signal may have interrupted
+                os.write(STDERR, f"{STOPPING}\n".encode())
 
-    signal.signal(signal.SIGINT, stop)
-    signal.signal(signal.SIGTERM, stop)
+    handle_stop_signals(stop)
+
+
+class _OneLine(logging.Formatter):
+    """What a message quotes cannot forge another one."""
+
+    def formatMessage(self, record: logging.LogRecord) -> str:  # noqa: N802 - logging's name
+        return printable(super().formatMessage(record))
+
+
+def log_to_stderr(verbose: int) -> None:
+    """Show warnings, or more."""
+    handler = logging.StreamHandler()
+    handler.setFormatter(_OneLine("%(levelname)s %(name)s: %(message)s"))
+    level = [logging.WARNING, logging.INFO, logging.DEBUG][min(verbose, 2)]
+    logging.basicConfig(level=level, handlers=[handler])
 
 
 def parser() -> argparse.ArgumentParser:
@@ -190,4 +253,4 @@ class _Placement(argparse.Action):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main())

@@ -17,8 +17,9 @@ from typing import TextIO
 from executive.clock import SimulatedClock
 from executive.composition import OURS, Advise, Grounds, build_advisor, build_team
 from executive.config import Settings
+from executive.control import control
 from executive.errors import InputError
-from executive.events import Ended, Inbox, Started, StopRequested
+from executive.events import THE_PERSON, Ended, Inbox, Started, StopRequested
 from executive.guards import GuardedModel, in_words
 from executive.interfaces import (
     Camera,
@@ -35,8 +36,9 @@ from executive.perception import Eyes
 from executive.records import Finished
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
-from executive.types import Answered, Outcome
-from executive.user import Console, Nobody, Oracle
+from executive.text import one_line, too_long, writable
+from executive.types import Answered, Outcome, Status
+from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
 from kb.facts import FactStore
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
@@ -121,10 +123,13 @@ class Session:
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
         """Where the last mission left its recording."""
+        self.stopped_by = ""
+        """Who stopped the last mission; empty if nobody did."""
 
     def run(self, words: str) -> Outcome:
         """One mission, from words to its outcome, with its own run folder if it is recorded.
 
+        Words that are too long are refused at once; words that say stop are a mission that is over.
         Whatever fails, there is an outcome, and the robot is told to halt. What came in before the
         mission counts only if it was a stop; what comes after it does not count for the next one.
 
@@ -133,6 +138,10 @@ class Session:
             KeyboardInterrupt: if someone says stop by signal a second time.
         """
         began = time.monotonic()
+        self.stopped_by = ""
+        if why := too_long(words):
+            return refused(why)
+        words = one_line(writable(words))
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
         self.folder = folder
@@ -140,6 +149,7 @@ class Session:
         try:
             self._begin(folder, started)
             self._carry_out(situation)
+            self.stopped_by = situation.stopped_by
             outcome = situation.outcome(
                 mission_time_s=self.clock.now(),
                 wall_time_s=time.monotonic() - began,
@@ -192,26 +202,37 @@ class Session:
             recorder=self.recorder,
         )
         self.inbox.post(Started(situation.words))
+        if control(situation.words):
+            team.user.tell(NOTHING_TO_STOP)
+            self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
         executive.run()
         self.ticks = executive.ticks
 
     def next_command(self) -> str | None:
-        """Wait for the person to type a command; None at the end of input.
+        """Wait for the person to type a command; None at the end of input, or of the session.
 
         Raises:
-            KeyboardInterrupt: if the person says stop instead.
+            KeyboardInterrupt: if a signal says stop.
         """
         assert isinstance(self.user, Console)
         request = self.user.listen()
         while True:
             self.clock.wait(None)
             events = self.inbox.take_all()
-            if any(isinstance(event, StopRequested) for event in events):
-                raise KeyboardInterrupt
+            command: str | None = None
             for event in events:
-                if isinstance(event, Ended) and event.request == request:
-                    answer = event.result
-                    return answer.text if isinstance(answer, Answered) else None
+                if isinstance(event, StopRequested):
+                    if event.by != THE_PERSON:
+                        raise KeyboardInterrupt
+                    command = None  # it was taken back at once
+                elif isinstance(event, Ended) and event.request == request:
+                    if not isinstance(event.result, Answered):
+                        return None
+                    command = event.result.text
+            if command is not None:
+                return command
+            if not self.inbox.is_open(request):
+                request = self.user.listen()
 
     def close(self) -> None:
         """Free the model, the simulator and the file of facts."""
@@ -252,6 +273,18 @@ def files_used(settings: Settings) -> dict[str, bytes]:
         "home.toml": home_text(settings.home).encode(),
         **prompts,
     }
+
+
+def refused(why: str) -> Outcome:
+    """The outcome of words that are not read."""
+    situation = Situation(status=Status.NOT_UNDERSTOOD, reason=why)
+    return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
+
+
+def furniture_at(home: Home, point: Vector3) -> str | None:
+    """The furniture that has this point of `map` (metres) above its outline; None if none has."""
+    pieces = (*home.furniture, home.delivery)
+    return next((piece.name for piece in pieces if piece.is_below(point)), None)
 
 
 def working(*makers: Callable[[], Sink]) -> list[Sink]:

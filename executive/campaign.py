@@ -1,5 +1,10 @@
 """Many missions: `python -m executive.campaign` runs the paper's experiment and tabulates it."""
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import json
 import os
@@ -21,7 +26,8 @@ from executive.errors import InputError
 from executive.experiment import write_report
 from executive.journal import CRASHED, Entry, Journal, in_order, write_tables
 from executive.policies import POLICIES
-from executive.shell import DONE, STOPPED, entry_point
+from executive.shell import DONE, STOPPED, entry_point, on_stop_signals
+from executive.terminal import show_over
 
 OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
 """Settings that the campaign itself varies."""
@@ -65,15 +71,14 @@ class Campaign:
     def run(self) -> int:
         """Run what has not ended yet; the tables are written however it ends."""
         progress = Progress(len(self._keys), lambda: len(self._entries()))
-        before = signal.signal(signal.SIGINT, self._interrupt)
         try:
-            self._engine.run(self._households, self._journal, progress)
+            with on_stop_signals(self._interrupt):
+                self._engine.run(self._households, self._journal, progress)
             progress.show()
         except KeyboardInterrupt:
             print("\nstopped; the same command goes on from here", file=sys.stderr)
             return STOPPED
         finally:
-            signal.signal(signal.SIGINT, before)
             self._write()
         print(f"\n{self._out / 'report.md'}\n{self._out / 'report.html'}", file=sys.stderr)
         return DONE
@@ -84,9 +89,10 @@ class Campaign:
         return Here() if options.workers == 1 else Pool(options.workers, lambda: self._interrupted)
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
-        """Note Ctrl-C, too: the exception is lost if it is raised within a callback."""
-        self._interrupted = True
-        raise KeyboardInterrupt
+        """Note it, too: the exception is lost if it is raised within a callback."""
+        again, self._interrupted = self._interrupted, True
+        if number == signal.SIGINT or not again:  # a terminal that ends says so several times
+            raise KeyboardInterrupt
 
     def _entries(self) -> list[Entry]:
         """Missions of this campaign that have ended; the folder may hold those of others."""
@@ -131,7 +137,7 @@ class Progress:
         if now := done - self._before:
             left_s = (self._shown - self._began) / now * (self._total - done)
             line = f"{done} of {self._total} missions, {clock(left_s)} left"
-            print(f"\r{line:<60}", end="", file=self._out, flush=True)
+            show_over(line, self._out)
 
 
 def clock(seconds: float) -> str:

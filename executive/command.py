@@ -2,6 +2,7 @@
 
 import re
 
+from executive.text import LONGEST, one_line, too_long
 from executive.types import Command, Kind
 
 _VERBS: dict[str, Kind] = {
@@ -59,9 +60,10 @@ _COMMAND = re.compile(
     r"|(?:i'd like|i would like|i want|i need) you to )*"
     rf"(?P<verb>{_LONGEST_FIRST}) "
     r"(?:(?:me|us|please) )*(?:(?:a|an|the|my|some|any|one) )*"
-    r"(?P<target>(?!(?:a|an|the|me|us|my|some|any|one|on|up)$).+?)"
-    r"(?: (?:to|for) me| up| over| here| please| now)*"
+    r"(?P<target>.+)"
 )
+_NO_TARGET = frozenset({"a", "an", "the", "me", "us", "my", "some", "any", "one", "on", "up"})
+_ENDINGS = (" to me", " for me", " up", " over", " here", " please", " now")
 _DECLINES = re.compile(
     r"\b(?:don'?t|do not|dunno|no idea|not sure|nowhere|nothing|none|never ?mind|cannot|can'?t)\b"
     r"|^(?:no|nope|\?*)$"
@@ -80,9 +82,12 @@ class EnglishInterpreter:
     def command(self, words: str) -> Command | None:
         """The request in the words, or None if there is none."""
         match = _COMMAND.fullmatch(_plain(words))
-        if match is None:
+        if match is None or too_long(words):
             return None
-        return Command(_VERBS[match["verb"]], match["target"], words)
+        target = match["target"]
+        while target.endswith(_ENDINGS):
+            target = target.removesuffix(next(e for e in _ENDINGS if target.endswith(e)))
+        return None if target in _NO_TARGET else Command(_VERBS[match["verb"]], target, words)
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
@@ -98,5 +103,5 @@ class EnglishInterpreter:
 
 def _plain(words: str) -> str:
     """Lower case, one space between words, no punctuation at the ends or after a clause."""
-    text = re.sub(r"[,;:!.?]+(?=\s|$)", " ", words.lower().replace("’", "'"))
-    return " ".join(text.split())
+    text = one_line(words[:LONGEST]).lower().replace("’", "'")
+    return " ".join(filter(None, (word.rstrip(",;:!.?") for word in text.split())))

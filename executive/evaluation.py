@@ -5,6 +5,11 @@ draws which things are taken for which. `--validation` takes other such scenes: 
 between networks, so that the ones that judge the chosen network have had no say.
 """
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import os
 import sys
@@ -26,6 +31,7 @@ from executive.metrics import ClassReport, Ints, Judged, by_class, confusion, ma
 from executive.perception import locate
 from executive.segmentation import segment
 from executive.shell import DONE, entry_point
+from executive.terminal import show_over
 from executive.types import Box, Detection, Frame
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.scenes import Scene, SceneMaker
@@ -226,7 +232,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     seeds, judgements = range(first, first + options.scenes), []
     for judgement in judge_all(path, seeds, options.workers):
         judgements.append(judgement)
-        print(f"\r{len(judgements)} of {options.scenes} scenes", end="", file=sys.stderr)
+        show_over(f"{len(judgements)} of {options.scenes} scenes")
     print(file=sys.stderr)
     print(report(judgements, milliseconds, path.name), end="")
     if options.picture:

@@ -13,10 +13,14 @@ from functools import partial
 from typing import Any, TypeVar
 
 from executive.computing import Computation, Worker
+from executive.control import control
 from executive.text import writable
 from executive.types import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
 
 T = TypeVar("T")
+
+THE_PERSON = "the person"
+"""Who says stop in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,8 +122,13 @@ class Inbox:
         self._queue.put(event)
 
     def end(self, request: int, result: Result) -> None:
-        """Post the end of a request; what is no result is Failed."""
-        self.post(Ended(request, _fit(result)))
+        """Post the end of a request; what is no result is Failed.
+
+        An answer that says stop is a stop, whoever was asked.
+        """
+        result = _fit(result)
+        stops = isinstance(result, Answered) and control(result.text)
+        self.post(StopRequested(THE_PERSON) if stops else Ended(request, result))
 
     @property
     def last(self) -> int:

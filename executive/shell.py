@@ -1,15 +1,26 @@
-"""How every command of the project ends: its exit status, and a line that says why."""
+"""How every command of the project begins and ends: its signals, streams and exit status."""
 
+import errno
 import os
 import signal
 import sys
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from functools import wraps
-from typing import Protocol
+from types import FrameType
+from typing import Any, Protocol
 
 from executive.errors import ExecutiveError
+from executive.terminal import open_closed_files, standard_streams
+from executive.text import printable
 
 DONE, NOT_DONE, BAD_INPUT, STOPPED = 0, 1, 2, 130
+
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+"""Ctrl-C, `kill`, the end of the terminal, Ctrl-\\: all of them say stop."""
+
+Handler = Callable[[int, FrameType | None], None]
 
 
 class EntryPoint(Protocol):
@@ -20,27 +31,96 @@ class EntryPoint(Protocol):
         ...
 
 
+_is_program = False
+"""Whether the process is ours, and not one that calls a `main`."""
+
+
+def begin() -> None:
+    """What a program does first of all, before the imports that take long.
+
+    A signal that says stop ends it without a traceback, also while it imports.
+    """
+    global _is_program
+    _is_program = True
+    open_closed_files()
+    handle_stop_signals(end_at_once)
+
+
+def end_at_once(number: int, frame: FrameType | None) -> None:
+    """What a signal does while nothing is under way that must be ended in order."""
+    if _is_program:
+        os._exit(STOPPED)
+    raise KeyboardInterrupt
+
+
 def entry_point(main: Callable[[Sequence[str] | None], int]) -> EntryPoint:
-    """Have bad input told in a line, Ctrl-C end the command, and `| head` read what it likes."""
+    """Have bad input told in a line, signals end the command, and `| head` read what it likes."""
 
     @wraps(main)
     def ended(arguments: Sequence[str] | None = None) -> int:
-        try:
-            status = main(arguments)
-            sys.stdout.flush()
-            return status
-        except ExecutiveError as error:
-            print(f"error: {error}", file=sys.stderr)
-            return BAD_INPUT
-        except KeyboardInterrupt:
-            return STOPPED
-        except BrokenPipeError:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            return NOT_DONE
+        with standard_streams(), on_stop_signals(_interrupt):
+            try:
+                status = main(arguments)
+                sys.stdout.flush()
+                return status
+            except ExecutiveError as error:
+                print(f"error: {printable(error)}", file=sys.stderr)
+                return BAD_INPUT
+            except KeyboardInterrupt:
+                return STOPPED
+            except BrokenPipeError as error:
+                if error.errno != errno.EPIPE:
+                    print(f"error: standard output: {error.strerror}", file=sys.stderr)
+                return NOT_DONE
 
     return ended
 
 
+@contextmanager
+def on_stop_signals(handler: Handler) -> Iterator[None]:
+    """Have this called when a signal says stop meanwhile; Python lets the main thread only."""
+    before = handle_stop_signals(handler)
+    try:
+        yield
+    finally:
+        for number, earlier in before.items():
+            signal.signal(number, earlier)
+
+
+def leave(status: int) -> None:
+    """End the process now, whatever its threads do; what was printed is written first."""
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            with suppress(OSError, ValueError):
+                stream.flush()
+    os._exit(status)
+
+
+def leave_within(seconds: float, status: int) -> None:
+    """End the process so much later, if it has not ended by itself then: a thread may be stuck."""
+    if _is_program:
+        timer = threading.Timer(seconds, leave, [status])
+        timer.daemon = True
+        timer.start()
+
+
 def leave_stopping_to_the_parent() -> None:
-    """For a command's worker processes, which a terminal's Ctrl-C reaches, too."""
+    """For a command's worker processes, which a terminal's signals reach, too."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+def handle_stop_signals(handler: Handler) -> dict[signal.Signals, Any]:
+    """Have this called when a signal says stop; return the handlers before.
+
+    A command under `nohup` outlives its terminal.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        return {}
+    nohup = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    numbers = [number for number in STOP_SIGNALS if number != signal.SIGHUP or not nohup]
+    return {number: signal.signal(number, handler) or signal.SIG_DFL for number in numbers}

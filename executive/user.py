@@ -4,21 +4,30 @@ import random
 import sys
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from io import TextIOWrapper, UnsupportedOperation
 from typing import TextIO
 
-from executive.events import Inbox, StopRequested
-from executive.text import writable
+from executive.control import Control, control
+from executive.events import THE_PERSON, Inbox, StopRequested
+from executive.text import LONGEST, one_line, printable, too_long, writable
 from executive.types import Answered, Failed, Question, QuestionKind
 
-STOP_WORDS = frozenset({"stop", "halt"})
+STOPPING = "Stopping."
+BUSY = "I am busy. Say it again when I ask, or say stop."
+FORGOTTEN = "What you said before is forgotten."
+NOTHING_TO_STOP = "There is nothing to stop: I am at rest."
 
 
 class Console:
     """A person at a terminal.
 
-    One thread reads lines all the time, so that "stop" is heard at any moment. Other lines are kept
-    in order and go to whoever asks next: a question of the robot, or the prompt for a command.
+    One thread reads lines all the time, so that a stop is heard, and answered, at any moment. What
+    else is said goes to whoever asks: a question of the robot, or the prompt for a command. From a
+    terminal, a line that comes while nobody asks is not kept: it would become the answer to a
+    question that the person has not seen. Any other source is a script, whose lines are kept in
+    order. What waits when a stop comes is forgotten.
     """
 
     def __init__(
@@ -26,29 +35,33 @@ class Console:
     ) -> None:
         """Read from `source` (default: standard input), write to `out` (standard error)."""
         self._inbox = inbox
-        self._source = source or sys.stdin
         self._out = out or sys.stderr
         self._lock = threading.Lock()
         self._lines: deque[str] = deque()
-        self._at_end = False
         self._request: int | None = None
-        threading.Thread(target=self._read, name="console", daemon=True).start()
+        self._prompting = False
+        self._begun = False
+        """Whether anything was asked or told so far."""
+        self._ended = ""
+        """Why no more lines come; empty if they do."""
+        source = source or sys.stdin
+        self._typed = source is not None and _is_terminal(source)
+        if source is None:
+            self._ended = "there is nobody to ask"
+        else:
+            threading.Thread(target=self._read, args=[source], name="console", daemon=True).start()
 
     def ask(self, question: Question) -> int:
         """Print the question; ends Answered with the next line, or Failed at the end of input."""
-        print(question.text, file=self._out, flush=True)
-        return self.listen()
+        self._say(question.text)
+        return self._wait(prompting=False)
 
     def listen(self) -> int:
-        """Wait for the next line; ends like `ask`."""
-        request = self._inbox.open(real=True)
-        with self._lock:
-            self._request = request
-            self._serve()
-        return request
+        """Wait for a command; ends like `ask`, and Failed if the person ends the session."""
+        return self._wait(prompting=True)
 
     def cancel(self, request: int) -> None:
-        """Withdraw the question; a later answer goes to the next one."""
+        """Withdraw the question."""
         self._inbox.drop(request)
         with self._lock:
             if self._request == request:
@@ -56,19 +69,78 @@ class Console:
 
     def tell(self, text: str) -> None:
         """Print it."""
-        print(text, file=self._out, flush=True)
+        self._begun = True
+        self._say(text)
 
-    def _read(self) -> None:
-        for line in self._source:
-            words = writable(line).strip()
-            if words.lower() in STOP_WORDS:
-                self._inbox.post(StopRequested("the person"))
-            elif words:
-                with self._lock:
-                    self._lines.append(words)
-                    self._serve()
+    def _say(self, text: str) -> None:
+        """Print it; a person who cannot be told is no reason to end anything."""
+        if self._out is not None:
+            with suppress(OSError, ValueError):
+                print(printable(text), file=self._out, flush=True)
+
+    def _wait(self, *, prompting: bool) -> int:
+        request = self._inbox.open(real=True)
         with self._lock:
-            self._at_end = True
+            self._begun = True
+            if self._typed and not prompting:
+                self._lines.clear()  # typed before the question was seen
+            self._request, self._prompting = request, prompting
+            self._serve()
+        return request
+
+    # --- from here on in the thread that reads ---
+
+    def _read(self, source: TextIO) -> None:
+        for line in _lines(source):
+            if self._hear(writable(line).strip()) is Control.QUIT:
+                return
+        self._end("the input has ended")
+
+    def _hear(self, line: str) -> Control | None:
+        words, said = one_line(line), control(line)
+        if said is Control.QUIT:
+            self._quit()
+        elif said is Control.STOP:
+            self._stop()
+        elif why := too_long(line):
+            self._say(f"Sorry: {why}.")
+        elif words and not self._keep(words):
+            self._say(BUSY)
+        return said
+
+    def _keep(self, words: str) -> bool:
+        """Give a line to who asks, or keep it until somebody does; whether it was taken."""
+        with self._lock:
+            taken = self._request is not None or not (self._typed and self._begun)
+            if taken:
+                self._lines.append(words)
+                self._serve()
+            return taken
+
+    def _stop(self) -> None:
+        with self._lock:
+            idle, forgotten = self._is_idle, bool(self._lines)
+            self._lines.clear()
+        if not idle:
+            self._inbox.post(StopRequested(THE_PERSON))
+        self._say((NOTHING_TO_STOP if idle else STOPPING) + f" {FORGOTTEN}" * forgotten)
+
+    @property
+    def _is_idle(self) -> bool:
+        """Whether the prompt waits for a command."""
+        return self._prompting and self._request is not None
+
+    def _quit(self) -> None:
+        """In a script it ends the input; at a terminal, what runs is stopped, too."""
+        with self._lock:
+            runs = self._typed and not self._is_idle
+        if runs:
+            self._stop()
+        self._end("the session was ended")
+
+    def _end(self, why: str) -> None:
+        with self._lock:
+            self._ended = why
             self._serve()
 
     def _serve(self) -> None:
@@ -77,11 +149,36 @@ class Console:
             return
         if self._lines:
             self._inbox.end(self._request, Answered(self._lines.popleft()))
-        elif self._at_end:
-            self._inbox.end(self._request, Failed("the input has ended"))
+        elif self._ended:
+            self._inbox.end(self._request, Failed(self._ended))
         else:
             return
         self._request = None
+
+
+def _is_terminal(source: TextIO) -> bool:
+    try:
+        return source.isatty()
+    except (OSError, ValueError):
+        return False
+
+
+def _lines(source: TextIO) -> Iterator[str]:
+    """The lines as they come, of too long ones the beginning; ends if no more can be read."""
+    if isinstance(source, TextIOWrapper):
+        with suppress(UnsupportedOperation):
+            source.reconfigure(errors="replace")
+    begun = False
+    while True:
+        try:
+            part = source.readline(LONGEST + 2)
+        except (OSError, ValueError):
+            return
+        if not part:
+            return
+        if not begun:
+            yield part
+        begun = not part.endswith("\n")
 
 
 class _Prompt:
@@ -110,7 +207,8 @@ class _Prompt:
 
     def _print(self, text: str) -> None:
         if self._out is not None:
-            print(text, file=self._out, flush=True)
+            with suppress(OSError, ValueError):
+                print(printable(text), file=self._out, flush=True)
 
 
 class Oracle(_Prompt):

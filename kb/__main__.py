@@ -1,5 +1,10 @@
 """`python -m kb`: look at what the robot knows, and look for faults in it."""
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import json
 import sys

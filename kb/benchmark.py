@@ -4,6 +4,11 @@ Several ways of finding out are held against the same questions: chance, what th
 counts without a model, the plain model, and what the robot does (`--elicit rank` or `generate`).
 """
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import json
 import sys

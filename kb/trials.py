@@ -1,7 +1,6 @@
 """Putting the questions of a data set to a language model, and keeping the answers."""
 
 import json
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy as np
 from executive.errors import InputError, ModelError
 from executive.events import Ended, Inbox
 from executive.interfaces import LanguageModel
+from executive.terminal import show_over
 from executive.types import RankRequest, Replied, Scored, Usage
 from kb.advisor import PlaceAdvisor
 from kb.ontology import Ontology
@@ -127,14 +127,13 @@ class Journal:
     def answers(self, data: DataSet, ask: Ask) -> Iterator[Answer]:
         """All answers, kept or new, in the order of the questions; progress goes to stderr."""
         for number, question in enumerate(data.questions, start=1):
-            progress = f"\r{data.name} {number}/{len(data.questions)} {question.thing.name}\033[K"
-            print(progress, end="", file=sys.stderr, flush=True)
+            show_over(f"{data.name} {number}/{len(data.questions)} {question.thing.name}")
             key = data.name, question.thing.name
             if key not in self._kept:
                 self._kept[key] = ask(question)
                 self._write({"data": data.name, **asdict(self._kept[key])})
             yield self._kept[key]
-        print("\r\033[K", end="", file=sys.stderr, flush=True)
+        show_over("")
 
     def _write(self, line: dict[str, object]) -> None:
         if self._file:

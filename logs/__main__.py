@@ -1,5 +1,10 @@
 """`python -m logs`: questions to recorded missions."""
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import gc
 import json

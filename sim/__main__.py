@@ -3,6 +3,11 @@
 `view objects` draws all objects.
 """
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import io
 import json

@@ -1,5 +1,10 @@
 """`python -m trees show`: the tree that a mission is run with, printed and drawn."""
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import sys
 from collections.abc import Sequence

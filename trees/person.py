@@ -7,6 +7,7 @@ from py_trees.common import Status
 
 from executive.records import Utterance
 from executive.situation import candidates_from
+from executive.text import too_long
 from executive.types import Answered, Failed, Question, QuestionKind, Result, Source
 from trees.nodes import Action, Step
 from trees.team import Team
@@ -55,13 +56,14 @@ class Ask(Action):
             return self._no_help(result.reason)
         assert isinstance(result, Answered)
         self.team.recorder.record(Utterance("person", result.text))
-        if self.declines(result.text):
+        unread = too_long(result.text)
+        if not unread and self.declines(result.text):
             return self._no_help("you could not tell me")
-        if self.understood(result.text):
+        if not unread and self.understood(result.text):
             return self.succeed(result.text)
         if self._tries < self.team.rules.questions:
             return self.start_again()
-        return self._no_help(f"I did not understand your answer '{result.text}'")
+        return self._no_help(unread or f"I did not understand your answer '{result.text}'")
 
     def out_of_time(self) -> Status:
         """Nobody answered."""

@@ -1,5 +1,10 @@
 """Teaching the detector: `frames` renders what it learns from, `train` makes an ONNX file of it."""
 
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
 import argparse
 import os
 import sys
@@ -9,6 +14,7 @@ from pathlib import Path
 
 from executive.errors import InputError
 from executive.shell import DONE, entry_point
+from executive.terminal import show_over
 from sim.learning.frames import SHARD, make_shards
 
 
@@ -66,7 +72,7 @@ def _frames(options: argparse.Namespace) -> None:
     folder, workers = options.folder, options.workers
     for path in make_shards(folder, options.frames, options.seed, workers, options.ycb):
         done = len(list(folder.glob("*.parquet")))
-        print(f"\r{done} of {total} shards, the last {path.name}", end="", file=sys.stderr)
+        show_over(f"{done} of {total} shards, the last {path.name}")
     print(file=sys.stderr)
 
 

@@ -1,0 +1,121 @@
+"""Whether words tell the robot to stop, wherever they come from.
+
+A false stop costs a command that is said again; a missed one costs a vase. So a stop is heard in
+every form that it can have, and what is left out are names ("the door stop") and plain commands.
+"""
+
+import re
+import tomllib
+import unicodedata
+from enum import StrEnum
+from itertools import groupby, takewhile
+from pathlib import Path
+
+from executive.text import LONGEST, one_line
+
+
+class Control(StrEnum):
+    """What words may be, beside a command and an answer."""
+
+    STOP = "stop"
+    """Be at rest at once."""
+    QUIT = "quit"
+    """The session ends, and with it whatever runs."""
+
+
+def control(words: str) -> Control | None:
+    """What the words tell the robot at once; None if they are a command, an answer, anything else.
+
+    Case, punctuation, accents, full-width letters and politeness do not count. These say stop (the
+    words are in assets/control.toml):
+
+    - a line that begins with an order: "halt", "wait a moment", "don't move";
+    - an urgent word anywhere ("I want you to stop"), unless it belongs to a name ("Find the stop
+      sign"), is denied ("don't stop") or is asked about ("Why did you stop?");
+    - an urgent word alone with two neighbours swapped ("stpo"), or letter by letter ("S T O P").
+    """
+    clauses = [_words(clause) for clause in _CLAUSE_ENDS.split(_plain(words))]
+    said = [word for clause in clauses for word in clause]
+    bare = [word for word in said if word not in _FILLERS]
+    if tuple(bare) in _QUITS:
+        return Control.QUIT
+    slip = len(bare) == 1 and bare[0] in _SLIPS
+    if slip or "".join(said) in _URGENT or _is_order(said) or any(map(_is_urgent, clauses)):
+        return Control.STOP
+    return None
+
+
+def _plain(words: str) -> str:
+    """Lower case, without accents and marks that nobody sees; no more than can be a command."""
+    compatible = unicodedata.normalize("NFKC", one_line(words[:LONGEST]))[:LONGEST]
+    apart = unicodedata.normalize("NFD", compatible.casefold())
+    letters = "".join(c for c in apart if unicodedata.category(c) != "Mn")
+    return re.sub("[’‘`´ʼ]", "'", letters)
+
+
+def _words(clause: str) -> list[str]:
+    """Its words; of urgent ones the plain form ("stoopp", "stopit")."""
+    return [part for word in _WORD.findall(clause) for part in _parts(word)]
+
+
+def _parts(word: str) -> tuple[str, ...]:
+    if urgent := _SQUEEZED.get(_squeezed(word)):
+        return (urgent,)
+    rest = word.removeprefix("stop").strip("_")
+    return ("stop", rest) if word.startswith("stop") and rest in _NOTHING_MORE else (word,)
+
+
+def _squeezed(word: str) -> str:
+    """Each letter once where it is repeated."""
+    return "".join(letter for letter, _ in groupby(word))
+
+
+def _is_order(said: list[str]) -> bool:
+    """Whether it begins with an order, or is one that must stand alone; fillers may come first."""
+    lead = len(list(takewhile(_FILLERS.__contains__, said)))
+    starts = [(start, length) for start in range(lead + 1) for length in (1, 2, 3)]
+    if any(tuple(said[start : start + length]) in _ORDERS for start, length in starts):
+        return True
+    return any(
+        tuple(said[start : start + length]) in _ALONE
+        and all(word in _NOTHING_MORE for word in said[start + length :])
+        for start, length in starts
+    )
+
+
+def _is_urgent(clause: list[str]) -> bool:
+    """Whether it has an urgent word in it that is no part of a name."""
+    first = next((word for word in clause if word not in _FILLERS), "")
+    named = first in _BEFORE_NAMES
+    return not _ASKED & set(clause[:1]) and any(
+        word in _URGENT and before not in _DENIALS and (not named or before in _TURNS)
+        for before, word in zip(["", *clause], clause, strict=False)
+    )
+
+
+_CLAUSE_ENDS = re.compile(r"[.,;:!?…。、]|--")
+_WORD = re.compile(r"[^\W\d_]+(?:['_][^\W\d_]+)*")
+
+_FILE = tomllib.loads((Path(__file__).parent / "assets" / "control.toml").read_text("utf-8"))
+
+
+def _phrases(name: str) -> frozenset[tuple[str, ...]]:
+    return frozenset(tuple(_plain(phrase).split()) for phrase in _FILE[name])
+
+
+def _each(name: str) -> frozenset[str]:
+    return frozenset(_FILE[name].split())
+
+
+_URGENT = frozenset(_FILE["urgent"])
+_SQUEEZED = {_squeezed(word): word for word in _URGENT}
+_SLIPS = {"stp"} | {
+    word[:at] + word[at + 1] + word[at] + word[at + 2 :]
+    for word in _URGENT
+    for at in range(len(word) - 1)
+}
+_ORDERS, _ALONE, _QUITS = _phrases("orders"), _phrases("alone"), _phrases("quit")
+_FILLERS = _each("fillers")
+_NOTHING_MORE = _FILLERS | _each("after")
+_BEFORE_NAMES, _TURNS = _each("before_names"), _each("turns")
+_DENIALS, _ASKED = _each("denials"), _each("asked")
