@@ -38,12 +38,22 @@ def rising_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
 
     In a frame at the middle of the surface, with the furniture's axes (metres).
     """
+    local = _over_surface(piece, surface, seen)
+    height = local[:, 2]
+    return local[(height > _ABOVE_M) & (height < surface.clearance - _ABOVE_M)]
+
+
+def level_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
+    """What of the points (n, 3) in `map` is the surface itself, in the same frame."""
+    local = _over_surface(piece, surface, seen)
+    return local[np.abs(local[:, 2]) < _ABOVE_M]
+
+
+def _over_surface(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
     local = _from_furniture(piece, seen) - surface.center
     half = np.array([surface.length_x / 2, surface.length_y / 2]) - _EDGE_M
-    over = (np.abs(local[:, :2]) < half).all(axis=1)
-    height = local[:, 2]
-    rising: Floats = local[over & (height > _ABOVE_M) & (height < surface.clearance - _ABOVE_M)]
-    return rising
+    over: Floats = local[(np.abs(local[:, :2]) < half).all(axis=1)]
+    return over
 
 
 def columns(piece: Furniture, seen: Floats) -> list[Column]:

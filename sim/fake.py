@@ -61,12 +61,28 @@ class _Due:
 class FakeWorld:
     """Who is where, and what ends when. Implements World."""
 
-    def __init__(self, home: Home, inbox: Inbox, recorder: Recorder, fault: Fault = _no_fault):
-        """Put everything where the home file says; `fault` makes chosen goals fail."""
+    def __init__(
+        self,
+        home: Home,
+        inbox: Inbox,
+        recorder: Recorder,
+        fault: Fault = _no_fault,
+        spots: int | None = None,
+    ) -> None:
+        """Put everything where the home file says.
+
+        Args:
+            home: what is where.
+            inbox: where the ends of the robot's goals go.
+            recorder: where movements go.
+            fault: makes chosen goals fail.
+            spots: how many things have room on a piece of furniture; None: any number.
+        """
         self.home = home
         self.inbox = inbox
         self.recorder = recorder
         self.fault = fault
+        self.spots = spots
         self.things: dict[str, str] = dict(home.placement)
         self.held: str | None = None
         self.at: str | None = "person"
@@ -208,6 +224,8 @@ class FakeRobot:
             return Failed("my hand is empty")
         if world.at != place:
             return Failed(f"I am not at the {place}")
+        if world.spots is not None and list(world.things.values()).count(place) >= world.spots:
+            return Failed(f"there is no free spot on the {place}")
         world.things[world.held], world.held = place, None
         return Succeeded()
 

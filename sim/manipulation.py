@@ -55,7 +55,8 @@ FEWEST_POINTS = 30
 _GOOD = 0.06
 """Grasps that cost more are tried only if no better one can be reached."""
 _GRASPS_TRIED = 8
-_SPOTS_TRIED = 12
+_SPOTS_TRIED, _TIMES = 12, 4
+"""How many free spots are tried together, and how often, where none of them is in reach."""
 _FOLDED_WITHIN = 0.05
 """Farther than this from the folded pose (any joint but the last), the arm is out."""
 _CLOSING_S = 2.0
@@ -313,10 +314,16 @@ class Manipulator:
     ) -> tuple[tuple[Pose, Approach] | None, bool]:
         """A spot on a surface and how to get there, if there is one; and whether any is free."""
         self._around.mind_clutter(piece, _NOTHING, seen)
-        spots = list(islice(free_spots(piece, surface, held.model, seen, held.turn), _SPOTS_TRIED))
-
-        ways = partial(self._ways_to_spots, held, piece, spots, here)
-        return choose_approach(self._planning, carrying, ways), bool(spots)
+        free = free_spots(piece, surface, held.model, seen, held.turn)
+        any_free = False
+        for _ in range(_TIMES):
+            spots = list(islice(free, _SPOTS_TRIED))
+            any_free = any_free or bool(spots)
+            ways = partial(self._ways_to_spots, held, piece, spots, here)
+            chosen = choose_approach(self._planning, carrying, ways)
+            if chosen or len(spots) < _SPOTS_TRIED:
+                return chosen, any_free
+        return None, any_free
 
     def _ways_to_spots(
         self, held: Held, piece: Furniture, spots: list[Pose], here: Floats

@@ -1,12 +1,13 @@
 """Finding a free spot on a piece of furniture for a thing that is in the hand."""
 
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
-from sim.clutter import rising_points
+from sim.clutter import level_points, rising_points
 from sim.furniture import OPEN, Surface
 from sim.hardware import Floats
 from sim.home import Furniture
@@ -18,6 +19,8 @@ MARGIN_M = 0.02
 """From the outline of a thing to the edge of its surface."""
 CLEAR_M = 0.06
 """Around the outline of a thing, for the fingers."""
+TIGHT_M = 0.04
+"""What is left of that where there is no better spot."""
 HEADROOM_M = 0.05
 DROP_M = 0.002
 """How far above the surface a thing is let go."""
@@ -27,7 +30,10 @@ FLAT_M = 0.012
 """Lower than this above a surface, the camera does not tell a thing from it."""
 _UPRIGHT_M = 0.015
 """What stands is as high as it should be, but for this and a tenth of it."""
-_STEP_M = 0.04
+_STEP_M, _ROW_M = 0.04, 0.08
+"""Between places along the front, and between rows of them (metres)."""
+_CELL_M, _SEEN = 0.05, 0.8
+"""Behind the front row, so much of a spot must be seen, by cells: things hide what is behind."""
 _FEW_POINTS = 3
 _TURNS = (0.0, np.pi, np.pi / 2, -np.pi / 2)
 
@@ -47,18 +53,21 @@ def free_spots(
     """
     if model.size[2] + HEADROOM_M > surface.clearance:
         return
+    level = level_points(piece, surface, seen)[:, :2]
     rising = rising_points(piece, surface, seen)[:, :2]
     outlines = [(turn + quarter, *_outline(model, turn + quarter)) for quarter in _TURNS]
-    for y in _from_middle(surface):
+    for clear, row, y in product((CLEAR_M, TIGHT_M), _rows(surface), _from_middle(surface)):
         for turned, lower, upper in outlines:
-            x = surface.length_x / 2 - max(RIM_M, upper[0] + MARGIN_M)
-            if not _fits(surface, y + lower[1], y + upper[1]):
+            x = surface.length_x / 2 - max(RIM_M, upper[0] + MARGIN_M) - row
+            low, high = lower + (x, y), upper + (x, y)
+            if not _fits(surface, low[1], high[1]) or not _has_room(rising, low, high, clear):
                 continue
-            low, high = lower - CLEAR_M + (x, y), upper + CLEAR_M + (x, y)
-            inside = ((rising > low) & (rising < high)).all(axis=1)
-            if inside.sum() < _FEW_POINTS:
-                middle = np.add(surface.center, (x, y, DROP_M))
-                yield _pose(piece, (middle[0], middle[1], middle[2]), turned)
+            if clear == TIGHT_M and _has_room(rising, low, high, CLEAR_M):
+                continue  # it was tried before
+            if row and not (_fits_behind(surface, low[0]) and _is_seen(level, low, high)):
+                continue
+            middle = np.add(surface.center, (x, y, DROP_M))
+            yield _pose(piece, (middle[0], middle[1], middle[2]), turned)
 
 
 def stands(model: ObjectModel, spot: Pose, seen: Floats, clearance: float = OPEN) -> str | None:
@@ -92,6 +101,30 @@ def _outline(model: ObjectModel, turn: float) -> tuple[Floats, Floats]:
 
 def _ends(model: ObjectModel, axis: int) -> tuple[float, float]:
     return model.lower[axis], model.upper[axis]
+
+
+def _rows(surface: Surface) -> Iterator[float]:
+    """How far behind the front row things may stand, the front row first (metres)."""
+    yield from np.arange(0.0, surface.length_x - RIM_M, _ROW_M)
+
+
+def _has_room(rising: Floats, low: Floats, high: Floats, clear: float) -> bool:
+    """Whether hardly anything rises between two corners or this near to them."""
+    inside = ((rising > low - clear) & (rising < high + clear)).all(axis=1)
+    return bool(inside.sum() < _FEW_POINTS)
+
+
+def _is_seen(level: Floats, low: Floats, high: Floats) -> bool:
+    """Whether the surface is seen nearly everywhere between two corners."""
+    cells = np.ceil((high - low) / _CELL_M)
+    found = np.floor((level - low) / _CELL_M)
+    inside = ((found >= 0) & (found < cells)).all(axis=1)
+    return len(np.unique(found[inside], axis=0)) >= _SEEN * cells.prod()
+
+
+def _fits_behind(surface: Surface, back: float) -> bool:
+    """Whether what reaches back to there is over the surface, with some margin."""
+    return back > MARGIN_M - surface.length_x / 2
 
 
 def _from_middle(surface: Surface) -> Iterator[float]:

@@ -112,6 +112,10 @@ class SimulatedRobot:
         """Whether a skill is under way."""
         return self._skill is not None
 
+    def moving(self) -> tuple[str, ...]:
+        """Which parts move: of base, arm, fingers and head."""
+        return self._hardware.moving()
+
     @property
     def computing(self) -> bool:
         """Whether the skill waits for something to be computed; no time shall pass meanwhile."""

@@ -16,7 +16,7 @@ class TestFakeRobot(RobotContract):
     def bench(self) -> Bench:
         inbox = Inbox()
         world = FakeWorld(four_rooms(), inbox, Notebook())
-        return Bench(FakeRobot(world), inbox, world.advance)
+        return Bench(FakeRobot(world), inbox, world.advance, moving=lambda: ("base",) * world.busy)
 
 
 @pytest.mark.physics
@@ -27,5 +27,5 @@ class TestSimulatedRobot(RobotContract):
 
         inbox = Inbox()
         world = PhysicsWorld(four_rooms(), load_objects(), inbox, Notebook(), camera_hz=0.0)
-        yield Bench(world.robot, inbox, world.advance)
+        yield Bench(world.robot, inbox, world.advance, moving=world.robot.moving)
         world.close()

@@ -4,10 +4,11 @@ Provide a fixture `bench` that yields a fresh `Bench`: the robot at rest beside 
 empty hand, an inbox, and a way to let time pass.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pytest
 
 from executive.events import Ended, Inbox
 from executive.interfaces import Robot
@@ -27,6 +28,10 @@ from executive.types import (
 )
 
 PATIENCE_S = 90.0
+MOVING_S = 0.4
+"""After this, whatever is to move does."""
+REST_S = 0.6
+"""After this (half a second, and a bit) it is at rest."""
 
 
 @dataclass
@@ -38,6 +43,8 @@ class Bench:
     advance: Callable[[float], float]
     place: str = "coffee_table"
     """A place of the home to try things at."""
+    moving: Callable[[], Sequence[str]] = tuple
+    """Which parts of the robot move now, where that can be measured."""
 
     def end_of(self, request: int) -> Result:
         """Let time pass until this request ends."""
@@ -48,6 +55,12 @@ class Bench:
                     return event.result
             passed += self.advance(PATIENCE_S - passed)
         raise AssertionError(f"no end within {PATIENCE_S} s")
+
+    def wait(self, seconds: float) -> None:
+        """Let so much time pass."""
+        passed = 0.0
+        while passed < seconds:
+            passed += self.advance(seconds - passed) or 0.01
 
     def do(self, goal: Goal) -> Result:
         """Pursue a goal to its end."""
@@ -99,6 +112,24 @@ class RobotContract:
         bench.advance(1.0)
         assert bench.do(Halt()) == Succeeded()
         assert not bench.inbox.awaits_anything
+
+    @pytest.mark.parametrize("head", [False, True])
+    def test_a_halt_succeeds_when_nothing_moves_any_more(self, bench: Bench, head: bool) -> None:
+        bench.robot.start(LookAt(FLOOR, 1) if head else DriveTo(bench.place))
+        bench.wait(MOVING_S)
+        request = bench.robot.start(Halt())
+        bench.wait(REST_S)
+        ends = [e for e in bench.inbox.take_all() if isinstance(e, Ended) and e.request == request]
+        assert [end.result for end in ends] == [Succeeded()]
+        assert not bench.moving()
+
+    @pytest.mark.parametrize("head", [False, True])
+    def test_a_cancelled_goal_leaves_nothing_that_moves(self, bench: Bench, head: bool) -> None:
+        request = bench.robot.start(LookAt(FLOOR, 1) if head else DriveTo(bench.place))
+        bench.wait(MOVING_S)
+        bench.robot.cancel(request)
+        bench.wait(REST_S)
+        assert not bench.moving()
 
     def test_after_a_cancelled_goal_it_drives_on(self, bench: Bench) -> None:
         bench.robot.cancel(bench.robot.start(DriveTo(bench.place)))
