@@ -2,6 +2,7 @@
 
 import re
 
+from executive.put_down import to_put_down
 from executive.types import Command, Kind
 
 _VERBS: dict[str, Kind] = {
@@ -79,7 +80,10 @@ class EnglishInterpreter:
 
     def command(self, words: str) -> Command | None:
         """The request in the words, or None if there is none."""
-        match = _COMMAND.fullmatch(_plain(words))
+        plain = _plain(words)
+        if (held := to_put_down(plain)) is not None:
+            return Command(Kind.PUT_DOWN, held, words)
+        match = _COMMAND.fullmatch(plain)
         if match is None:
             return None
         return Command(_VERBS[match["verb"]], match["target"], words)

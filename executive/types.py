@@ -27,6 +27,12 @@ class Kind(StrEnum):
     FIND = "find"
     TAKE = "take"
     BRING = "bring"
+    PUT_DOWN = "put_down"
+    """What is in the hand, by the person."""
+
+
+SEARCHING = (Kind.FIND, Kind.TAKE, Kind.BRING)
+"""The deeds for which a thing is looked for: a language model may read these into words."""
 
 
 class Source(StrEnum):
@@ -122,6 +128,8 @@ class Place:
 
 DELIVERY = "delivery"
 """The place by the person where brought things are put down; it is no furniture to search."""
+SOMETHING = "something"
+"""In the hand, as far as the fingers feel, but nobody knows what."""
 FLOOR = "floor"
 """The floor around the robot, wherever it is: a place to look at, for what fell from the hand."""
 
@@ -332,6 +340,7 @@ class QuestionKind(StrEnum):
     WHICH_OBJECT = "which_object"
     WHERE_IS = "where_is"
     CONFIRM = "confirm"
+    WHERE_TO_PUT = "where_to_put"
 
 
 @dataclass(frozen=True, slots=True)
