@@ -72,4 +72,7 @@ class SayItFell(Step):
         held, lost, why = self.situation.in_hand, self.situation.lost, self.situation.reason
         if lost and lost != why:
             return self.fail(f"{lost}, and {why}")
-        return self.fail(f"{why}; I still hold {the(held)}" if held else why)
+        if held:
+            return self.fail(f"{why}; I still hold {the(held)}")
+        gone = f"the {self.situation.object} is not in my hand any more"
+        return self.fail(why if lost else f"{why}; {gone}")

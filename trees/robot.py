@@ -75,6 +75,7 @@ class RobotAction(BodyAction):
         """Hand the goal to the robot."""
         self._goal = self.goal()
         self.feedback_message = _in_words(self._goal)
+        self.situation.called_off = False
         return self.team.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
@@ -111,6 +112,7 @@ class RobotAction(BodyAction):
 
     def cancel(self, request: int) -> None:
         """Brake."""
+        self.situation.called_off = True
         self.team.robot.cancel(request)
 
 
@@ -189,36 +191,45 @@ class LookForLost(RobotAction):
 
 
 class PickUp(RobotAction):
-    """Grasps the thing where it was seen, and lifts it.
+    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides."""
 
-    What the fingers feel counts: a grasp that failed with the thing in the hand has got hold of it.
-    """
+    def __init__(self, name: str, team: Team) -> None:
+        """Reach for it."""
+        super().__init__(name, team)
+        self._finished = False
+
+    def initialise(self) -> None:
+        """Begin."""
+        self._finished = False
+        super().initialise()
 
     def goal(self) -> Goal:
         """Pick what was detected."""
         assert self.situation.detection
+        self.situation.reached_for = self.situation.detection.label
         return Pick(self.situation.detection)
 
     def ended(self, result: Result) -> Status:
-        """Remember that it is no longer there."""
-        if isinstance(result, Succeeded):
-            return self._hold()
-        status = super().ended(result)
-        return self._hold() if self.situation.has_it else status
+        """Remember that it is no longer there.
 
-    def out_of_time(self) -> Status:
-        """The hand may have closed in time."""
-        status = super().out_of_time()
-        return self._hold() if self.situation.has_it else status
-
-    def _hold(self) -> Status:
+        If the robot failed with the thing in its hand, it is given one chance to finish.
+        """
         assert self.situation.detection
-        assert self.situation.found
-        self.situation.in_hand = self.situation.detection.label
-        self.team.facts.took(self.situation.in_hand, self.situation.found.place)
-        self.situation.lost = ""
-        self.situation.unplaced.clear()
-        return Status.SUCCESS
+        name, felt = self.situation.detection.label, self.situation.felt
+        if isinstance(result, Succeeded) and felt is False:
+            result = Failed(f"the {name} slipped from my fingers")
+        if isinstance(result, Failed) and felt and self.situation.in_hand == name:
+            if not self._finished:
+                self._finished = True
+                return self.start_again()
+            result = Succeeded()
+        if isinstance(result, Succeeded):
+            assert self.situation.found
+            self.situation.in_hand = name
+            self.team.facts.took(name, self.situation.found.place)
+            self.situation.lost = ""
+            self.situation.unplaced.clear()
+        return super().ended(result)
 
 
 class PutDownAt(RobotAction):
