@@ -197,8 +197,8 @@ class Situation:
         (place, why), *others = self.unplaced.items() or [("", "")]
         if not others:
             return why
-        also = ", ".join(other for other, _ in others)
-        return f"I could not put it on {place}: {why}; nor on {also}"
+        also = ", ".join(table(other) for other, _ in others)
+        return f"I could not put it on {table(place)}: {why}; nor on {also}"
 
     @property
     def why(self) -> str:
@@ -279,6 +279,11 @@ def _copied(value: Any) -> Any:
             setattr(twin, each.name, _copied(getattr(value, each.name)))
         return twin
     return value
+
+
+def table(place: str) -> str:
+    """A piece of furniture as it is called in a sentence."""
+    return "the delivery table" if place == DELIVERY else place
 
 
 def candidates_from(places: Iterable[str], source: Source) -> tuple[Candidate, ...]:

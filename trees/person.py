@@ -6,7 +6,7 @@ from dataclasses import replace
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.situation import candidates_from
+from executive.situation import candidates_from, table
 from executive.text import printable
 from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
 from trees.nodes import Action, Step, why_of
@@ -287,7 +287,7 @@ class Report(Step):
                 object=self.situation.object,
                 the_object=the(self.situation.object or ""),
                 place=found.place if found else "nowhere",
-                surface=self.situation.put_at,
+                surface=table(self.situation.put_at),
                 why=self.situation.unplaced.get(DELIVERY, ""),
             )
         )

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from py_trees.common import Status
 
+from executive.situation import table
 from executive.types import (
     SOMETHING,
     Candidate,
@@ -96,7 +97,7 @@ class RobotAction(BodyAction):
             case Pick(detection):
                 return f"pick up the {detection.label}"
             case PutDown(place):
-                return f"put it down on {place}"
+                return f"put it down on {table(place)}"
             case Halt():
                 return "stop"
 
