@@ -281,12 +281,6 @@ def refused(why: str) -> Outcome:
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
 
 
-def furniture_at(home: Home, point: Vector3) -> str | None:
-    """The furniture that has this point of `map` (metres) above its outline; None if none has."""
-    pieces = (*home.furniture, home.delivery)
-    return next((piece.name for piece in pieces if piece.is_below(point)), None)
-
-
 def working(*makers: Callable[[], Sink]) -> list[Sink]:
     """The logs that can be opened; for the others a warning, because the mission goes on."""
     sinks = []

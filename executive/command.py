@@ -2,6 +2,7 @@
 
 import re
 
+from executive.put_down import to_put_down
 from executive.text import LONGEST, one_line, too_long
 from executive.types import Command, Kind
 
@@ -81,8 +82,13 @@ class EnglishInterpreter:
 
     def command(self, words: str) -> Command | None:
         """The request in the words, or None if there is none."""
-        match = _COMMAND.fullmatch(_plain(words))
-        if match is None or too_long(words):
+        if too_long(words):
+            return None
+        plain = _plain(words)
+        if (held := to_put_down(plain)) is not None:
+            return Command(Kind.PUT_DOWN, held, words)
+        match = _COMMAND.fullmatch(plain)
+        if match is None:
             return None
         target = match["target"]
         while target.endswith(_ENDINGS):

@@ -1,5 +1,6 @@
 """How a mission is put together: by the session that runs it, and by its replay."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -10,12 +11,12 @@ from executive.guards import GuardedEyes, GuardedRecorder, GuardedRobot, Guarded
 from executive.interfaces import Advisor, Clock, Eyes, LanguageModel, Recorder, Robot, User
 from executive.rules import rules
 from executive.situation import Situation
-from executive.types import Vector3
+from executive.types import DELIVERY, Vector3
 from kb.advisor import PlaceAdvisor
 from kb.facts import FactStore
 from kb.ontology import Ontology
 from kb.prompts import Prompts
-from sim.home import Home
+from sim.home import Furniture, Home
 from trees.team import Team
 
 OURS = "ours"
@@ -89,6 +90,7 @@ def build_team(
         rules=rules(grounds.settings),
         facts=grounds.facts,
         place_at=place_at(grounds),
+        near_person=near_person(grounds.home),
     )
 
 
@@ -103,3 +105,13 @@ def furniture_at(home: Home, point: Vector3) -> str | None:
     """The furniture that has this point of `map` (metres) above its outline; None if none has."""
     pieces = (*home.furniture, home.delivery)
     return next((piece.name for piece in pieces if piece.is_below(point)), None)
+
+
+def near_person(home: Home) -> tuple[str, ...]:
+    """The furniture by the delivery table: that of its room, then the other, the nearest first."""
+    here = home.stand(DELIVERY)[:2]
+
+    def far(piece: Furniture) -> tuple[bool, float]:
+        return piece.room != home.delivery.room, math.dist(here, home.stand(piece.name)[:2])
+
+    return tuple(piece.name for piece in sorted(home.furniture, key=far))

@@ -14,6 +14,7 @@ from executive.events import (
     Started,
     StopRequested,
 )
+from executive.looks import Looks
 from executive.types import (
     DELIVERY,
     SOMETHING,
@@ -69,15 +70,10 @@ class Situation:
     candidate: Candidate | None = None
     """Where the robot is going or looking now."""
     view: int = 0
-    views_without: int = 0
-    """Pictures of this place so far in which the thing was not."""
-    visited: list[str] = field(default_factory=list)
-    unreached: dict[str, str] = field(default_factory=dict)
-    """Places that the robot could not get to, and why."""
+    looks: Looks = field(default_factory=Looks)
+    """Where the thing was looked for, and what came of it."""
     doubtful: Detection | None = None
     """What may be the thing, or a part of it, in the last picture; None if it was surely seen."""
-    unseen: dict[str, str] = field(default_factory=dict)
-    """Places that the robot got to but could not look at, and why."""
     detection: Detection | None = None
     """The thing, as last seen."""
     found: Candidate | None = None
@@ -94,11 +90,19 @@ class Situation:
     """What happened to the thing that fell from the hand, as a clause; empty if it did not."""
     spot: str = ""
     """Where the robot looks for what fell from its hand."""
+    surfaces: tuple[str, ...] = ()
+    """Where the person says that the thing in the hand may be put down."""
+    surface: str = ""
+    """Where the robot is going to put it down."""
+    unplaced: dict[str, str] = field(default_factory=dict)
+    """Places where what is in the hand could not be put down, and why."""
+    put_at: str = ""
+    """Where the robot has put down what it held; empty if it has not."""
     away: bool = False
     """Whether the robot has left the person."""
     inquiries: int = 0
-    person_silent: bool = False
-    """Whether the person cannot or will not help."""
+    no_help: str = ""
+    """Why the person cannot or will not help, as a clause; empty if they may."""
     llm_calls: int = 0
     thinking_time_s: float = 0.0
     model_failure: str = ""
@@ -180,17 +184,28 @@ class Situation:
 
     def not_visited(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
         """The candidates less the places where the robot has looked already."""
-        return tuple(c for c in candidates if c.place not in self.visited)
+        return tuple(c for c in candidates if c.place not in self.looks.visited)
 
     @property
     def search_so_far(self) -> str:
         """Where the thing was looked for in vain, as a clause; empty if nowhere."""
-        clauses = []
-        if seen := [place for place in dict.fromkeys(self.visited) if place not in self.unseen]:
-            clauses.append(f"I did not find the {self.object} at {', '.join(seen)}")
-        clauses += [f"I could not look at {place}: {why}" for place, why in self.unseen.items()]
-        clauses += [f"I could not get to {place}: {why}" for place, why in self.unreached.items()]
-        return "; ".join(clauses)
+        return "; ".join(self.looks.clauses(self.object or "thing"))
+
+    @property
+    def not_put_down(self) -> str:
+        """Where what is in the hand could not be put down, and why, as a clause; empty if so."""
+        (place, why), *others = self.unplaced.items() or [("", "")]
+        if not others:
+            return why
+        also = ", ".join(table(other) for other, _ in others)
+        return f"I could not put it on {table(place)}: {why}; nor on {also}"
+
+    @property
+    def why(self) -> str:
+        """The reason that is told at the end; never empty."""
+        if self.reason:
+            return self.reason
+        return f"the mission ended as {self.status.replace('_', ' ')}, and nothing said why"
 
     def saved(self) -> "Situation":
         """A copy, for `restore`."""
@@ -213,14 +228,15 @@ class Situation:
             "candidates": [asdict(c) for c in self.candidates],
             "candidate": asdict(self.candidate) if self.candidate else None,
             "view": self.view,
-            "visited": list(self.visited),
-            "unreached": dict(self.unreached),
-            "unseen": dict(self.unseen),
+            "visited": list(self.looks.visited),
+            "unreached": dict(self.looks.unreached),
+            "unseen": dict(self.looks.unseen),
             "sighting": list(self.detection.position or ()) if self.detection else None,
             "found": asdict(self.found) if self.found else None,
             "in_hand": self.in_hand,
             "gone": self.gone,
             "lost": self.lost,
+            "put_at": self.put_at,
             "inquiries": self.inquiries,
             "llm_calls": self.llm_calls,
             "status": self.status,
@@ -236,11 +252,11 @@ class Situation:
             target=self.command.target if self.command else None,
             object=self.object,
             status=self.status,
-            reason=self.reason,
+            reason=self.why,
             source=self.found.source if self.found else None,
             location=self.found.place if self.found else None,
             inquiries=self.inquiries,
-            visited=tuple(self.visited),
+            visited=tuple(self.looks.visited),
             llm_calls=self.llm_calls,
             candidates=self.candidates,
             mission_time_s=round(mission_time_s, 3),
@@ -263,6 +279,11 @@ def _copied(value: Any) -> Any:
             setattr(twin, each.name, _copied(getattr(value, each.name)))
         return twin
     return value
+
+
+def table(place: str) -> str:
+    """A piece of furniture as it is called in a sentence."""
+    return "the delivery table" if place == DELIVERY else place
 
 
 def candidates_from(places: Iterable[str], source: Source) -> tuple[Candidate, ...]:

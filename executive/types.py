@@ -27,6 +27,12 @@ class Kind(StrEnum):
     FIND = "find"
     TAKE = "take"
     BRING = "bring"
+    PUT_DOWN = "put_down"
+    """What is in the hand, by the person."""
+
+
+SEARCHING = (Kind.FIND, Kind.TAKE, Kind.BRING)
+"""The deeds for which a thing is looked for: a language model may read these into words."""
 
 
 class Source(StrEnum):
@@ -334,6 +340,7 @@ class QuestionKind(StrEnum):
     WHICH_OBJECT = "which_object"
     WHERE_IS = "where_is"
     CONFIRM = "confirm"
+    WHERE_TO_PUT = "where_to_put"
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
 from executive.errors import InputError
-from executive.types import Kind, Message, Place
+from executive.types import SEARCHING, Kind, Message, Place
 from kb.names import unique
 from kb.verification import Reply
 
@@ -74,7 +74,7 @@ class Understanding(_Part):
     @field_validator("answers")
     @classmethod
     def _answers_for_all(cls, answers: dict[Kind, str]) -> dict[Kind, str]:
-        if missing := [kind for kind in Kind if kind not in answers]:
+        if missing := [kind for kind in SEARCHING if kind not in answers]:
             raise ValueError(f"there has to be an answer for {', '.join(missing)}")
         return answers
 

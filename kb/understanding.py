@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from executive.types import ChatRequest, Kind, RankRequest, Scored
+from executive.types import SEARCHING, ChatRequest, Kind, RankRequest, Scored
 from kb.prompts import Understanding
 from kb.verification import json_objects
 
@@ -28,7 +28,7 @@ def schema(objects: Sequence[str]) -> dict[str, Any]:
     return {
         "type": "object",
         "properties": {
-            "kind": {"type": "string", "enum": [str(kind) for kind in Kind]},
+            "kind": {"type": "string", "enum": [str(kind) for kind in SEARCHING]},
             "object": {"type": "string", "enum": list(objects)},
         },
         "required": ["kind", "object"],
@@ -39,9 +39,11 @@ def read(reply: str) -> Asked | None:
     """What the reply says, or None if nothing in it has the output format. Never raises."""
     for value in json_objects(reply):
         try:
-            return Asked.model_validate(value)
+            asked = Asked.model_validate(value)
         except ValidationError:
             continue
+        if asked.kind in SEARCHING:
+            return asked
     return None
 
 
@@ -51,8 +53,8 @@ def rank_request(words: str, texts: Understanding) -> RankRequest:
         label="command",
         messages=texts.chat(words),
         neutral=texts.chat(texts.neutral),
-        options=tuple(texts.answers[kind] for kind in Kind),
-        places=tuple(Kind),
+        options=tuple(texts.answers[kind] for kind in SEARCHING),
+        places=SEARCHING,
     )
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from executive.clock import SimulatedClock
 from executive.command import EnglishInterpreter
+from executive.composition import near_person
 from executive.events import Event, Inbox, Started
 from executive.interfaces import Detector, Facts, User
 from executive.loop import Executive
@@ -151,6 +152,7 @@ def run_mission(
         advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,
         rules=Rules(elicit=elicit, **(rules or {})),
         facts=facts or NoFacts(),
+        near_person=near_person(home),
     )
     executive = Executive(
         MissionTree(mission(team)),

@@ -14,8 +14,8 @@ from executive.types import Status
 
 
 @contextmanager
-def serving(runs: Path, recorded: bool) -> Iterator[Session]:
-    settings = load_settings(world="fake", user="oracle", llm="none", runs=runs)
+def serving(runs: Path, recorded: bool, user: str = "oracle") -> Iterator[Session]:
+    settings = load_settings(world="fake", user=user, llm="none", runs=runs)
     session = Session(settings, out=io.StringIO(), recorded=recorded)
     yield session
     session.close()
@@ -43,12 +43,15 @@ def test_a_held_thing_is_said_to_be_held(session: Session, words: str) -> None:
     assert outcome.mission_time_s == 0.0
 
 
-def test_a_full_hand_takes_nothing_else_and_does_not_drive_for_it(session: Session) -> None:
-    session.run("Take the hammer")
-    outcome = session.run("Bring the mug")
-    assert (outcome.status, outcome.visited) == (Status.NOT_DONE, ())
-    assert outcome.reason == "my hand holds the hammer; ask me first to bring that"
-    assert session.run("Find the mug").status == Status.DONE
+def test_with_nobody_to_ask_a_full_hand_takes_nothing_else_and_does_not_drive_for_it(
+    tmp_path: Path,
+) -> None:
+    with serving(tmp_path, recorded=False, user="none") as session:
+        session.run("Take the hammer")
+        outcome = session.run("Bring the power_drill")
+        assert (outcome.status, outcome.visited) == (Status.NOT_DONE, ())
+        assert outcome.reason == "my hand holds the hammer; ask me first to bring that"
+        assert session.run("Find the power_drill").status == Status.DONE
 
 
 def test_a_thing_at_the_delivery_place_stays_there(session: Session) -> None:

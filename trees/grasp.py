@@ -35,17 +35,20 @@ def grasp(team: Team) -> Behaviour:
 
 def get_hold(team: Team) -> Behaviour:
     """Pick it up; after a miss look again and try another approach, as long as it is there."""
+    situation = team.situation
     more_tries = [f"try {number}" for number in range(2, team.rules.grasps + 1)]
     return fallback(
         "get hold",
+        Check("in my hand", team, lambda: situation.has_it),
         PickUp("pick", team),
+        Check("in my hand after all", team, lambda: situation.has_it),
         FirstOf(
             "try again",
             lambda: more_tries,
             lambda _: None,
             sequence(
                 "another approach",
-                Check("it was there", team, lambda: not team.situation.gone),
+                Check("it was there", team, lambda: not situation.gone),
                 DriveToCandidate("return", team),
                 look_over(team),
                 PickUp("pick", team),

@@ -8,14 +8,13 @@ from abc import abstractmethod
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
-from py_trees.decorators import FailureIsSuccess
 
 from executive.interfaces import Advisor, LanguageModel
 from executive.records import Verified
 from executive.situation import Consultation, candidates_from
 from executive.types import DELIVERY, ChatRequest, Replied, Result, Scored, Source
-from trees.nodes import Action, Check, EachOf, Step, fallback, sequence
-from trees.person import AskWhere
+from trees.nodes import Action, Check, EachOf, Optionally, Step, fallback, sequence, why_of
+from trees.person import AskWhere, tell
 from trees.team import Team
 
 
@@ -68,8 +67,9 @@ def existence_check(team: Team) -> Behaviour:
             "each room",
             lambda: tuple(thought.consultation.rooms),
             choose,
-            FailureIsSuccess(
+            Optionally(
                 "if it helps",
+                thought,
                 sequence(
                     "expand room",
                     AskFurniture("furniture", team),
@@ -104,7 +104,7 @@ class OntologyKnowsPlace(Step):
         """Look it up; several are kept to narrow down what the model may say."""
         assert self.situation.object
         usual = self.team.knowledge.usual_places(self.situation.object)
-        if len(usual) == 1 and usual[0] in self.situation.visited:
+        if len(usual) == 1 and usual[0] in self.situation.looks.visited:
             return self.fail(f"{usual[0]} is its place, but it is not there")
         if len(usual) == 1:
             self.situation.candidates = candidates_from(usual, Source.ONTOLOGY)
@@ -150,9 +150,22 @@ class ModelAction(Action):
         """Stop the model."""
         self.model.cancel(request)
 
+    def failed(self, result: Result) -> Status:
+        """Warn the person that the model is of no help, and why; then go on without."""
+        why = why_of(result)
+        self._warn(why)
+        return self.fail(why)
+
     def out_of_time(self) -> Status:
         """Say that the model did not answer."""
+        self._warn(f"nothing came within {self._patience_s:g} s")
         return self.fail(f"the language model did not answer within {self._patience_s:g} s")
+
+    def _warn(self, why: str) -> None:
+        """Once a mission."""
+        if not self.situation.model_failure:
+            self.situation.model_failure = why
+            tell(self.team, f"My language model does not answer: {why}.")
 
 
 class RankPlaces(ModelAction):

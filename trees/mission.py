@@ -10,12 +10,13 @@ confirmed                     place; else LLM, verified if gone, search
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
-from py_trees.decorators import FailureIsSuccess
 
+from executive.types import Kind
 from executive.types import Status as MissionStatus
-from trees.act import HandIsFree, act
+from trees.act import act, asked_to
 from trees.grasp import grasp
-from trees.nodes import Check, Step, fallback, sequence
+from trees.hand import empty_hand, hand_is_free
+from trees.nodes import Check, Optionally, Step, fallback, sequence
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.robot import DriveBack
@@ -26,16 +27,24 @@ from trees.understand import understand
 
 def mission(team: Team) -> Behaviour:
     """The whole tree. It always ends in success; how the mission ended is in the situation."""
+    situation = team.situation
     return fallback(
         "mission",
         sequence(
             "serve",
             understand(team),
+            Check("about a thing to look for", team, lambda: not situation.asks_to(Kind.PUT_DOWN)),
             resolve_object(team),
-            HandIsFree("hand is free", team),
+            hand_is_free(team),
             search(team),
             grasp(team),
             act(team),
+            Conclude("done", team),
+        ),
+        sequence(
+            "put down",
+            asked_to(team, Kind.PUT_DOWN),
+            empty_hand(team),
             Conclude("done", team),
         ),
         sequence("give up", come_back(team), Apologise("apologise", team)),
@@ -44,8 +53,9 @@ def mission(team: Team) -> Behaviour:
 
 def come_back(team: Team) -> Behaviour:
     """Return to the person, if the robot left and can."""
-    return FailureIsSuccess(
+    return Optionally(
         "if away",
+        team.situation,
         sequence(
             "come back",
             Check("is away", team, lambda: team.situation.away),

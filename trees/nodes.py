@@ -11,10 +11,15 @@ from typing import Any
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.composites import Selector, Sequence
-from py_trees.decorators import Decorator
+from py_trees.decorators import Decorator, FailureIsSuccess
 
+from executive.situation import Situation
+from executive.text import printable
 from executive.types import Failed, Result
 from trees.team import Team
+
+UNSAID = "it did not work, and nothing said why"
+"""The reason of what fails without one."""
 
 
 def sequence(name: str, *children: Behaviour) -> Sequence:
@@ -46,9 +51,8 @@ class Step(Behaviour):
         return Status.SUCCESS
 
     def fail(self, reason: str) -> Status:
-        """Fail, and keep why, for the log and for the person."""
-        self.feedback_message = reason
-        self.situation.reason = reason
+        """Fail, and keep why, for the log and for the person: on one line, and never empty."""
+        self.feedback_message = self.situation.reason = printable(reason).strip() or UNSAID
         return Status.FAILURE
 
 
@@ -91,9 +95,9 @@ class Action(Step):
     def cancel(self, request: int) -> None:
         """Call it off."""
 
+    @abstractmethod
     def out_of_time(self) -> Status:
         """Say that it took too long."""
-        return self.fail(f"{self.name} took longer than {self._patience_s:g} s")
 
     @property
     def is_under_way(self) -> bool:
@@ -138,7 +142,34 @@ class Action(Step):
 
     def failed(self, result: Result) -> Status:
         """Fail for the reason in a result that is no success."""
-        return self.fail(result.reason if isinstance(result, Failed) else f"got {result}")
+        return self.fail(why_of(result))
+
+
+def why_of(result: Result) -> str:
+    """The reason in a result that is no success, as an adapter gave it; never empty."""
+    if not isinstance(result, Failed):
+        return f"it ended with {type(result).__name__}, which makes no sense here"
+    return printable(result.reason).strip() or UNSAID
+
+
+class Optionally(FailureIsSuccess):
+    """Does what may fail: then all goes on, and the reason that was known before stands."""
+
+    def __init__(self, name: str, situation: Situation, child: Behaviour) -> None:
+        """Keep the situation at hand."""
+        super().__init__(name, child)
+        self._situation = situation
+        self._reason = ""
+
+    def initialise(self) -> None:
+        """Remember the reason."""
+        self._reason = self._situation.reason
+
+    def update(self) -> Status:
+        """Succeed in either case."""
+        if self.decorated.status == Status.FAILURE:
+            self._situation.reason = self._reason
+        return super().update()
 
 
 class _Loop(Decorator):

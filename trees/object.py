@@ -25,7 +25,7 @@ def resolve_object(team: Team) -> Behaviour:
         ),
         sequence(
             "ask",
-            Check("person may help", team, lambda: not team.situation.person_silent),
+            Check("person may help", team, lambda: not team.situation.no_help),
             AskWhichObject("ask which object", team),
         ),
     )

@@ -6,10 +6,10 @@ from dataclasses import replace
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.situation import candidates_from
-from executive.text import too_long
-from executive.types import Answered, Failed, Question, QuestionKind, Result, Source
-from trees.nodes import Action, Step
+from executive.situation import candidates_from, table
+from executive.text import printable, too_long
+from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
+from trees.nodes import Action, Step, why_of
 from trees.team import Team
 
 
@@ -45,6 +45,7 @@ class Ask(Action):
     def start(self) -> int:
         """Ask."""
         question = self.question()
+        question = replace(question, text=printable(question.text))
         self._tries += 1
         self.situation.inquiries += 1
         self.team.recorder.record(Utterance("robot", question.text))
@@ -52,9 +53,8 @@ class Ask(Action):
 
     def ended(self, result: Result) -> Status:
         """Take the answer, ask again, or accept that there is none."""
-        if isinstance(result, Failed):
-            return self._no_help(result.reason)
-        assert isinstance(result, Answered)
+        if not isinstance(result, Answered):
+            return self._no_help(why_of(result))
         self.team.recorder.record(Utterance("person", result.text))
         unread = too_long(result.text)
         if not unread and self.declines(result.text):
@@ -74,7 +74,7 @@ class Ask(Action):
         self.team.user.cancel(request)
 
     def _no_help(self, why: str) -> Status:
-        self.situation.person_silent = True
+        self.situation.no_help = why
         return self.fail(f"{self.unresolved()}, and {why}")
 
 
@@ -215,6 +215,45 @@ class AskWhere(Ask):
         return self.situation.search_so_far or f"I do not know where the {self.situation.object} is"
 
 
+class AskWhereToPut(Ask):
+    """Asks where what is in the hand may be put down, when it found no room for it."""
+
+    def question(self) -> Question:
+        """Say where there was none."""
+        held = self.situation.in_hand or ""
+        text = f"{self.unresolved()}. Where shall I put {the(held)}?"
+        if self._tries:
+            known = ", ".join(place.name for place in self.team.knowledge.places())
+            text = f"I know no such place. Where shall I put {the(held)}? I know: {known}."
+        return Question(QuestionKind.WHERE_TO_PUT, held, text)
+
+    def understood(self, answer: str) -> bool:
+        """Any furniture that exists will do."""
+        self.situation.surfaces = self.team.knowledge.places_named(answer)
+        return bool(self.situation.surfaces)
+
+    def unresolved(self) -> str:
+        """Say where it was tried."""
+        return self.situation.not_put_down
+
+
+class AskToPutDown(AskYesNo):
+    """Asks whether the hand may be emptied for what is asked for now."""
+
+    def question(self) -> Question:
+        """Offer it."""
+        held, asked = self.situation.in_hand or "", self.situation.object or ""
+        text = f"My hand holds {the(held)}. Shall I put it down first?"
+        return Question(QuestionKind.CONFIRM, held, text, (asked,))
+
+    def agreed(self) -> None:
+        """It will be put down."""
+
+    def unresolved(self) -> str:
+        """The hand stays full."""
+        return f"my hand holds {the(self.situation.in_hand or '')}; ask me first to bring that"
+
+
 class Announce(Step):
     """Tells where the robot is going to look, and who says so."""
 
@@ -229,7 +268,7 @@ class Announce(Step):
         candidates = self.situation.candidates
         places = ", then ".join(candidate.place for candidate in candidates)
         why = says[candidates[0].source]
-        _tell(self.team, f"I look for the {self.situation.object} at {places}: {why}.")
+        tell(self.team, f"I look for the {self.situation.object} at {places}: {why}.")
         return self.succeed(places)
 
 
@@ -237,18 +276,24 @@ class Report(Step):
     """Tells what was done."""
 
     def __init__(self, name: str, team: Team, text: str) -> None:
-        """`text` may use {object}, {place} and {target}."""
+        """`text` may use {object}, {the_object}, {place}, {surface} and {why}."""
         super().__init__(name, team)
         self._text = text
 
     def update(self) -> Status:
         """Say it, and keep it as the mission's reason."""
         found = self.situation.found
-        said = self._text.format(
-            object=self.situation.object, place=found.place if found else "nowhere"
+        said = printable(
+            self._text.format(
+                object=self.situation.object,
+                the_object=the(self.situation.object or ""),
+                place=found.place if found else "nowhere",
+                surface=table(self.situation.put_at),
+                why=self.situation.unplaced.get(DELIVERY, ""),
+            )
         )
         self.situation.reason = said
-        _tell(self.team, said)
+        tell(self.team, said)
         return self.succeed(said)
 
 
@@ -257,13 +302,20 @@ class Apologise(Step):
 
     def update(self) -> Status:
         """Say the reason that the failed behaviour left."""
-        _tell(self.team, f"Sorry: {self.situation.reason}.")
-        return self.succeed(self.situation.reason)
+        tell(self.team, f"Sorry: {self.situation.why}.")
+        return self.succeed(self.situation.why)
 
 
-def _tell(team: Team, text: str) -> None:
-    team.recorder.record(Utterance("robot", text))
-    team.user.tell(text)
+def tell(team: Team, text: str) -> None:
+    """Say something, on one line, to the person and to the log."""
+    said = printable(text)
+    team.recorder.record(Utterance("robot", said))
+    team.user.tell(said)
+
+
+def the(held: str) -> str:
+    """What is held, in a sentence: its name, or that it is not known."""
+    return held if held == SOMETHING else f"the {held}"
 
 
 def _either(names: tuple[str, ...]) -> str:

@@ -2,10 +2,14 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable
+from dataclasses import replace
 
 from py_trees.common import Status
 
+from executive.situation import table
 from executive.types import (
+    SOMETHING,
+    Candidate,
     Detection,
     DriveTo,
     Failed,
@@ -18,16 +22,51 @@ from executive.types import (
     Saw,
     Succeeded,
 )
-from trees.nodes import Action
+from trees.nodes import UNSAID, Action, why_of
 from trees.team import Team
 
 
-class RobotAction(Action):
-    """Pursues one goal of the robot."""
+class BodyAction(Action):
+    """Something that the robot does with its body or its eyes.
+
+    Whatever fails, or takes too long, comes by here: it is noted where it counts, once for all.
+    """
 
     def __init__(self, name: str, team: Team) -> None:
         """Give the robot as long as the rules allow."""
         super().__init__(name, team, team.rules.action_s)
+
+    @abstractmethod
+    def attempt(self) -> str:
+        """What is tried, as an infinitive."""
+
+    @abstractmethod
+    def note_failure(self, why: str) -> None:
+        """Note what cannot be known, or be done, because this failed."""
+
+    def failed(self, result: Result) -> Status:
+        """Fail for the reason that the robot gives."""
+        why = why_of(result)
+        self.note_failure(why)
+        return self.fail(f"I could not {self.attempt()}: {why}" if why == UNSAID else why)
+
+    def out_of_time(self) -> Status:
+        """Fail because it took too long."""
+        why = f"it took longer than {self._patience_s:g} s"
+        self.note_failure(why)
+        return self.fail(f"I could not {self.attempt()}: {why}")
+
+
+class RobotAction(BodyAction):
+    """Pursues one goal of the robot."""
+
+    searches = False
+    """Whether it serves to look for the thing, so that its failure leaves a place unseen."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Have no goal yet."""
+        super().__init__(name, team)
+        self._goal: Goal = Halt()
 
     @abstractmethod
     def goal(self) -> Goal:
@@ -35,16 +74,42 @@ class RobotAction(Action):
 
     def start(self) -> int:
         """Hand the goal to the robot."""
-        goal = self.goal()
-        self.feedback_message = _in_words(goal)
+        self._goal = self.goal()
+        self.feedback_message = _in_words(self._goal)
         self.situation.called_off = False
-        return self.team.robot.start(goal)
+        return self.team.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
         """Succeed as the robot did; note if it lost what it held."""
+        if isinstance(result, Succeeded):
+            return Status.SUCCESS
         if isinstance(result, Failed) and result.lost:
-            self.situation.lost, self.situation.in_hand = result.reason, None
-        return Status.SUCCESS if isinstance(result, Succeeded) else self.failed(result)
+            self.situation.lost, self.situation.in_hand = why_of(result), None
+        return self.failed(result)
+
+    def attempt(self) -> str:
+        """By the goal."""
+        match self._goal:
+            case DriveTo(place):
+                return f"get to {place}"
+            case LookAt(place):
+                return f"look at {place}"
+            case Pick(detection):
+                return f"pick up the {detection.label}"
+            case PutDown(place):
+                return f"put it down on {table(place)}"
+            case Halt():
+                return "stop"
+
+    def note_failure(self, why: str) -> None:
+        """A place stays out of reach, or unseen; or there is no room for what is in the hand."""
+        match self._goal:
+            case DriveTo(place) if self.searches:
+                self.situation.looks.not_reached(place, why)
+            case LookAt(place) if self.searches:
+                self.situation.looks.not_seen(place, why)
+            case PutDown(place):
+                self.situation.unplaced[place] = why
 
     def cancel(self, request: int) -> None:
         """Brake."""
@@ -55,6 +120,8 @@ class RobotAction(Action):
 class DriveToCandidate(RobotAction):
     """Goes to the place where the thing may be."""
 
+    searches = True
+
     def goal(self) -> Goal:
         """Drive to the candidate."""
         assert self.situation.candidate
@@ -63,16 +130,13 @@ class DriveToCandidate(RobotAction):
 
 
 class Visit(DriveToCandidate):
-    """Goes to a place for the first time: it counts as visited, or as out of reach."""
+    """Goes to a place for the first time: it counts as visited if it is reached."""
 
     def ended(self, result: Result) -> Status:
         """Count only a place that was reached."""
         assert self.situation.candidate
-        place = self.situation.candidate.place
         if isinstance(result, Succeeded):
-            self.situation.visited.append(place)
-        elif isinstance(result, Failed):
-            self.situation.unreached[place] = result.reason
+            self.situation.looks.reached(self.situation.candidate.place)
         return super().ended(result)
 
 
@@ -97,16 +161,19 @@ class DriveBack(RobotAction):
 class LookAtCandidate(RobotAction):
     """Points the head at the next part of the place."""
 
+    searches = True
+
     def goal(self) -> Goal:
         """Look at the view at hand."""
         assert self.situation.candidate
-        if not self.situation.view:
-            self.situation.views_without = 0
+        self.situation.doubtful = None
         return LookAt(self.situation.candidate.place, self.situation.view)
 
 
 class LookCloser(RobotAction):
     """Brings what may be the thing to the middle of the picture."""
+
+    searches = True
 
     def goal(self) -> Goal:
         """Look at the doubtful detection."""
@@ -162,6 +229,7 @@ class PickUp(RobotAction):
             self.situation.in_hand = name
             self.team.facts.took(name, self.situation.found.place)
             self.situation.lost = ""
+            self.situation.unplaced.clear()
         return super().ended(result)
 
 
@@ -175,23 +243,47 @@ class PutDownAt(RobotAction):
 
     def goal(self) -> Goal:
         """Put it there."""
-        return PutDown(self._place)
+        return PutDown(self._place_now())
 
     def ended(self, result: Result) -> Status:
         """Remember that it is here now."""
         if isinstance(result, Succeeded):
-            assert self.situation.object
-            self.situation.in_hand = None
-            self.team.facts.put(self.situation.object, self._place)
+            held, place = self.situation.in_hand or self.situation.object, self._place_now()
+            if held and held != SOMETHING:
+                self.team.facts.put(held, place)
+            self.situation.in_hand, self.situation.put_at = None, place
         return super().ended(result)
 
+    def _place_now(self) -> str:
+        return self._place
 
-class SeeTarget(Action):
+
+class PutDownThere(PutDownAt):
+    """Puts the held thing down on the surface at hand."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Wait for the surface to be chosen."""
+        super().__init__(name, team, "")
+
+    def _place_now(self) -> str:
+        return self.situation.surface
+
+
+class DriveToSurface(RobotAction):
+    """Goes to the furniture where the held thing may be put down."""
+
+    def goal(self) -> Goal:
+        """Drive there; the person is not there."""
+        self.situation.away = True
+        return DriveTo(self.situation.surface)
+
+
+class SeeTarget(BodyAction):
     """Takes a picture and succeeds if the thing is in it, surely and wholly."""
 
     def __init__(self, name: str, team: Team, closer: bool = False) -> None:
-        """Give the eyes as long as the rules allow; `closer`, a part of the thing is enough."""
-        super().__init__(name, team, team.rules.action_s)
+        """`closer`, a part of the thing is enough."""
+        super().__init__(name, team)
         self._closer = closer
 
     def start(self) -> int:
@@ -201,17 +293,14 @@ class SeeTarget(Action):
     def ended(self, result: Result) -> Status:
         """Keep the surest detection of the thing, and where it was; remember all that was seen."""
         assert self.situation.candidate
-        place = self.situation.candidate.place
         if not isinstance(result, Saw):
-            status = self.failed(result)
-            self.situation.unseen[place] = self.situation.reason
-            return status
-        self.situation.unseen.pop(place, None)
+            return self.failed(result)
         self._remember(result.detections)
         self.situation.doubtful = None
         seen = self._surest(result)
         if seen is None:
-            self.situation.views_without += 1
+            place, view = self.situation.candidate.place, self.situation.view
+            self.situation.looks.without(place, view)
             self.feedback_message = f"no {self.situation.object} in view"
             return Status.FAILURE
         if seen.confidence < self.team.rules.sure:
@@ -223,12 +312,27 @@ class SeeTarget(Action):
             self.feedback_message = f"{seen.label}, at the edge of the picture"
             return Status.FAILURE
         self.situation.detection = seen
-        self.situation.found = self.situation.candidate
+        self.situation.found = self._where(seen)
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
+
+    def attempt(self) -> str:
+        """By the place."""
+        return f"look at {self.situation.candidate.place if self.situation.candidate else 'it'}"
+
+    def note_failure(self, why: str) -> None:
+        """A part of the place stays unseen."""
+        assert self.situation.candidate
+        self.situation.looks.not_seen(self.situation.candidate.place, why)
 
     def cancel(self, request: int) -> None:
         """Look no more."""
         self.team.eyes.cancel(request)
+
+    def _where(self, seen: Detection) -> Candidate:
+        """Here; but what is seen on furniture behind this place is on that."""
+        assert self.situation.candidate
+        below = self.team.place_at(seen.position) if seen.position else None
+        return replace(self.situation.candidate, place=below or self.situation.candidate.place)
 
     def _surest(self, saw: Saw) -> Detection | None:
         """The surest detection of the thing, if it was seen."""
@@ -240,8 +344,7 @@ class SeeTarget(Action):
         for seen in detections:
             if seen.confidence < self.team.rules.sure:
                 continue
-            below = self.team.place_at(seen.position) if seen.position else None
-            self.team.facts.saw((seen.label,), below or self.situation.candidate.place)
+            self.team.facts.saw((seen.label,), self._where(seen).place)
 
 
 class SeeLost(SeeTarget):
@@ -256,6 +359,13 @@ class SeeLost(SeeTarget):
             return self.fail(f"I do not see it on the {self.situation.spot}")
         self.situation.detection = seen
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
+
+    def attempt(self) -> str:
+        """By the spot."""
+        return f"look at the {self.situation.spot}"
+
+    def note_failure(self, why: str) -> None:
+        """Nothing: this is no search of a place."""
 
 
 def _in_words(goal: Goal) -> str:

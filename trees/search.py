@@ -25,7 +25,7 @@ def search(team: Team) -> Behaviour:
         look("look where it may be", resolve_location(team)),
         look(
             "look where the person says",
-            Check("person may help", team, lambda: not situation.person_silent),
+            Check("person may help", team, lambda: not situation.no_help),
             AskWhere("ask where", team),
         ),
         GiveUpSearch("not found", team),
@@ -50,8 +50,11 @@ def look_over(team: Team) -> Behaviour:
     """Look at every part of the place until the thing is seen; remember if it is not there."""
 
     def views() -> range:
-        candidate = team.situation.candidate
-        return range(team.robot.views(candidate.place) if candidate else 0)
+        assert team.situation.candidate
+        place = team.situation.candidate.place
+        parts = team.robot.views(place)
+        team.situation.looks.begin(place, parts)
+        return range(parts)
 
     def choose(view: int) -> None:
         team.situation.view = view
@@ -90,8 +93,10 @@ class NotHere(Step):
         assert self.situation.candidate
         assert self.situation.object
         name, place = self.situation.object, self.situation.candidate.place
-        if self.situation.views_without == self.team.robot.views(place):
-            self.team.facts.missed(name, place)
+        looks = self.situation.looks
+        if not looks.all_without(place):
+            return self.fail(looks.why_not_all(name, place))
+        self.team.facts.missed(name, place)
         self.situation.gone = self.situation.detection is not None
         return self.fail(f"no {name} at {place}")
 
@@ -100,7 +105,7 @@ class GiveUpSearch(Step):
     """Fails, and says where the thing was looked for."""
 
     def update(self) -> Status:
-        """Keep the person's refusal as the reason if there was one, else sum up the search."""
-        if self.situation.person_silent:
-            return self.fail(self.situation.reason)
-        return self.fail(self.situation.search_so_far)
+        """Sum up the search, and why the person could not help if they were asked."""
+        name, silence = self.situation.object, self.situation.no_help
+        so_far = self.situation.search_so_far or f"I do not know where the {name} is"
+        return self.fail(f"{so_far}, and {silence}" if silence else so_far)

@@ -73,6 +73,8 @@ class Team:
     """The collaborators of a mission; no `model` and `advisor` for the system without an LLM.
 
     `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
+    `near_person` is the furniture by the person, the nearest first, where things may be put down if
+    the delivery table has no room.
     """
 
     situation: Situation
@@ -88,3 +90,4 @@ class Team:
     rules: Rules = Rules()
     facts: Facts = NoFacts()
     place_at: Callable[[Vector3], str | None] = lambda point: None
+    near_person: tuple[str, ...] = ()

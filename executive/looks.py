@@ -1,0 +1,65 @@
+"""What came of going to places to look for a thing: only what was seen is known."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Looks:
+    """The one account of a search: where the robot got to, what it saw there, and why it did not.
+
+    Attributes:
+        visited: places that the robot got to, in this order.
+        unreached: places that it could not get to the last time, and why.
+        unseen: places of which it could not see every part the last time, and why.
+    """
+
+    visited: list[str] = field(default_factory=list)
+    unreached: dict[str, str] = field(default_factory=dict)
+    unseen: dict[str, str] = field(default_factory=dict)
+    _parts: dict[str, int] = field(default_factory=dict)
+    """How many parts a place has, each of which takes a look of its own."""
+    _without: dict[str, set[int]] = field(default_factory=dict)
+    """The parts of a place in which the thing surely was not, at the last look."""
+
+    def reached(self, place: str) -> None:
+        """The robot got there."""
+        self.visited.append(place)
+        self.unreached.pop(place, None)
+
+    def not_reached(self, place: str, why: str) -> None:
+        """The robot could not get there."""
+        self.unreached[place] = why
+
+    def begin(self, place: str, parts: int) -> None:
+        """A look over the whole place begins, of so many parts; the one before counts no more."""
+        self._parts[place] = parts
+        self._without[place] = set()
+        self.unseen.pop(place, None)
+
+    def without(self, place: str, part: int) -> None:
+        """This part was seen, and the thing is not there."""
+        self._without.setdefault(place, set()).add(part)
+
+    def not_seen(self, place: str, why: str) -> None:
+        """A part could not be looked at."""
+        self.unseen[place] = why
+
+    def all_without(self, place: str) -> bool:
+        """Whether every part of a place was seen, and the thing is in none of them."""
+        return 0 < self._parts.get(place, 0) == len(self._without.get(place, ()))
+
+    def why_not_all(self, thing: str, place: str) -> str:
+        """Why it is not known whether the thing is at a place that was reached, as a clause."""
+        if place not in self.unseen:
+            return f"I am not sure whether the {thing} is at {place}"
+        some = "saw only a part of" if self._without.get(place) else "could not look at"
+        return f"I {some} {place}: {self.unseen[place]}"
+
+    def clauses(self, thing: str) -> Iterator[str]:
+        """What the search came to, at most a clause for each place."""
+        there = [p for p in dict.fromkeys(self.visited) if p not in self.unreached]
+        if seen := [place for place in there if self.all_without(place)]:
+            yield f"I did not find the {thing} at {', '.join(seen)}"
+        yield from (self.why_not_all(thing, p) for p in there if not self.all_without(p))
+        yield from (f"I could not get to {p}: {why}" for p, why in self.unreached.items())

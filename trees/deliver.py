@@ -1,0 +1,78 @@
+"""Carry the thing to the delivery table and put it down: there, or on the nearest furniture."""
+
+from collections.abc import Iterator
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.types import DELIVERY, FLOOR
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
+from trees.person import the
+from trees.put_down import put_down_somewhere
+from trees.robot import DriveBack, LookForLost, PickUp, PutDownAt, SeeLost
+from trees.team import Team
+
+
+def deliver(team: Team) -> Behaviour:
+    """Carry it and put it down; what falls on the way, or falls over there, is picked up once."""
+    return sequence(
+        "deliver",
+        fallback(
+            "bring it there",
+            DriveBack("carry", team, DELIVERY),
+            sequence(
+                "after a fall",
+                pick_up_again(team, FLOOR),
+                DriveBack("carry", team, DELIVERY),
+            ),
+            SayItFell("it fell", team),
+        ),
+        fallback(
+            "leave it there",
+            PutDownAt("put down", team, DELIVERY),
+            sequence(
+                "after a fall",
+                pick_up_again(team, DELIVERY, FLOOR),
+                PutDownAt("put down", team, DELIVERY),
+            ),
+            put_down_somewhere(team, "on other furniture"),
+            SayItFell("it fell", team),
+        ),
+    )
+
+
+def pick_up_again(team: Team, *spots: str) -> Behaviour:
+    """Look for what fell from the hand at these spots, and pick it up."""
+    situation = team.situation
+
+    def views() -> Iterator[tuple[str, int]]:
+        return ((spot, view) for spot in spots for view in range(team.robot.views(spot)))
+
+    def choose(look: tuple[str, int]) -> None:
+        situation.spot, situation.view = look
+
+    return sequence(
+        "pick it up again",
+        Check("it fell", team, lambda: bool(situation.lost)),
+        FirstOf(
+            "look around",
+            views,
+            choose,
+            sequence("glance", LookForLost("aim", team), SeeLost("see", team)),
+        ),
+        PickUp("pick", team),
+    )
+
+
+class SayItFell(Step):
+    """Says why it was not brought, and whether it fell or is still in the hand; always fails."""
+
+    def update(self) -> Status:
+        """Put the clauses together, if there are two."""
+        held, lost, why = self.situation.in_hand, self.situation.lost, self.situation.reason
+        if lost and lost != why:
+            return self.fail(f"{lost}, and {why}")
+        if held:
+            return self.fail(f"{why}; I still hold {the(held)}")
+        gone = f"the {self.situation.object} is not in my hand any more"
+        return self.fail(why if lost else f"{why}; {gone}")

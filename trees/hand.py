@@ -1,0 +1,87 @@
+"""The hand holds one thing at a time: is it free for another, and how it is emptied on request."""
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.put_down import HELD
+from executive.types import DELIVERY, SOMETHING, Kind
+from trees.nodes import Step, fallback, sequence
+from trees.person import AskToPutDown, Report, the
+from trees.put_down import put_down_somewhere
+from trees.team import Team
+
+
+def hand_is_free(team: Team) -> Behaviour:
+    """Go on if the hand is free for what is asked; else offer to empty it first."""
+    return fallback(
+        "hand is free",
+        HandIsFree("free", team),
+        sequence(
+            "make room",
+            AskToPutDown("ask to put it down", team),
+            put_down_somewhere(team, "put it down", DELIVERY),
+        ),
+        HandStaysFull("not free", team),
+    )
+
+
+def empty_hand(team: Team) -> Behaviour:
+    """Put down what is in the hand, because the person says so."""
+    return sequence(
+        "empty the hand",
+        HoldsWhatIsMeant("holds it", team),
+        fallback(
+            "put it down",
+            put_down_somewhere(team, "by the person", DELIVERY),
+            StillHolds("still in my hand", team),
+        ),
+        Report("report", team, "I put {the_object} on {surface}."),
+    )
+
+
+class HandIsFree(Step):
+    """Succeeds if the hand is free for what is asked: it holds one thing at a time."""
+
+    def update(self) -> Status:
+        """Fail if another thing than the one that is asked for is in it."""
+        assert self.situation.command
+        held = self.situation.in_hand
+        if held in (None, self.situation.object) or self.situation.command.kind == Kind.FIND:
+            return Status.SUCCESS
+        return self.fail(f"my hand holds {the(held)}; ask me first to bring that")
+
+
+class HandStaysFull(Step):
+    """Says why the hand is not free; always fails."""
+
+    def update(self) -> Status:
+        """There was no room for what it holds, or it may not be put down."""
+        held = self.situation.in_hand
+        if held is None or self.situation.unplaced:
+            return self.fail(self.situation.reason)
+        return self.fail(f"my hand holds {the(held)}; ask me first to bring that")
+
+
+class StillHolds(Step):
+    """Says why the hand is not empty, and that it is not; always fails."""
+
+    def update(self) -> Status:
+        """What fell is no longer held."""
+        held, why = self.situation.in_hand, self.situation.reason
+        return self.fail(f"{why}; I still hold {the(held)}" if held else why)
+
+
+class HoldsWhatIsMeant(Step):
+    """Succeeds if what is to be put down is in the hand."""
+
+    def update(self) -> Status:
+        """Nobody need say the name of what is held; if they do, it has to be that."""
+        assert self.situation.command
+        held, target = self.situation.in_hand, self.situation.command.target
+        if held is None:
+            return self.fail("my hand is empty")
+        named = self.team.knowledge.objects_named(target)
+        if target != HELD and held not in (SOMETHING, *named):
+            return self.fail(f"my hand holds {the(held)}, not the {target}")
+        self.situation.object = held
+        return self.succeed(held)

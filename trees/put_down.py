@@ -1,0 +1,60 @@
+"""Put down what is in the hand: on the nearest free furniture by the person, or where they say."""
+
+from collections.abc import Iterator
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
+from trees.person import AskWhereToPut
+from trees.robot import DriveToSurface, PutDownThere
+from trees.team import Team
+
+NEAR = 3
+"""How many pieces of furniture by the person are tried before they are asked."""
+
+
+def put_down_somewhere(team: Team, name: str, *first: str) -> Behaviour:
+    """A full hand -> `situation.put_at`: the places of `first`, then near ones, then asked for."""
+    situation = team.situation
+
+    def near() -> Iterator[str]:
+        yield from first
+        yield from team.near_person[:NEAR]
+
+    def choose(place: str) -> None:
+        situation.surface = place
+
+    return fallback(
+        name,
+        FirstOf("near the person", near, choose, go_and_put(team)),
+        sequence(
+            "where the person says",
+            Check("still in my hand", team, lambda: situation.in_hand is not None),
+            Check("person may help", team, lambda: not situation.no_help),
+            AskWhereToPut("ask where to put it", team),
+            FirstOf("there", lambda: situation.surfaces, choose, go_and_put(team)),
+        ),
+        NotPutDown("no room", team),
+    )
+
+
+def go_and_put(team: Team) -> Behaviour:
+    """Take it to the surface at hand, and put it down there."""
+    return sequence(
+        "go and put",
+        Check("still in my hand", team, lambda: team.situation.in_hand is not None),
+        DriveToSurface("drive", team),
+        PutDownThere("put down", team),
+    )
+
+
+class NotPutDown(Step):
+    """Says where there was no room, and why the person could not help; always fails."""
+
+    def update(self) -> Status:
+        """What is in the hand no more has its own reason."""
+        tried, silence = self.situation.not_put_down, self.situation.no_help
+        if self.situation.in_hand is None or not tried:
+            return self.fail(self.situation.reason)
+        return self.fail(f"{tried}, and {silence}" if silence else tried)
