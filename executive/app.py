@@ -138,7 +138,7 @@ class Session:
             KeyboardInterrupt: if someone says stop by signal a second time.
         """
         began = time.monotonic()
-        self.stopped_by = ""
+        self.stopped_by, self.folder = "", None
         if why := too_long(words):
             return refused(why)
         words = one_line(writable(words))

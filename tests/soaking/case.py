@@ -215,7 +215,8 @@ class Soak:
         yield from false_searches((*self._witness.said, reason), seen)
         if outcome.status == Status.DONE:
             yield from self._not_done(outcome)
-        if self._model and self._model.failed and not outcome.model_failure:
+        stopped = outcome.status == Status.STOPPED
+        if self._model and self._model.failed and not (outcome.model_failure or stopped):
             yield "the model failed, and the outcome does not say so"
         if not self._model and outcome.model_failure:
             yield f"there is no model, but {outcome.model_failure!r}"
@@ -225,7 +226,7 @@ class Soak:
         world, name = self._session.world, outcome.object or ""
         match outcome.kind:
             case Kind.BRING if (place := world.resting_place(name)) != "delivery":
-                if f"on the {place}" not in outcome.reason:
+                if f"on {place}" not in outcome.reason.replace("on the ", "on "):
                     yield f"brought, but it is at {place}: {outcome.reason}"
             case Kind.TAKE if world.held != name:
                 yield f"taken, but it holds {world.held}"

@@ -72,7 +72,7 @@ class Witness:
     def _untrue(self, text: str) -> Iterator[str]:
         """What of a sentence is not so now."""
         held = self._world.held
-        if re.search(r"\bNone\b|: \.|: *$|\(\)|''", text):
+        if re.search(r"\bNone\b|: \.|: *$|\(\)", text):
             yield "that is no sentence"
         for pattern in (rf"I took the {NAME} from", rf"[Ii] hold the {NAME}"):
             for match in re.finditer(pattern, text):
