@@ -240,17 +240,19 @@ class PutDownAt(RobotAction):
         """Name the place."""
         super().__init__(name, team)
         self._place = place
+        self._held: str | None = None
 
     def goal(self) -> Goal:
-        """Put it there."""
+        """Put it there; afterwards the hand does not tell what it was."""
+        self._held = self.situation.in_hand
         return PutDown(self._place_now())
 
     def ended(self, result: Result) -> Status:
         """Remember that it is here now."""
         if isinstance(result, Succeeded):
-            held, place = self.situation.in_hand or self.situation.object, self._place_now()
-            if held and held != SOMETHING:
-                self.team.facts.put(held, place)
+            place = self._place_now()
+            if self._held and self._held != SOMETHING:
+                self.team.facts.put(self._held, place)
             self.situation.in_hand, self.situation.put_at = None, place
         return super().ended(result)
 
