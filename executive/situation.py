@@ -283,7 +283,7 @@ def _copied(value: Any) -> Any:
 
 def table(place: str) -> str:
     """A piece of furniture as it is called in a sentence."""
-    return "the delivery table" if place == DELIVERY else place
+    return "the delivery table" if place == DELIVERY else f"the {place}"
 
 
 def candidates_from(places: Iterable[str], source: Source) -> tuple[Candidate, ...]:
