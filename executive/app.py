@@ -35,6 +35,7 @@ from executive.perception import Eyes
 from executive.records import Finished
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
+from executive.text import writable
 from executive.types import Answered, Outcome
 from executive.user import Console, Nobody, Oracle
 from kb.facts import FactStore
@@ -132,6 +133,7 @@ class Session:
             InputError: if the run's folder cannot be made.
             KeyboardInterrupt: if someone says stop by signal a second time.
         """
+        words = writable(words)
         began = time.monotonic()
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None

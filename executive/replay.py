@@ -186,7 +186,9 @@ def _grounds(run: Run, absent: Absent) -> Grounds:
         knowledge=_ontology(home.places(), settings.defaults, files, settings.person),
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
-        facts=FactStore.believing(json.loads(_kept(run, run.attachments, "facts.json"))),
+        facts=FactStore.believing(
+            json.loads(_kept(run, run.attachments, "facts.json")), learns=settings.learn
+        ),
     )
 
 
