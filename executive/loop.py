@@ -166,7 +166,8 @@ class Executive:
             result = self._halt()
             if not isinstance(result, Failed):
                 break
-        if not isinstance(result, Succeeded):
+        self._situation.restless = not isinstance(result, Succeeded)
+        if self._situation.restless:
             why = printable(result.reason)[:LONGEST] if isinstance(result, Failed) else ""
             self._situation.reason += "; I may not be at rest" + (f": {why}" if why.strip() else "")
         self._inbox.drop_all()

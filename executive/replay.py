@@ -92,7 +92,7 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     """
     began = perf_counter()
     run = Run(folder)
-    inbox, situation = Inbox(), Situation(in_hand=run.metadata.get("in_hand") or None)
+    inbox, situation = Inbox(), _situation(run)
     clock = RecordedTime(run.turns(), inbox, int(_kept(run, run.metadata, "requests_before")))
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox)
@@ -169,6 +169,12 @@ class Judge:
             return
         self.same += 1
         self.time_s = self._clock.now()
+
+
+def _situation(run: Run) -> Situation:
+    """What was known of the robot before the recorded mission."""
+    restless = run.metadata.get("restless") == str(True)
+    return Situation(in_hand=run.metadata.get("in_hand") or None, restless=restless)
 
 
 def _grounds(run: Run, absent: Absent) -> Grounds:
