@@ -76,11 +76,12 @@ class RobotAction(BodyAction):
         """Hand the goal to the robot."""
         self._goal = self.goal()
         self.feedback_message = _in_words(self._goal)
-        self.situation.called_off = False
+        self.situation.restless = True
         return self.team.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
         """Succeed as the robot did; note if it lost what it held."""
+        self.situation.restless = not isinstance(result, Succeeded)
         if isinstance(result, Succeeded):
             return Status.SUCCESS
         if isinstance(result, Failed) and result.lost:
@@ -113,7 +114,6 @@ class RobotAction(BodyAction):
 
     def cancel(self, request: int) -> None:
         """Brake."""
-        self.situation.called_off = True
         self.team.robot.cancel(request)
 
 
