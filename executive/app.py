@@ -119,6 +119,7 @@ class Session:
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
         self._in_hand: str | None = None
+        self._restless = False
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
@@ -145,7 +146,7 @@ class Session:
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
         self.folder = folder
-        situation = Situation(words=words, in_hand=self._in_hand)
+        situation = Situation(words=words, in_hand=self._in_hand, restless=self._restless)
         try:
             self._begin(folder, started)
             self._carry_out(situation)
@@ -157,7 +158,7 @@ class Session:
             )
             self.recorder.record(Finished(outcome))
         finally:
-            self._in_hand = situation.in_hand
+            self._in_hand, self._restless = situation.in_hand, situation.restless
             self.recorder.close()
         if folder:
             write(folder / "outcome.json", to_json(outcome) + "\n")
@@ -251,6 +252,7 @@ class Session:
         metadata = {
             "requests_before": str(self.inbox.last),
             "in_hand": self._in_hand or "",
+            "restless": str(self._restless),
             "seed": str(self.settings.seed),
             "model": self.grounds.model.name if self.grounds.model else "none",
             "thinks": str(bool(self.grounds.model)),

@@ -19,7 +19,7 @@ from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, 
 
 T = TypeVar("T")
 
-LONGEST = 300
+LONGEST = 120
 """What an exception says is cut to so many characters."""
 
 log = logging.getLogger(__name__)

@@ -14,6 +14,7 @@ ACTIVITIES = {
     "DriveToCandidate": "driving",
     "Visit": "driving",
     "DriveBack": "driving",
+    "DriveToSurface": "driving",
     "LookAtCandidate": "looking",
     "SeeTarget": "looking",
     "LookCloser": "looking",
@@ -21,6 +22,7 @@ ACTIVITIES = {
     "SeeLost": "looking",
     "PickUp": "handling",
     "PutDownAt": "handling",
+    "PutDownThere": "handling",
 }
 """Class of a behaviour -> what the robot does while it is running."""
 

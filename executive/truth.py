@@ -19,7 +19,7 @@ def completed(outcome: Outcome, truth: str) -> bool:
     """Whether the robot said that it was done, and it was.
 
     find: the robot went to the furniture that it names, and the thing is there; take: the thing is
-    in its hand; bring: the thing is on the delivery table.
+    in its hand; bring: the thing is on the delivery table; put down: it is on some furniture.
 
     Args:
         outcome: what the robot says.
@@ -32,6 +32,8 @@ def completed(outcome: Outcome, truth: str) -> bool:
             return truth == outcome.location and truth in outcome.visited
         case Kind.TAKE:
             return truth == HAND
+        case Kind.PUT_DOWN:
+            return truth not in (HAND, "")
         case _:
             return truth == DELIVERY
 

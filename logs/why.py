@@ -217,7 +217,9 @@ def _visits(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
         if not was.get("found"):
             yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
     elif _was_looking(before) and place in (was.get("visited") or ()) and _is_left(was, now, at):
-        yield Decision(at.time_s, f"look at {place}", "not seen there", "eyes", tip)
+        why_not = (now.get("unseen") or {}).get(place)
+        seen = f"not all of it seen: {why_not}" if why_not else "not seen there"
+        yield Decision(at.time_s, f"look at {place}", seen, "eyes", tip)
 
 
 def _was_looking(at: At[Tick]) -> bool:

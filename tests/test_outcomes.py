@@ -529,8 +529,8 @@ def test_a_thing_that_cannot_be_put_down_is_reported() -> None:
     run = run_mission("Bring a hammer.", fault=fault)
     assert run.outcome.status == Status.NOT_DONE
     assert run.outcome.reason == (
-        "I could not put it on the delivery table: the table is full; nor on coffee_table, sofa, "
-        "dining_table, and you could not tell me; I still hold the hammer"
+        "I could not put it on the delivery table: the table is full; nor on the coffee_table, "
+        "the sofa, the dining_table, and you could not tell me; I still hold the hammer"
     )
 
 

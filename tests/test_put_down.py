@@ -58,7 +58,7 @@ def test_a_full_delivery_table_is_no_dead_end(serve: Serve) -> None:
     outcome = session.run("Bring the hammer")
     assert outcome.status == Status.DONE
     assert outcome.reason == (
-        f"I put the hammer on coffee_table; I could not put it on the delivery table: {FULL}."
+        f"I put the hammer on the coffee_table; I could not put it on the delivery table: {FULL}."
     )
     assert (world.held, world.resting_place("hammer")) == (None, "coffee_table")
     assert session.run("Take the power_drill").status == Status.DONE
@@ -77,12 +77,12 @@ def test_the_person_is_asked_where_to_put_it_if_all_that_is_near_is_full(serve: 
     outcome = session.run("Bring the hammer")
     assert (outcome.status, outcome.inquiries) == (Status.DONE, 2)
     assert world.resting_place("hammer") == "desk"
-    assert outcome.reason.startswith("I put the hammer on desk; ")
+    assert outcome.reason.startswith("I put the hammer on the desk; ")
     assert isinstance(session.user, Scripted)
     first, second = session.user.asked
     assert first.text == (
         f"I could not put it on the delivery table: {FULL}; "
-        "nor on coffee_table, sofa, dining_table. Where shall I put the hammer?"
+        "nor on the coffee_table, the sofa, the dining_table. Where shall I put the hammer?"
     )
     assert second.text.startswith("I know no such place. Where shall I put the hammer? I know: ")
 

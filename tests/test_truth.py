@@ -38,6 +38,12 @@ def test_a_robot_that_only_says_so_has_completed_nothing() -> None:
     assert not completed(replace(run.outcome, visited=("sofa",)), "dining_table")
 
 
+@pytest.mark.parametrize(("truth", "done"), [("sofa", True), ("hand", False), ("", False)])
+def test_what_was_put_down_is_on_some_furniture(truth: str, done: bool) -> None:
+    outcome = replace(run_mission("Find an apple", llm=False).outcome, kind=Kind.PUT_DOWN)
+    assert completed(outcome, truth) == done
+
+
 @pytest.mark.parametrize("kind", [Pick, PutDown])
 def test_a_robot_that_says_that_it_failed_has_completed_nothing(kind: type) -> None:
     fault = lambda goal: "the hand is stuck" if isinstance(goal, kind) else None  # noqa: E731

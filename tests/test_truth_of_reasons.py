@@ -1,5 +1,6 @@
 """What the robot says of a mission is so: where it looked, why it did not, and never nothing."""
 
+import io
 from collections.abc import Callable, Iterator
 from itertools import count
 
@@ -8,12 +9,16 @@ from conftest import Run, run_mission
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from executive.app import Session
+from executive.config import load_settings
 from executive.looks import Looks
 from executive.records import Utterance
 from executive.situation import Situation
 from executive.text import printable
 from executive.types import DriveTo, Goal, Halt, Kind, LookAt, Pick, PutDown, Status
 from kb.facts import FactStore
+from logs.reader import Run as RecordedRun
+from logs.why import why
 from sim.fake import FakeRobot
 
 Fault = Callable[[Goal], str | None]
@@ -137,6 +142,19 @@ def test_it_is_said_not_to_be_where_every_part_was_seen_without_it_and_nowhere_e
     whole = {place for place, parts in seen.items() if len(parts) == PARTS[place]}
     assert known == (whole & set(looks.visited)) - set(looks.unreached)
     assert all(sum(p in clause for clause in clauses) == 1 for p in looks.visited)
+
+
+def test_the_log_does_not_say_of_an_unseen_place_that_the_thing_was_not_seen_there(
+    tmp_path,
+) -> None:
+    quiet = {"llm": "none", "user": "none", "runs": tmp_path}
+    session = Session(load_settings(world="fake", **quiet), out=io.StringIO())
+    session.world.fault = always(LookAt, "my neck is stiff")  # type: ignore[attr-defined]
+    session.run("Find a power_drill")
+    session.close()
+    assert session.folder
+    links = {link.question: link.answer for link in why(RecordedRun(session.folder))}
+    assert links[f"look at {PLACE}"] == "not all of it seen: my neck is stiff"
 
 
 # --- the reason is the last cause, and there always is one ---

@@ -13,7 +13,7 @@ from py_trees.decorators import FailureIsSuccess
 from trees.location import ModelAction
 from trees.nodes import EachOf, FirstOf
 from trees.person import Announce, Apologise, Ask, Report
-from trees.robot import RobotAction, SeeTarget
+from trees.robot import BodyAction
 
 ROW, HEIGHT, GAP, MARGIN = 30.0, 22.0, 26.0, 12.0
 """Distance of rows, height of a box, between columns, around everything (pixels)."""
@@ -29,7 +29,7 @@ SIGNS: tuple[tuple[type, str, str], ...] = (
 )
 """What a composite's sign means."""
 WHO: tuple[tuple[tuple[type, ...], str, str], ...] = (
-    ((RobotAction, SeeTarget), "#cfe3fa", "robot"),
+    ((BodyAction,), "#cfe3fa", "robot"),
     ((ModelAction,), "#e3d3f7", "language model"),
     ((Ask, Announce, Report, Apologise), "#fbe2c2", "person"),
 )

@@ -28,20 +28,22 @@ def grasp(team: Team) -> Behaviour:
             Check("it is gone", team, lambda: situation.gone),
             ForgetSighting("begin anew", team),
             search(team),
-            get_hold(team),
+            get_hold(team, Check("in my hand", team, lambda: situation.has_it)),
         ),
     )
 
 
-def get_hold(team: Team) -> Behaviour:
-    """Pick it up; after a miss look again and try another approach, as long as it is there."""
+def get_hold(team: Team, *first: Behaviour) -> Behaviour:
+    """Pick it up; after a miss look again and try another approach, as long as it is there.
+
+    What is in `first` may make that needless.
+    """
     situation = team.situation
     more_tries = [f"try {number}" for number in range(2, team.rules.grasps + 1)]
     return fallback(
         "get hold",
-        Check("in my hand", team, lambda: situation.has_it),
+        *first,
         PickUp("pick", team),
-        Check("in my hand after all", team, lambda: situation.has_it),
         FirstOf(
             "try again",
             lambda: more_tries,

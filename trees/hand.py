@@ -6,7 +6,7 @@ from py_trees.common import Status
 from executive.put_down import HELD
 from executive.types import DELIVERY, SOMETHING, Kind
 from trees.nodes import Step, fallback, sequence
-from trees.person import AskToPutDown, Report, the
+from trees.person import AskToPutDown, Report, full_hand, the
 from trees.put_down import put_down_somewhere
 from trees.team import Team
 
@@ -15,7 +15,7 @@ def hand_is_free(team: Team) -> Behaviour:
     """Go on if the hand is free for what is asked; else offer to empty it first."""
     return fallback(
         "hand is free",
-        HandIsFree("free", team),
+        HandIsFree("nothing else is in it", team),
         sequence(
             "make room",
             AskToPutDown("ask to put it down", team),
@@ -48,7 +48,7 @@ class HandIsFree(Step):
         held = self.situation.in_hand
         if held in (None, self.situation.object) or self.situation.command.kind == Kind.FIND:
             return Status.SUCCESS
-        return self.fail(f"my hand holds {the(held)}; ask me first to bring that")
+        return self.fail(full_hand(held))
 
 
 class HandStaysFull(Step):
@@ -59,7 +59,7 @@ class HandStaysFull(Step):
         held = self.situation.in_hand
         if held is None or self.situation.unplaced:
             return self.fail(self.situation.reason)
-        return self.fail(f"my hand holds {the(held)}; ask me first to bring that")
+        return self.fail(full_hand(held))
 
 
 class StillHolds(Step):

@@ -2,10 +2,10 @@
 
 understand ─> which object ─> search ──────────────────> grasp ───────────> act ─────> report
 grammar       ontology        memory: where it was      pick it up         find, take
-else LLM,     else person     else ontology: its one    else look again    or bring
-confirmed                     place; else LLM, verified if gone, search
-                              else person; visit, look; again
-                              not seen: ask the person
+else LLM,     else person     else ontology: its one    else look again    or bring;
+confirmed     hand is free    place; else LLM, verified if gone, search    table full:
+  │           else put down   else person; visit, look; again              other furniture
+  └─> put down what is held   not seen: ask the person                     else person
 """
 
 from py_trees.behaviour import Behaviour

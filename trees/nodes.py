@@ -18,6 +18,8 @@ from executive.text import printable
 from executive.types import Failed, Result
 from trees.team import Team
 
+LONGEST = 400
+"""Of a reason that an adapter gives (characters): it is to be a clause of a sentence."""
 UNSAID = "it did not work, and nothing said why"
 """The reason of what fails without one."""
 
@@ -146,10 +148,11 @@ class Action(Step):
 
 
 def why_of(result: Result) -> str:
-    """The reason in a result that is no success, as an adapter gave it; never empty."""
+    """The reason in a result that is no success, as an adapter gave it; short, and never empty."""
     if not isinstance(result, Failed):
         return f"it ended with {type(result).__name__}, which makes no sense here"
-    return printable(result.reason).strip() or UNSAID
+    why = printable(result.reason[:LONGEST]).strip() or UNSAID
+    return f"{why} ..." if len(result.reason) > LONGEST else why
 
 
 class Optionally(FailureIsSuccess):

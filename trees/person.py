@@ -251,7 +251,7 @@ class AskToPutDown(AskYesNo):
 
     def unresolved(self) -> str:
         """The hand stays full."""
-        return f"my hand holds {the(self.situation.in_hand or '')}; ask me first to bring that"
+        return full_hand(self.situation.in_hand or "")
 
 
 class Announce(Step):
@@ -311,6 +311,11 @@ def tell(team: Team, text: str) -> None:
     said = printable(text)
     team.recorder.record(Utterance("robot", said))
     team.user.tell(said)
+
+
+def full_hand(held: str) -> str:
+    """Why nothing else is taken, as a clause."""
+    return f"my hand holds {the(held)}; ask me first to bring that"
 
 
 def the(held: str) -> str:

@@ -76,11 +76,12 @@ class RobotAction(BodyAction):
         """Hand the goal to the robot."""
         self._goal = self.goal()
         self.feedback_message = _in_words(self._goal)
-        self.situation.called_off = False
+        self.situation.restless = True
         return self.team.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
         """Succeed as the robot did; note if it lost what it held."""
+        self.situation.restless = not isinstance(result, Succeeded)
         if isinstance(result, Succeeded):
             return Status.SUCCESS
         if isinstance(result, Failed) and result.lost:
@@ -113,7 +114,6 @@ class RobotAction(BodyAction):
 
     def cancel(self, request: int) -> None:
         """Brake."""
-        self.situation.called_off = True
         self.team.robot.cancel(request)
 
 
@@ -240,17 +240,19 @@ class PutDownAt(RobotAction):
         """Name the place."""
         super().__init__(name, team)
         self._place = place
+        self._held: str | None = None
 
     def goal(self) -> Goal:
-        """Put it there."""
+        """Put it there; afterwards the hand does not tell what it was."""
+        self._held = self.situation.in_hand
         return PutDown(self._place_now())
 
     def ended(self, result: Result) -> Status:
         """Remember that it is here now."""
         if isinstance(result, Succeeded):
-            held, place = self.situation.in_hand or self.situation.object, self._place_now()
-            if held and held != SOMETHING:
-                self.team.facts.put(held, place)
+            place = self._place_now()
+            if self._held and self._held != SOMETHING:
+                self.team.facts.put(self._held, place)
             self.situation.in_hand, self.situation.put_at = None, place
         return super().ended(result)
 

@@ -118,7 +118,9 @@ class NotUnderstood(Step):
         """Say what can be said."""
         self.situation.command = None
         self.situation.status = MissionStatus.NOT_UNDERSTOOD
+        words = self.situation.words
+        said = f"'{words}'" if words.strip() else "what you said"
         return self.fail(
-            f"I do not understand '{self.situation.words}'; "
+            f"I do not understand {said}; "
             'say for example "Find an apple", "Take the mug" or "Bring a sugar_box"'
         )
