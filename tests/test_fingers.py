@@ -163,3 +163,27 @@ def test_a_robot_that_cannot_feel_is_believed(house: House) -> None:
     assert house.run("Take the hammer").status == Status.DONE
     assert house.felt() == []
     assert house.run("Bring the hammer").reason == "Here is the hammer."
+
+
+@pytest.mark.physics
+@pytest.mark.parametrize("fault", [(), ("stuck=joint7@17.9-27",)])
+def test_in_physics_what_is_believed_is_true(fault: tuple[str, ...], tmp_path: Path) -> None:
+    session = Session(
+        Settings(
+            llm="none",
+            knowledge=KnowledgeSystem.OKB,
+            user="oracle",
+            detector="simulated",
+            camera_hz=0.0,
+            seed=1,
+            fault=fault,
+            runs=tmp_path,
+        ),
+        out=io.StringIO(),
+    )
+    for words in ("Bring a mustard_bottle", "Take a pitcher_base"):
+        session.run(words)
+        assert session._in_hand == session.world.held
+        assert session.folder
+        assert replay(session.folder).parting is None
+    session.close()
