@@ -162,6 +162,7 @@ class Executive:
 
     def _come_to_rest(self) -> None:
         """Stop the robot and let time pass until it stands still; say so if it may not."""
+        result: Result | None = None
         for _ in range(HALTS):
             result = self._halt()
             if not isinstance(result, Failed):
