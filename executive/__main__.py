@@ -50,6 +50,7 @@ EXIT = {
 log = logging.getLogger(__name__)
 
 
+PROMPT = "What can I do for you?"
 STDERR = 2
 CLOSED_S = 1.0
 """How long the model and the simulator may take to be freed before the program ends without."""
@@ -128,12 +129,12 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
 def converse(session: "Session", as_json: bool) -> int:
     """Do what the person types, until they end the session; the exit code of the last command."""
     code = DONE
-    print("What can I do for you? (stop ends what I do, quit ends the session)", file=sys.stderr)
-    while (line := session.next_command()) is not None:
+    line = session.next_command(f"{PROMPT} (stop ends what I do, quit ends the session)")
+    while line is not None:
         code = conclude(session.run(line), as_json)
         if session.stopped_by not in ("", THE_PERSON):
             break
-        print("What can I do for you?", file=sys.stderr)
+        line = session.next_command(PROMPT)
     return code
 
 

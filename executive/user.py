@@ -56,9 +56,12 @@ class Console:
         self._say(question.text)
         return self._wait(prompting=False)
 
-    def listen(self) -> int:
+    def listen(self, prompt: str = "") -> int:
         """Wait for a command; ends like `ask`, and Failed if the person ends the session."""
-        return self._wait(prompting=True)
+        request = self._wait(prompting=True)
+        if prompt:
+            self._say(prompt)
+        return request
 
     def cancel(self, request: int) -> None:
         """Withdraw the question."""
