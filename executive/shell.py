@@ -44,6 +44,7 @@ def begin() -> None:
     _is_program = True
     open_closed_files()
     handle_stop_signals(end_at_once)
+    signal.signal(signal.SIGTTIN, signal.SIG_IGN)  # in the background nobody is there to ask
 
 
 def end_at_once(number: int, frame: FrameType | None) -> None:
