@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
+from select import select
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
@@ -65,8 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     view, gui = options.pop("view"), options.pop("gui")
     with on_stop_signals(end_at_once):
         log_to_stderr(verbose)
-        if isinstance(sys.stdout, Terminal):
-            sys.stdout.dispensable = True  # a mission does not end for want of a reader
+        let_no_reader_hold_the_robot()
         try:
             settings = load_settings(**options)
             if words is None and settings.user != "console":
@@ -151,9 +151,17 @@ def stop_on_signals(inbox: Inbox) -> None:
             name = signal.Signals(number).name
             inbox.post(StopRequested("Ctrl-C" if number == signal.SIGINT else name))
             with suppress(OSError):  # not `print`, which the signal may have interrupted
-                os.write(STDERR, f"{STOPPING}\n".encode())
+                if select([], [STDERR], [], 0)[1]:
+                    os.write(STDERR, f"{STOPPING}\n".encode())
 
     handle_stop_signals(stop)
+
+
+def let_no_reader_hold_the_robot() -> None:
+    """A mission neither ends nor waits for want of someone who reads what is printed."""
+    if isinstance(sys.stdout, Terminal) and isinstance(sys.stderr, Terminal):
+        sys.stdout.dispensable = True
+        sys.stderr.hurried = True
 
 
 class _OneLine(logging.Formatter):

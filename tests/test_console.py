@@ -1,8 +1,10 @@
 """A person at a terminal: stops, answers, and what is said while nobody asks."""
 
 import io
+import itertools
 import queue
 import sys
+import time
 from collections.abc import Iterator
 
 import pytest
@@ -11,7 +13,7 @@ from executive.config import Settings
 from executive.events import THE_PERSON, Ended, Event, Inbox, StopRequested
 from executive.text import LONGEST
 from executive.types import Answered, Failed, Outcome, Question, QuestionKind, Status
-from executive.user import BUSY, FORGOTTEN, NOTHING_TO_STOP, STOPPING, Console
+from executive.user import BUSY, FORGOTTEN, MOST_LINES, NOTHING_TO_STOP, STOPPING, Console
 
 WHERE = Question(QuestionKind.WHERE_IS, "mug", "Where is the mug?")
 TOO_LONG = "Sorry: what you said is too long, I read at most 1,000 characters."
@@ -179,6 +181,15 @@ def test_bytes_that_are_no_text_do_not_end_the_hearing() -> None:
     Console(inbox, source, Screen())
     assert inbox.wait(5)
     assert StopRequested(THE_PERSON) in inbox.take_all()
+
+
+def test_a_script_without_end_is_not_read_to_its_end() -> None:
+    endless = itertools.repeat("y\n")
+    source = io.StringIO()
+    source.readline = lambda size=-1: next(endless)  # type: ignore[method-assign,assignment]
+    console = Console(Inbox(), source, Screen())
+    time.sleep(0.2)
+    assert len(console._lines) <= MOST_LINES
 
 
 class Broken(io.StringIO):

@@ -1,6 +1,8 @@
 """What the doors print can do nothing to a terminal, and no loss of it does anything to them."""
 
+import contextlib
 import io
+import os
 import sys
 from collections.abc import Sequence
 
@@ -70,3 +72,17 @@ def test_a_lost_standard_error_costs_nothing(monkeypatch: pytest.MonkeyPatch) ->
 
     monkeypatch.setattr(sys, "stderr", Full())
     assert main([]) == DONE
+
+
+def test_who_does_not_read_does_not_hold_up_a_hurried_writer() -> None:
+    reader, writer = os.pipe()
+    os.set_blocking(writer, False)
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            os.write(writer, bytes(4096))
+    os.set_blocking(writer, True)
+    with os.fdopen(writer, "w", buffering=1) as pipe:
+        terminal = Terminal(pipe, dispensable=True)
+        terminal.hurried = True
+        terminal.write("Where is the mug?\n")  # else this waits for ever
+    os.close(reader)
