@@ -92,15 +92,17 @@ def serve(
 
     session = Session(settings, inbox=inbox, user=user, view=view, gui=gui)
     stop_on_signals(inbox)
-    code = STOPPED
     try:
         if words is None:
             code = converse(session, as_json)
         else:
             code = conclude(session.run(words), as_json)
-        return code
-    finally:
         leave_within(CLOSED_S, code)
+        return code
+    except KeyboardInterrupt:
+        leave_within(CLOSED_S, STOPPED)
+        raise
+    finally:
         session.close()
 
 

@@ -56,6 +56,17 @@ def test_a_program_under_nohup_outlives_its_terminal() -> None:
     assert ended.returncode == 0
 
 
+def test_a_stuck_thread_does_not_keep_a_program_from_ending() -> None:
+    code = """if True:
+        import threading, time
+        from executive import shell
+        shell.begin()
+        threading.Thread(target=time.sleep, args=[60]).start()
+        shell.leave_within(0.1, 7)
+    """
+    assert subprocess.run([sys.executable, "-c", code], timeout=30).returncode == 7
+
+
 # --- a session ---
 
 
