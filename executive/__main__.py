@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
+from select import select
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
@@ -50,6 +51,7 @@ EXIT = {
 log = logging.getLogger(__name__)
 
 
+PROMPT = "What can I do for you?"
 STDERR = 2
 CLOSED_S = 1.0
 """How long the model and the simulator may take to be freed before the program ends without."""
@@ -64,8 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     view, gui = options.pop("view"), options.pop("gui")
     with on_stop_signals(end_at_once):
         log_to_stderr(verbose)
-        if isinstance(sys.stdout, Terminal):
-            sys.stdout.dispensable = True  # a mission does not end for want of a reader
+        let_no_reader_hold_the_robot()
         try:
             settings = load_settings(**options)
             if words is None and settings.user != "console":
@@ -91,15 +92,17 @@ def serve(
 
     session = Session(settings, inbox=inbox, user=user, view=view, gui=gui)
     stop_on_signals(inbox)
-    code = STOPPED
     try:
         if words is None:
             code = converse(session, as_json)
         else:
             code = conclude(session.run(words), as_json)
-        return code
-    finally:
         leave_within(CLOSED_S, code)
+        return code
+    except KeyboardInterrupt:
+        leave_within(CLOSED_S, STOPPED)
+        raise
+    finally:
         session.close()
 
 
@@ -128,12 +131,12 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
 def converse(session: "Session", as_json: bool) -> int:
     """Do what the person types, until they end the session; the exit code of the last command."""
     code = DONE
-    print("What can I do for you? (stop ends what I do, quit ends the session)", file=sys.stderr)
-    while (line := session.next_command()) is not None:
+    line = session.next_command(f"{PROMPT} (stop ends what I do, quit ends the session)")
+    while line is not None:
         code = conclude(session.run(line), as_json)
         if session.stopped_by not in ("", THE_PERSON):
             break
-        print("What can I do for you?", file=sys.stderr)
+        line = session.next_command(PROMPT)
     return code
 
 
@@ -150,9 +153,17 @@ def stop_on_signals(inbox: Inbox) -> None:
             name = signal.Signals(number).name
             inbox.post(StopRequested("Ctrl-C" if number == signal.SIGINT else name))
             with suppress(OSError):  # not `print`, which the signal may have interrupted
-                os.write(STDERR, f"{STOPPING}\n".encode())
+                if select([], [STDERR], [], 0)[1]:
+                    os.write(STDERR, f"{STOPPING}\n".encode())
 
     handle_stop_signals(stop)
+
+
+def let_no_reader_hold_the_robot() -> None:
+    """A mission neither ends nor waits for want of someone who reads what is printed."""
+    if isinstance(sys.stdout, Terminal) and isinstance(sys.stderr, Terminal):
+        sys.stdout.dispensable = True
+        sys.stderr.hurried = True
 
 
 class _OneLine(logging.Formatter):

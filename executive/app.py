@@ -209,14 +209,14 @@ class Session:
         executive.run()
         self.ticks = executive.ticks
 
-    def next_command(self) -> str | None:
-        """Wait for the person to type a command; None at the end of input, or of the session.
+    def next_command(self, prompt: str = "") -> str | None:
+        """Prompt, and wait for the person to type a command; None if the input or session ends.
 
         Raises:
             KeyboardInterrupt: if a signal says stop.
         """
         assert isinstance(self.user, Console)
-        request = self.user.listen()
+        request = self.user.listen(prompt)
         while True:
             self.clock.wait(None)
             events = self.inbox.take_all()
@@ -233,7 +233,7 @@ class Session:
             if command is not None:
                 return command
             if not self.inbox.is_open(request):
-                request = self.user.listen()
+                request = self.user.listen(prompt)
 
     def close(self) -> None:
         """Free the model, the simulator and the file of facts."""

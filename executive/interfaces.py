@@ -129,7 +129,10 @@ class User(Protocol):
     """The person, or who stands in for them."""
 
     def ask(self, question: Question) -> int:
-        """Put a question; ends Answered, or Failed if no answer can come."""
+        """Put a question; ends Answered, or Failed if no answer can come.
+
+        An answer that says stop stops the mission: `Inbox.end` sees to that.
+        """
         ...
 
     def cancel(self, request: int) -> None:

@@ -44,6 +44,7 @@ def begin() -> None:
     _is_program = True
     open_closed_files()
     handle_stop_signals(end_at_once)
+    signal.signal(signal.SIGTTIN, signal.SIG_IGN)  # in the background nobody is there to ask
 
 
 def end_at_once(number: int, frame: FrameType | None) -> None:
@@ -60,9 +61,7 @@ def entry_point(main: Callable[[Sequence[str] | None], int]) -> EntryPoint:
     def ended(arguments: Sequence[str] | None = None) -> int:
         with standard_streams(), on_stop_signals(_interrupt):
             try:
-                status = main(arguments)
-                sys.stdout.flush()
-                return status
+                return _flushed(main, arguments)
             except ExecutiveError as error:
                 print(f"error: {printable(error)}", file=sys.stderr)
                 return BAD_INPUT
@@ -108,6 +107,17 @@ def leave_stopping_to_the_parent() -> None:
     """For a command's worker processes, which a terminal's signals reach, too."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+
+def _flushed(main: Callable[[Sequence[str] | None], int], arguments: Sequence[str] | None) -> int:
+    """Its status, when all of its output is out; argparse ends with SystemExit."""
+    try:
+        status = main(arguments)
+    except SystemExit:
+        sys.stdout.flush()
+        raise
+    sys.stdout.flush()
+    return status
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:

@@ -8,10 +8,13 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from select import select
 from typing import TextIO, cast
 
 from executive.text import printable
 
+ROOM_S = 0.05
+"""How long a hurried stream waits for a reader."""
 WIDTH = 78
 """Columns of a line that is written over the one before."""
 
@@ -27,6 +30,8 @@ class Terminal:
         """Write to this stream; to nowhere if it is None, as Python has it when it was closed."""
         self._stream = stream
         self.dispensable = dispensable
+        self.hurried = False
+        """Whether what would have to wait (a terminal under Ctrl-S, a full pipe) is left out."""
         self.lost = ""
         """Why nothing more is written; empty if it is."""
         self.encoding: str = getattr(stream, "encoding", None) or "utf-8"
@@ -40,7 +45,7 @@ class Terminal:
 
     def write_raw(self, text: str) -> None:
         """Write what the program itself wants a terminal to obey."""
-        if self._stream is None:
+        if self._stream is None or (self.hurried and not self._has_room()):
             return
         encoded = text.encode(self.encoding, "backslashreplace").decode(self.encoding)
         try:
@@ -66,6 +71,12 @@ class Terminal:
     def isatty(self) -> bool:
         """No: what libraries write to terminals only, such as colours, it would spell out."""
         return False
+
+    def _has_room(self) -> bool:
+        try:
+            return bool(select([], [self.fileno()], [], ROOM_S)[1])
+        except (OSError, ValueError):
+            return True
 
     def _lose(self, error: Exception) -> None:
         with suppress(OSError, ValueError):  # what waits to be written is written, to nowhere

@@ -3,6 +3,7 @@
 import random
 import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
@@ -17,6 +18,10 @@ from executive.types import Answered, Failed, Question, QuestionKind
 STOPPING = "Stopping."
 BUSY = "I am busy. Say it again when I ask, or say stop."
 FORGOTTEN = "What you said before is forgotten."
+
+MOST_LINES = 1000
+"""A script is read no further while so many lines of it wait."""
+POLL_S = 0.05
 NOTHING_TO_STOP = "There is nothing to stop: I am at rest."
 
 
@@ -56,9 +61,12 @@ class Console:
         self._say(question.text)
         return self._wait(prompting=False)
 
-    def listen(self) -> int:
+    def listen(self, prompt: str = "") -> int:
         """Wait for a command; ends like `ask`, and Failed if the person ends the session."""
-        return self._wait(prompting=True)
+        request = self._wait(prompting=True)
+        if prompt:
+            self._say(prompt)
+        return request
 
     def cancel(self, request: int) -> None:
         """Withdraw the question."""
@@ -92,6 +100,8 @@ class Console:
 
     def _read(self, source: TextIO) -> None:
         for line in _lines(source):
+            while len(self._lines) >= MOST_LINES:
+                time.sleep(POLL_S)
             if self._hear(writable(line).strip()) is Control.QUIT:
                 return
         self._end("the input has ended")

@@ -178,14 +178,17 @@ def children() -> list[int]:
     return [p.pid for p in multiprocessing.active_children() if p.pid]
 
 
-def test_ctrl_c_ends_the_workers_and_keeps_their_missions(grid: list[str], tmp_path: Path) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
+def test_a_signal_to_all_ends_the_workers_and_keeps_their_missions(
+    number: signal.Signals, grid: list[str], tmp_path: Path
+) -> None:
     command = [sys.executable, "-m", "executive.campaign", *grid, "--workers", "2", "--seeds", "40"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
     journal = tmp_path / "out" / "journal.jsonl"
     latest = time.monotonic() + 60
     while not (journal.exists() and journal.stat().st_size) and time.monotonic() < latest:
         time.sleep(0.05)
-    os.killpg(process.pid, signal.SIGINT)
+    os.killpg(process.pid, number)
     process.communicate(timeout=60)
     assert process.returncode == 130
     rows = rows_of(tmp_path / "out")
