@@ -134,7 +134,6 @@ class Manipulator:
         yield from self._creep(approach.stance)
         tare = yield from self.hand.weigh()
         failure = yield from attempt(self._grasp(model, pose, grasp, approach))
-        yield from self._planned(self._planning.forget_target)
         yield from self.stow()
         failure = failure or (yield from attempt(self._check_lifted(model, tare)))
         if failure:
@@ -143,7 +142,7 @@ class Manipulator:
         self._missed.clear()
 
     def put_down(self, place: str) -> Skill:
-        """Put the held thing on a free spot near the front of a piece of furniture.
+        """Put the held thing on a free spot of a piece of furniture, near the front if it can.
 
         Raises:
             CannotError: if nothing is held, or there is no free spot within reach.
@@ -152,6 +151,7 @@ class Manipulator:
         held = self.hand.held
         if held is None:
             raise CannotError("my hand is empty")
+        yield from self.stow()
         piece = self._home.furniture_named(place)
         target, approach = yield from self._choose_spot(held, piece)
         yield from self._creep(approach.stance)
@@ -371,7 +371,8 @@ class Manipulator:
         return (yield from self._thinker.compute(plan))
 
     def _way_up(self, base: Floats, arm: Floats) -> list[Floats] | None:
-        """Joints that raise the hand as far as there is room."""
+        """Joints that raise the hand as far as there is room: what it reached for is in it now."""
+        self._planning.forget_target()
         hand = self._planning.hand(base, arm)
         for rise in RISES_M:
             up = self._planning.line(base, arm, hand.shifted(-rise * _DOWN))

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from executive.computing import still_wanted
 from executive.records import Shape
 
 Floats = NDArray[np.float64]
@@ -13,6 +14,7 @@ Floats = NDArray[np.float64]
 
 def signed_distance(shapes: Sequence[Shape], points: Floats) -> Floats:
     """How far points (n, 3) are outside the union of the shapes: negative inside (metres, (n,))."""
+    still_wanted()
     return np.asarray(np.min([_distance(s, _local(s, points)) for s in shapes], axis=0))
 
 
