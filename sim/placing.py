@@ -126,7 +126,7 @@ def _is_seen(level: Floats, low: Floats, high: Floats) -> bool:
     cells = np.ceil((high - low) / _CELL_M)
     found = np.floor((level - low) / _CELL_M)
     inside = ((found >= 0) & (found < cells)).all(axis=1)
-    return len(np.unique(found[inside], axis=0)) >= _SEEN * cells.prod()
+    return len(np.unique(found[inside], axis=0)) >= _SEEN * float(cells.prod())
 
 
 def _fits_behind(surface: Surface, back: float) -> bool:

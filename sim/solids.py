@@ -1,6 +1,7 @@
 """Distance to, and points on, the surface of a thing built from boxes, cylinders and spheres."""
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.computing import still_wanted
 from executive.records import Shape
+from executive.types import Quaternion
 
 Floats = NDArray[np.float64]
 
@@ -32,9 +34,13 @@ def sample_surface(shapes: Sequence[Shape], spacing: float = 0.004) -> tuple[Flo
 
 
 def _local(shape: Shape, points: Floats) -> Floats:
-    turn = Rotation.from_quat(shape.pose.orientation).as_matrix()
-    local: Floats = (points - shape.pose.position) @ turn
+    local: Floats = (points - shape.pose.position) @ _matrix(shape.pose.orientation)
     return local
+
+
+@cache
+def _matrix(orientation: Quaternion) -> Floats:
+    return Rotation.from_quat(orientation).as_matrix()
 
 
 def _distance(shape: Shape, local: Floats) -> Floats:
