@@ -115,8 +115,9 @@ class Manipulator:
         Raises:
             CannotError: if it is unknown, not well seen, out of reach, or slips.
         """
+        self.hand.settle()
         held = self.hand.held
-        if held and held.model.name == detection.label and self.hand.holding:
+        if held and held.model.name == detection.label:
             yield from self.stow()
             return
         model = self._model_of(detection)
@@ -150,7 +151,8 @@ class Manipulator:
         self.hand.settle()
         held = self.hand.held
         if held is None:
-            raise CannotError("my hand is empty")
+            unknown = "I do not know what is in my hand"
+            raise CannotError(unknown if self.hand.holding else "my hand is empty")
         yield from self.stow()
         piece = self._home.furniture_named(place)
         target, approach = yield from self._choose_spot(held, piece)
@@ -195,7 +197,9 @@ class Manipulator:
     def _model_of(self, detection: Detection) -> ObjectModel:
         name = detection.label
         if self.hand.holding:
-            raise CannotError("my hand already holds a thing")
+            held = self.hand.held
+            thing = f"the {held.model.name}" if held else "a thing"
+            raise CannotError(f"my hand already holds {thing}")
         if name not in self._models:
             raise CannotError(f"I do not know how to grasp the {name}")
         if len(detection.points) < FEWEST_POINTS:

@@ -1,9 +1,14 @@
-"""In the instant world, too, a piece of furniture may be full."""
+"""All of a table is used; and when it is full, what the robot has stays in the hand."""
 
+import io
+
+import pytest
 from conftest import Notebook, four_rooms
 
+from executive.app import Session
+from executive.config import load_settings
 from executive.events import Ended, Inbox
-from executive.types import DriveTo, Failed, Goal, PutDown, Result, Succeeded
+from executive.types import DriveTo, Failed, Goal, PutDown, Result, Status, Succeeded
 from sim.fake import FakeRobot, FakeWorld
 
 
@@ -28,3 +33,14 @@ def do(robot: FakeRobot, world: FakeWorld, goal: Goal) -> Result:
     (event,) = world.inbox.take_all()
     assert isinstance(event, Ended)
     return event.result
+
+
+@pytest.mark.physics
+def test_three_things_are_brought_to_one_table() -> None:
+    settings = load_settings(llm="none", knowledge="okb", user="oracle", seed=1, camera_hz=0.0)
+    session = Session(settings, out=io.StringIO(), recorded=False)
+    things = ("banana", "hammer", "apple")
+    outcomes = [session.run(f"Bring a {thing}") for thing in things]
+    assert [outcome.status for outcome in outcomes] == [Status.DONE] * len(things)
+    assert {session.world.resting_place(thing) for thing in things} == {"delivery"}
+    session.close()
