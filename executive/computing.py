@@ -94,7 +94,10 @@ class Worker:
             done()
 
         self._last = computation
-        threading.Thread(target=run, name=self._name, daemon=True).start()
+        try:
+            threading.Thread(target=run, name=self._name, daemon=True).start()
+        except RuntimeError:
+            run()  # the system has no more threads: better late than never
 
     def close(self) -> None:
         """Give up what is computed, and wait a little for it."""

@@ -115,8 +115,9 @@ class Manipulator:
         Raises:
             CannotError: if it is unknown, not well seen, out of reach, or slips.
         """
+        self.hand.settle()
         held = self.hand.held
-        if held and held.model.name == detection.label and self.hand.holding:
+        if held and held.model.name == detection.label:
             yield from self.stow()
             return
         model = self._model_of(detection)
@@ -134,7 +135,6 @@ class Manipulator:
         yield from self._creep(approach.stance)
         tare = yield from self.hand.weigh()
         failure = yield from attempt(self._grasp(model, pose, grasp, approach))
-        yield from self._planned(self._planning.forget_target)
         yield from self.stow()
         failure = failure or (yield from attempt(self._check_lifted(model, tare)))
         if failure:
@@ -143,7 +143,7 @@ class Manipulator:
         self._missed.clear()
 
     def put_down(self, place: str) -> Skill:
-        """Put the held thing on a free spot near the front of a piece of furniture.
+        """Put the held thing on a free spot of a piece of furniture, near the front if it can.
 
         Raises:
             CannotError: if nothing is held, or there is no free spot within reach.
@@ -151,7 +151,9 @@ class Manipulator:
         self.hand.settle()
         held = self.hand.held
         if held is None:
-            raise CannotError("my hand is empty")
+            unknown = "I do not know what is in my hand"
+            raise CannotError(unknown if self.hand.holding else "my hand is empty")
+        yield from self.stow()
         piece = self._home.furniture_named(place)
         target, approach = yield from self._choose_spot(held, piece)
         yield from self._creep(approach.stance)
@@ -195,7 +197,9 @@ class Manipulator:
     def _model_of(self, detection: Detection) -> ObjectModel:
         name = detection.label
         if self.hand.holding:
-            raise CannotError("my hand already holds a thing")
+            held = self.hand.held
+            thing = f"the {held.model.name}" if held else "a thing"
+            raise CannotError(f"my hand already holds {thing}")
         if name not in self._models:
             raise CannotError(f"I do not know how to grasp the {name}")
         if len(detection.points) < FEWEST_POINTS:
@@ -371,7 +375,8 @@ class Manipulator:
         return (yield from self._thinker.compute(plan))
 
     def _way_up(self, base: Floats, arm: Floats) -> list[Floats] | None:
-        """Joints that raise the hand as far as there is room."""
+        """Joints that raise the hand as far as there is room: what it reached for is in it now."""
+        self._planning.forget_target()
         hand = self._planning.hand(base, arm)
         for rise in RISES_M:
             up = self._planning.line(base, arm, hand.shifted(-rise * _DOWN))

@@ -56,7 +56,7 @@ def free_spots(
     level = level_points(piece, surface, seen)[:, :2]
     rising = rising_points(piece, surface, seen)[:, :2]
     outlines = [(turn + quarter, *_outline(model, turn + quarter)) for quarter in _TURNS]
-    for clear, row, y in product((CLEAR_M, TIGHT_M), _rows(surface), _from_middle(surface)):
+    for clear, (row, y) in product((CLEAR_M, TIGHT_M), _places(surface)):
         for turned, lower, upper in outlines:
             x = surface.length_x / 2 - max(RIM_M, upper[0] + MARGIN_M) - row
             low, high = lower + (x, y), upper + (x, y)
@@ -103,9 +103,16 @@ def _ends(model: ObjectModel, axis: int) -> tuple[float, float]:
     return model.lower[axis], model.upper[axis]
 
 
-def _rows(surface: Surface) -> Iterator[float]:
-    """How far behind the front row things may stand, the front row first (metres)."""
-    yield from np.arange(0.0, surface.length_x - RIM_M, _ROW_M)
+def _places(surface: Surface) -> Iterator[tuple[float, float]]:
+    """How far behind the front row and how far from the middle of the surface (metres).
+
+    In the front row from the middle to both sides; behind it from the sides, which leaves more room
+    for what comes later.
+    """
+    across = list(_from_middle(surface))
+    yield from product((0.0,), across)
+    behind: list[float] = np.arange(_ROW_M, surface.length_x - RIM_M, _ROW_M).tolist()
+    yield from product(behind, across[::-1])
 
 
 def _has_room(rising: Floats, low: Floats, high: Floats, clear: float) -> bool:
@@ -119,7 +126,7 @@ def _is_seen(level: Floats, low: Floats, high: Floats) -> bool:
     cells = np.ceil((high - low) / _CELL_M)
     found = np.floor((level - low) / _CELL_M)
     inside = ((found >= 0) & (found < cells)).all(axis=1)
-    return len(np.unique(found[inside], axis=0)) >= _SEEN * cells.prod()
+    return len(np.unique(found[inside], axis=0)) >= _SEEN * float(cells.prod())
 
 
 def _fits_behind(surface: Surface, back: float) -> bool:

@@ -7,7 +7,6 @@ import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.spatial.transform import Rotation
 
-from executive.computing import still_wanted
 from executive.types import Pose
 from sim.forms import forms
 from sim.objects import ObjectModel
@@ -90,7 +89,6 @@ def _starts(model: ObjectModel, top: Floats, away: Floats, off: Off) -> Iterator
 
 def _off(model: ObjectModel, points: Floats, guess: Floats) -> Floats:
     """How far points (n, 3) are off the model's surface, and their middle off its own (n + 2,)."""
-    still_wanted()
     local = _local(guess, points)
     middle = (np.array(model.lower) + model.upper)[:2] / 2
     off_middle = (local.min(axis=0) + local.max(axis=0))[:2] / 2 - middle

@@ -1,10 +1,12 @@
 """The simulated robot: turns goals into skills and runs one at a time."""
 
+import logging
 import math
 from collections.abc import Sequence
 
 from executive.errors import InputError
 from executive.events import Inbox
+from executive.text import printable
 from executive.types import (
     FLOOR,
     DriveTo,
@@ -27,6 +29,8 @@ from sim.manipulation import Manipulator
 from sim.navigation import Unreachable
 from sim.navigator import Navigator
 from sim.skill import CannotError, Skill, Thinker, pause, wait_until
+
+log = logging.getLogger(__name__)
 
 FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
 """Where the robot looks for what fell to the floor: to the left of where it faces (radians)."""
@@ -135,6 +139,11 @@ class SimulatedRobot:
             self._end(Succeeded())
         except CannotError as failure:
             self._end(Failed(str(failure), lost=isinstance(failure, LostError)))
+        except Exception as error:
+            log.debug("a skill raised", exc_info=error)
+            why = printable(str(error) or type(error).__name__)
+            self._end(Failed(f"something is wrong with my control: {why}"))
+            self._skill = self._rest()
 
     def _pursue(self, skill: Skill) -> None:
         if self._skill is not None:
@@ -215,7 +224,7 @@ class SimulatedRobot:
         yield from brake(self._hardware)
         at_rest = wait_until(lambda: not self._unrest(), REST_S)
         if not (yield from at_rest):
-            raise CannotError(f"I cannot come to rest: my {' and my '.join(self._unrest())} moves")
+            raise CannotError(_moves(self._unrest()))
         self._manipulator.hand.settle()
 
     def _unrest(self) -> tuple[str, ...]:
@@ -238,3 +247,8 @@ class SimulatedRobot:
         self._check(place)
         if self._at != place:
             raise CannotError(f"I am not at the {place}")
+
+
+def _moves(parts: Sequence[str]) -> str:
+    verb = "moves" if len(parts) == 1 else "move"
+    return f"I cannot come to rest: my {' and my '.join(parts)} {verb}"

@@ -1,18 +1,22 @@
 """Distance to, and points on, the surface of a thing built from boxes, cylinders and spheres."""
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from executive.computing import still_wanted
 from executive.records import Shape
+from executive.types import Quaternion
 
 Floats = NDArray[np.float64]
 
 
 def signed_distance(shapes: Sequence[Shape], points: Floats) -> Floats:
     """How far points (n, 3) are outside the union of the shapes: negative inside (metres, (n,))."""
+    still_wanted()
     return np.asarray(np.min([_distance(s, _local(s, points)) for s in shapes], axis=0))
 
 
@@ -30,9 +34,13 @@ def sample_surface(shapes: Sequence[Shape], spacing: float = 0.004) -> tuple[Flo
 
 
 def _local(shape: Shape, points: Floats) -> Floats:
-    turn = Rotation.from_quat(shape.pose.orientation).as_matrix()
-    local: Floats = (points - shape.pose.position) @ turn
+    local: Floats = (points - shape.pose.position) @ _matrix(shape.pose.orientation)
     return local
+
+
+@cache
+def _matrix(orientation: Quaternion) -> Floats:
+    return Rotation.from_quat(orientation).as_matrix()
 
 
 def _distance(shape: Shape, local: Floats) -> Floats:

@@ -1,13 +1,16 @@
 """Whether a thing stands where it was put, judged by what the depth camera sees."""
 
+from math import dist
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
 from sim.forms import forms
+from sim.home import load_home
 from sim.objects import load_objects
-from sim.placing import stands
+from sim.placing import RIM_M, TIGHT_M, free_spots, stands
 from sim.registration import locate_fallen
 from sim.solids import Floats, sample_surface
 
@@ -64,3 +67,49 @@ def test_every_form_rests_on_its_own_base(name: str):
         assert form.lower[2] == pytest.approx(0.0, abs=1e-6)
         assert form.upper[2] > 0.0
         assert sorted(form.size) == pytest.approx(sorted(MODELS[name].size), abs=6e-3)
+
+
+TABLE = load_home("four_rooms").delivery
+(TOP,) = TABLE.surfaces()
+
+
+def table_top(*, hidden_beyond: float = 1.0) -> Floats:
+    """The empty delivery table as a camera sees it, up to so far behind its front edge (metres)."""
+    behind, across = np.mgrid[0.01 : min(hidden_beyond, TOP.length_x) : 0.01, -0.3:0.3:0.01]
+    ahead = (TOP.length_x / 2 - behind).ravel()
+    return np.array(
+        [TABLE.to_map((x, y, TOP.center[2])) for x, y in zip(ahead, across.ravel(), strict=True)]
+    )
+
+
+def standing(name: str, spot: Pose) -> Floats:
+    points, _ = sample_surface(MODELS[name].shapes)
+    return Rotation.from_quat(spot.orientation).apply(points) + spot.position
+
+
+def test_a_table_takes_as_many_small_things_as_fit():
+    seen, names = table_top(), ["apple", "orange", "mug", "tomato_soup_can", "banana", "peach"]
+    for name in names:
+        spot = next(free_spots(TABLE, TOP, MODELS[name], seen))
+        seen = np.concatenate((seen, standing(name, spot)))
+
+
+def test_what_is_not_seen_behind_other_things_is_not_taken_for_free():
+    seen = table_top(hidden_beyond=0.2)
+    depths = [behind_front(spot) for spot in free_spots(TABLE, TOP, MODELS["apple"], seen)]
+    assert max(depths) == pytest.approx(RIM_M, abs=0.01)
+    assert max(map(behind_front, free_spots(TABLE, TOP, MODELS["apple"], table_top()))) > 0.3
+
+
+def behind_front(spot: Pose) -> float:
+    x, y, yaw = TABLE.pose
+    out = np.array([np.cos(yaw), np.sin(yaw)])
+    return float(TABLE.size[0] / 2 - (np.array(spot.position[:2]) - (x, y)) @ out)
+
+
+def test_a_thing_is_put_down_beside_another_with_room_for_fingers():
+    first = next(free_spots(TABLE, TOP, MODELS["apple"], table_top()))
+    seen = np.concatenate((table_top(), standing("apple", first)))
+    spots = list(free_spots(TABLE, TOP, MODELS["apple"], seen))
+    apart = [dist(spot.position, first.position) for spot in spots]
+    assert min(apart) > MODELS["apple"].size[0] + TIGHT_M - 0.01
