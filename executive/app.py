@@ -103,6 +103,8 @@ class Session:
             files=settings.kb,
             person=settings.person,
         )
+        for warning in self.knowledge.warnings():
+            log.warning("%s", warning)
         self.facts = FactStore(settings.memory, learns=settings.learn)
         self.advisor = build_advisor(settings, self.knowledge, self.model, prompts, self.facts)
         self.recorder = FanOut(lambda: self.clock.now(), live=view)
