@@ -9,7 +9,7 @@ from rdflib.term import Identifier
 
 from executive.text import printable
 from kb.dangling import dangling
-from kb.graph import Graph
+from kb.graph import STANDARDS, Graph
 from kb.names import words_of
 from kb.owl import ending
 
@@ -90,7 +90,8 @@ def _outsiders(graph: Graph, roots: Sequence[Identifier], told: set[Identifier])
     for entity in (*filter(graph.is_class, graph.subjects()), *graph.individuals()):
         kinds = [entity] if graph.is_class(entity) else graph.types(entity)
         above = (c for kind in kinds for c in graph.upwards(kind))
-        if entity not in told and known.isdisjoint(above):
+        own = entity not in told and not entity.startswith(STANDARDS)
+        if own and known.isdisjoint(above):
             right = f"put it below {', '.join(ROOTS[:-1])} or {ROOTS[-1]}"
             yield f"{ending(entity)} is in no class: {right}"
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from rapidfuzz import fuzz, process
-from rdflib import RDF, URIRef
+from rdflib import OWL, RDF, URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
@@ -219,12 +219,18 @@ class Ontology:
         return unused(self._graph, CLASSES)
 
     def warnings(self) -> tuple[str, ...]:
-        """What is not known because a file imports what was not loaded: nothing is fetched."""
-        return tuple(
+        """What the files do not give although one may think so, a sentence each."""
+        unmet = (
             f"{file} imports {iri}, which is not loaded, and nothing is fetched: what it says is "
             "not known; if it is needed, give the file that holds it with --kb"
             for file, iri in self._unmet()
         )
+        idle = (
+            f"{file} adds nothing that the robot uses: put its classes below Object, Furniture, "
+            "Room or Person of household.owl (rdfs:subClassOf)"
+            for file in self._idle()
+        )
+        return (*unmet, *idle)
 
     def query(self, sparql: str) -> Table:
         """Answer a SELECT in SPARQL.
@@ -251,6 +257,15 @@ class Ontology:
             for iri in file.imports:
                 if not is_met(iri, self._read):
                     yield printable(file.path.name), printable(iri)[:LONGEST_IRI]
+
+    def _idle(self) -> Iterator[str]:
+        """Files that declare something, but nothing below the classes that the robot knows."""
+        kinds = [kind for root in ROOTS for kind in self._graph.downwards(_class(root))]
+        known = {*kinds, *(one for root in ROOTS for one in self._graph.instances(_class(root)))}
+        for file in self._read:
+            declares = any(p == RDF.type and o != OWL.Ontology for _, p, o in file.triples)
+            if declares and known.isdisjoint(s for s, _, _ in file.triples):
+                yield printable(file.path.name)
 
     def _similar(self, words: str) -> dict[str, float]:
         """Names that look like the words, most similar first, and how similar (of 100)."""

@@ -7,11 +7,13 @@ imports the Python module that an annotation names, and reads what a file import
 import logging
 import warnings
 from dataclasses import dataclass
+from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
 
 import rdflib
 from rdflib import OWL, RDF, URIRef
+from rdflib.parser import InputSource
 from rdflib.term import Identifier
 
 from executive.errors import ExecutiveError, InputError
@@ -137,7 +139,7 @@ def _parsed(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            graph.parse(data=content, format=syntax, publicID=here)
+            graph.parse(_source(content, here), format=syntax)
     except ExecutiveError:
         raise
     except RecursionError:
@@ -148,8 +150,21 @@ def _parsed(
     return tuple(graph.triples_read)
 
 
+def _source(content: bytes | str, here: str) -> InputSource:
+    """What a parser reads; bytes are in the encoding that they say themselves."""
+    source = InputSource()
+    source.setPublicId(here)
+    if isinstance(content, bytes):
+        source.setByteStream(BytesIO(content))
+    else:
+        source.setCharacterStream(StringIO(content))
+    return source
+
+
 def _reason(error: Exception) -> str:
     """What a parser says, on one line; rdflib's Turtle parser quotes half of the file."""
+    if isinstance(error, IndexError):
+        return "it ends too early"
     line, why = getattr(error, "lines", None), getattr(error, "_why", None)
     said = f"line {line + 1}: {why}" if why and isinstance(line, int) else str(error)
     return _shown(said or type(error).__name__)

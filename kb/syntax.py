@@ -11,7 +11,8 @@ SAVE = 'save it as RDF/XML or Turtle (in Protégé: File, Save as, "RDF/XML Synt
 START = 10_000
 """Bytes that tell which syntax it is; a comment before the ontology may be as long."""
 
-_XML = re.compile(r"<(?:\?xml|!|[A-Za-z_][\w.:-]*(?:\s|/?>))")
+_XML = re.compile(r"<(?:\?xml|!|rdf:RDF\b|[A-Za-z_][\w.:-]*(?:\s|/>)|[A-Za-z_][\w.-]*>)")
+"""Turtle may begin with `<urn:x>`, which is no element, because nothing says what `urn` is."""
 _OTHERS = (
     ("OWL functional syntax", re.compile(r"(?:Prefix|Ontology)\s*\(")),
     ("Manchester syntax", re.compile(r"(?:Prefix|Ontology|Namespace)\s*:")),
