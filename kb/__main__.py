@@ -39,7 +39,7 @@ def show(ontology: Ontology, words: str) -> int:
 
 def check(ontology: Ontology) -> int:
     """Print every fault, and what is not used; only a fault is one."""
-    faults, notes = list(ontology.faults()), [*ontology.warnings(), *ontology.unused()]
+    faults, notes = list(ontology.faults()), [*ontology.unmet_imports(), *ontology.unused()]
     for line in (*faults, *(f"note: {note}" for note in notes)):
         print(printable(line))
     counts = f"{len(ontology.objects())} objects, {len(faults)} faults"

@@ -1,10 +1,10 @@
 """The ontology: which things there are, what they are called, and where they usually are."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from rapidfuzz import fuzz, process
-from rdflib import OWL, RDF, URIRef
+from rdflib import RDF, URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
@@ -13,8 +13,9 @@ from executive.types import Place
 from kb.faults import ROOTS, faults
 from kb.graph import Graph
 from kb.home_file import home_file
+from kb.library import Library
 from kb.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
-from kb.owl import ending, is_met, read
+from kb.owl import OwlFile, ending, read
 from kb.table import Table
 from kb.unused import unused
 
@@ -36,8 +37,6 @@ PREFIXES = {
 """Names that a query may use without declaring them."""
 
 PREPOSITIONS = ("in", "on")
-LONGEST_IRI = 200
-"""Characters of an IRI that are shown."""
 MOST_NAMES = 3
 LEAST_SIMILARITY = 60.0
 """Of 100, as rapidfuzz counts; below it two names share little but a few letters."""
@@ -57,7 +56,7 @@ class Ontology:
         places: Sequence[Place] = (),
         *,
         defaults: bool = True,
-        files: Sequence[Path] = (),
+        files: Sequence[Path | OwlFile] = (),
         person: str | None = None,
     ) -> None:
         """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
@@ -67,7 +66,8 @@ class Ontology:
         Args:
             places: the furniture of the home.
             defaults: whether to load defaults.owl.
-            files: a person's own OWL files, which add to ours or replace them.
+            files: a person's own OWL files, or what was read of them, which add to ours or
+                replace them.
             person: the name of who is at home, as the files have it.
 
         Raises:
@@ -75,22 +75,16 @@ class Ontology:
                 household.owl lacks a name that every home needs, a place is of a class that the
                 ontology does not have, or nobody knows the person.
         """
-        read_files = map(read, (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files))
-        self._read = list({file.iri: file for file in read_files}.values())
-        self._files: dict[str, bytes] = {}
-        for file in self._read:
-            if file.path.name in self._files:
-                where = printable(file.path)
-                raise InputError(where, "another file has the same name", "rename one")
-            self._files[file.path.name] = file.content
-        self._graph = Graph(triple for file in self._read for triple in file.triples)
+        paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
+        read_files = (file if isinstance(file, OwlFile) else read(file) for file in paths)
+        self._library = Library(read_files, replaceable=(HOUSEHOLD.name, DEFAULTS.name))
+        self._graph = Graph(t for file in self._library.files for t in file.triples)
         self._expect_vocabulary()
         self._graph.expect_bounded([_class(root) for root in ROOTS])
         self._places = {place.name: place for place in places}
         self._order = {name: number for number, name in enumerate(self._places)}
         self._kinds = {
-            root: {ending(kind): kind for kind in self._graph.downwards(_class(root))}
-            for root in ("Furniture", "Room")
+            root: _by_name(self._graph.downwards(_class(root))) for root in ("Furniture", "Room")
         }
         for place in places:
             self._add(place)
@@ -207,30 +201,26 @@ class Ontology:
         """The loaded files by name, and what the home adds to them, to be kept with the log."""
         kinds, rooms = self._kinds["Furniture"], self._kinds["Room"]
         home = home_file(INDIVIDUALS, _class("isIn"), self.places(), kinds, rooms)
-        return {**self._files, "home.owl": home}
+        return {**self._library.contents(), "home.owl": home}
 
     def faults(self) -> Iterator[str]:
         """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
-        imports_met = not any(self._unmet())
-        return faults(self._graph, CLASSES, imports_met=imports_met)
+        return faults(self._graph, CLASSES, imports_met=not self.unmet_imports())
 
     def unused(self) -> Iterator[str]:
         """What the files say that the robot makes nothing of, a sentence each."""
         return unused(self._graph, CLASSES)
 
+    def unmet_imports(self) -> tuple[str, ...]:
+        """What files import that was not loaded, a sentence each: nothing is fetched."""
+        return tuple(self._library.unmet_imports())
+
     def warnings(self) -> tuple[str, ...]:
         """What the files do not give although one may think so, a sentence each."""
-        unmet = (
-            f"{file} imports {iri}, which is not loaded, and nothing is fetched: what it says is "
-            "not known; if it is needed, give the file that holds it with --kb"
-            for file, iri in self._unmet()
-        )
-        idle = (
-            f"{file} adds nothing that the robot uses: put its classes below Object, Furniture, "
-            "Room or Person of household.owl (rdfs:subClassOf)"
-            for file in self._idle()
-        )
-        return (*unmet, *idle)
+        graph, roots = self._graph, list(map(_class, ROOTS))
+        kinds = {kind for root in roots for kind in graph.downwards(root)}
+        individuals = {one for root in roots for one in graph.instances(root)}
+        return tuple(self._library.warnings(kinds | individuals))
 
     def query(self, sparql: str) -> Table:
         """Answer a SELECT in SPARQL.
@@ -250,22 +240,6 @@ class Ontology:
             if not self._graph.is_declared(iri):
                 right = f"keep {iri} as household.owl has it"
                 raise InputError("ontology", f"declares no {ending(iri)}", right)
-
-    def _unmet(self) -> Iterator[tuple[str, str]]:
-        """Files, and what they import that is not loaded."""
-        for file in self._read:
-            for iri in file.imports:
-                if not is_met(iri, self._read):
-                    yield printable(file.path.name), printable(iri)[:LONGEST_IRI]
-
-    def _idle(self) -> Iterator[str]:
-        """Files that declare something, but nothing below the classes that the robot knows."""
-        kinds = [kind for root in ROOTS for kind in self._graph.downwards(_class(root))]
-        known = {*kinds, *(one for root in ROOTS for one in self._graph.instances(_class(root)))}
-        for file in self._read:
-            declares = any(p == RDF.type and o != OWL.Ontology for _, p, o in file.triples)
-            if declares and known.isdisjoint(s for s, _, _ in file.triples):
-                yield printable(file.path.name)
 
     def _similar(self, words: str) -> dict[str, float]:
         """Names that look like the words, most similar first, and how similar (of 100)."""
@@ -358,3 +332,11 @@ class Ontology:
 
 def _class(name: str) -> URIRef:
     return URIRef(CLASSES + name)
+
+
+def _by_name(kinds: Iterable[Identifier]) -> dict[str, Identifier]:
+    """Classes by the ends of their IRIs; the first of a name has it."""
+    named: dict[str, Identifier] = {}
+    for kind in kinds:
+        named.setdefault(ending(kind), kind)
+    return named

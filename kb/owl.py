@@ -49,21 +49,32 @@ class OwlFile:
 
 
 def read(path: Path) -> OwlFile:
-    """Read a file; one that declares no IRI goes by its xml:base, or its place on the disk.
+    """Read a file.
 
     Raises:
-        InputError: if it is neither RDF/XML nor Turtle, too large, refers to another file, or
+        InputError: if it cannot be opened or is too large, and as `parsed` does.
+    """
+    return parsed(path, _content(path, printable(path)))
+
+
+def parsed(path: Path, content: bytes) -> OwlFile:
+    """What is in a file; one that declares no IRI goes by its xml:base, or its place on the disk.
+
+    Raises:
+        InputError: if it is neither RDF/XML nor Turtle, refers to another file, says too much, or
             names Python code to be run.
     """
     where = printable(path)
-    content = _content(path, where)
+    if len(content) > MOST_BYTES:
+        fault = f"is larger than {MOST_BYTES // 1_000_000} MB"
+        raise InputError(where, fault, "give a smaller part of it")
     here = path.absolute().as_uri()
     if is_xml(content, where):
         base = base_of_bounded(content, where)
-        triples = _parsed(content, "xml", "RDF/XML", here, where)
+        triples = _triples(content, "xml", "RDF/XML", here, where)
     else:
         base = ""
-        triples = _parsed(turtle_text(content, where), "turtle", "Turtle", here, where)
+        triples = _triples(turtle_text(content, where), "turtle", "Turtle", here, where)
     for subject, relation, module in triples:
         if relation == _RUNS_PYTHON:
             fault = f"{ending(subject)} names Python code to be run, python_module {_shown(module)}"
@@ -78,20 +89,6 @@ def read(path: Path) -> OwlFile:
         tuple(str(o) for _, p, o in triples if p == OWL.versionIRI),
         tuple(dict.fromkeys(str(o) for _, p, o in triples if p == OWL.imports)),
     )
-
-
-def is_met(imported: str, files: list[OwlFile]) -> bool:
-    """Whether one of the files is what is imported: by its IRI, a version of it, or its name."""
-    wanted = imported.rstrip("#/")
-    for file in files:
-        iri = file.iri.rstrip("#/")
-        if wanted == iri or wanted.startswith((iri + "/", iri + "#")):
-            return True
-        if wanted in (version.rstrip("#/") for version in file.versions):
-            return True
-        if ending(wanted) in (file.path.name, file.path.stem, ending(iri)):
-            return True
-    return False
 
 
 def ending(entity: str) -> str:
@@ -126,13 +123,10 @@ def _content(path: Path, where: str) -> bytes:
         raise InputError(where, f"cannot be read: {error.strerror}") from None
     except ValueError as error:
         raise InputError(where, f"cannot be read: {error}") from None
-    if len(content) > MOST_BYTES:
-        fault = f"is larger than {MOST_BYTES // 1_000_000} MB"
-        raise InputError(where, fault, "give a smaller part of it")
     return content
 
 
-def _parsed(
+def _triples(
     content: bytes | str, syntax: str, called: str, here: str, where: str
 ) -> tuple[Triple, ...]:
     graph = _Read(where)

@@ -269,6 +269,21 @@ def test_two_files_of_one_name_are_refused_because_one_would_be_lost_in_the_log(
         Ontology(files=[one, other])
 
 
+@pytest.mark.parametrize("name", ["home.owl", "config.toml"])
+def test_a_file_is_not_called_like_what_else_is_kept_with_the_log(tmp_path, name):
+    (tmp_path / name).write_text(OWL.format(""))
+    with pytest.raises(InputError, match=f"{name}: another file has the same name; rename one"):
+        Ontology(files=[tmp_path / name])
+
+
+def test_a_file_that_takes_the_place_of_ones_own_is_told(tmp_path):
+    one = owl_file(tmp_path, "")
+    other = tmp_path / "again.owl"
+    other.write_text(one.read_text())
+    [told] = Ontology(files=[one, other]).warnings()
+    assert told.startswith("again.owl takes the place of more.owl, which declares the same IRI")
+
+
 def test_a_file_is_kept_as_it_was_loaded(tmp_path):
     path = owl_file(tmp_path, "")
     known, loaded = Ontology(files=[path]), path.read_bytes()
@@ -290,8 +305,8 @@ def test_the_loaded_files_can_be_kept_with_the_log():
 
 def test_what_the_home_adds_is_kept_as_an_ontology_and_has_the_last_word(tmp_path):
     den = [Place("desk", "Table", "den", "Office"), Place("cot", "Bed", "den", "Office")]
-    (tmp_path / "home.owl").write_bytes(Ontology(den).files()["home.owl"])
-    known = Ontology(files=[tmp_path / "home.owl"], defaults=False)
+    (tmp_path / "den.owl").write_bytes(Ontology(den).files()["home.owl"])
+    known = Ontology(files=[tmp_path / "den.owl"], defaults=False)
     asked = "SELECT ?piece ?kind WHERE { ?piece household:isIn home:den . ?piece a ?kind }"
     assert set(known.query(asked).rows) >= {("desk", "table"), ("cot", "bed")}
 
