@@ -10,7 +10,7 @@ from rdflib.term import Identifier
 from executive.text import printable
 from kb.dangling import dangling
 from kb.graph import STANDARDS, Graph
-from kb.names import words_of
+from kb.names import Words, words_of
 from kb.owl import ending
 
 ROOTS = ("Object", "Furniture", "Room", "Person")
@@ -45,7 +45,7 @@ def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterato
     )
     yield from _some(refused, "names that are not used")
     yield from _some(_taken(graph, things), "names that are taken")
-    yield from _some(_ambiguous(graph, list(roots.values())), "names of two things")
+    yield from _some(_ambiguous(graph, roots), "names of two things")
     yield from _some(_homeless(graph, roots, URIRef(namespace + "isIn")), "without a room")
     yield from _some(_misplaced(graph, things, roots, namespace), "default locations")
     yield from _some(_individuals(graph, roots["Object"]), "individuals")
@@ -105,9 +105,15 @@ def _taken(graph: Graph, things: Iterable[Identifier]) -> Iterator[str]:
                 yield f"{fault}: rename it"
 
 
-def _ambiguous(graph: Graph, roots: Sequence[Identifier]) -> Iterator[str]:
-    for root in roots:
-        owners: dict[tuple[str, ...], Identifier] = {}
+def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
+    """Names of two classes below one root, and names of things that are those of places, too."""
+    of_places: dict[Words, Identifier] = {}
+    for root in ("Furniture", "Room"):
+        for place in _all(graph, roots[root]):
+            for name in graph.names(place):
+                of_places.setdefault(words_of(name), place)
+    for title, root in roots.items():
+        owners = dict(of_places) if title == "Object" else {}
         for thing in graph.downwards(root):
             for name in graph.names(thing):
                 other = owners.setdefault(words_of(name), thing)

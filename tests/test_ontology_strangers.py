@@ -321,6 +321,18 @@ def test_a_default_location_may_be_said_of_a_class_directly(tmp_path):
             "Mug is preferred by desk, which is no Person: name one",
         ),
         (
+            "x:Toy rdfs:subClassOf h:Object ; rdfs:label 'couch' .",
+            "'couch' names both Sofa and Toy: rename one",
+        ),
+        (
+            "x:Toy rdfs:subClassOf h:Object ; rdfs:label 'high-table' .",
+            "'high-table' names both high_table and Toy: rename one",
+        ),
+        (
+            "x:Cup rdfs:subClassOf h:Object ; rdfs:label 'Mugs' .",
+            "'Mugs' names both Mug and Cup: rename one",
+        ),
+        (
             "h:Table h:preposition 'under' .",
             "Table has the preposition under: write in or on",
         ),
@@ -416,4 +428,13 @@ def test_a_map_after_an_upper_ontology_loads_and_says_why_nothing_of_it_is_known
 
 def test_our_own_files_say_nothing_in_vain():
     known = Ontology(four_rooms().places())
+    assert [*known.faults(), *known.unused(), *known.warnings()] == []
+
+
+def test_the_turtle_that_the_docs_show_says_what_their_xml_says(tmp_path):
+    docs = (Path(__file__).parents[1] / "docs" / "knowledge.md").read_text()
+    [shown] = re.findall(r"^```turtle\n(.*?)^```", docs, re.DOTALL | re.MULTILINE)
+    (tmp_path / "anna.ttl").write_text(shown)
+    known = Ontology(files=[tmp_path / "anna.ttl"], person="Anna")
+    assert known.preferred(("apple", "pear")) == ("pear",)
     assert [*known.faults(), *known.unused(), *known.warnings()] == []
