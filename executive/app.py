@@ -40,6 +40,7 @@ from executive.types import Answered, Outcome, Vector3
 from executive.user import Console, Nobody, Oracle
 from kb.advisor import PlaceAdvisor
 from kb.facts import FactStore
+from kb.key import Key
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
 from kb.prompts import Prompts
@@ -318,6 +319,8 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         return Server(
             settings.llm,
             inbox,
+            model=settings.llm_model,
+            api_key=Key.from_environment(),
             n_ctx=settings.context_tokens,
             timeout_s=settings.llm_timeout_s,
             temperature=settings.temperature,

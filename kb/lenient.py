@@ -1,7 +1,7 @@
-"""JSON as language models write it, read in one pass.
+r"""JSON as language models write it, read in one pass.
 
 Beside JSON itself: text around it, code fences, trailing commas, comments, single and typographic
-quotes, names without quotes, and escapes that JSON does not know (`counter\\_wagon`). Nothing is
+quotes, names without quotes, and escapes that JSON does not know (`counter\_wagon`). Nothing is
 completed or corrected: a value has to have its closing bracket, and no word is returned that is
 not there.
 """

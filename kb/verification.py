@@ -77,10 +77,12 @@ def _loosely(value: object) -> list[str] | None:
 
 
 def _names(parts: list[object]) -> list[str] | None:
+    """One name for each part; null stands for no part, as numbers do."""
     named = [_name(part) for part in parts if part is not None]
-    if len(parts) > 0 and not named:
+    if parts and not named:
         return None
-    return [name for some in named for name in some] if all(named) else None
+    names = [name for some in named if some for name in some]
+    return names if len(names) == len(named) else None
 
 
 def _name(part: object) -> list[str] | None:
