@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import logging
 import os
 import socket
 import ssl
@@ -37,6 +38,8 @@ DEEPEST = 16
 BUSY = (429, 503, 529)
 NOT_HERE = (404, 405, 501)
 DENIED = (401, 403, 407)
+
+logging.getLogger("httpcore2").setLevel(logging.INFO)  # below, it writes headers down
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +121,7 @@ class Asking:
         except Exception as error:  # noqa: BLE001 - a request must never be left without an end
             return Failed(f"{self._shown} failed: {self._shortly(repr(error))}")
         text = self._key.hidden_in(writable(got.text))
+        got.finish_reason = self._shortly(got.finish_reason)
         return Asked(got, text, time.monotonic() - began)
 
     async def close(self) -> None:
@@ -204,7 +208,9 @@ class Asking:
                 if response.status_code == 200:
                     listing = await _json(response)
                     if listing is not None:
-                        self._bases, self._listed = [base], chat_models(listing)
+                        names = chat_models(listing)
+                        self._listed = tuple(n for n in names if n == self._key.hidden_in(n))
+                        self._bases = [base]
                         return
                 elif response.status_code not in NOT_HERE:
                     raise await _refused(response)

@@ -89,8 +89,9 @@ class Dialect:
         ):
             self._schemas.pop(0)
             return True
-        named = {name for name in OPTIONAL if body.get(name) and refused.mentions(name)}
-        if not named and body.get("stream") and re.search(r"\bstreaming\b", refused.says, re.I):
+        sent = {name for name in OPTIONAL if body.get(name, False) is not False}
+        named = {name for name in sent if refused.mentions(name)}
+        if not named and "stream" in sent and re.search(r"\bstreaming\b", refused.says, re.I):
             named = {"stream"}
         self._left_out |= named
         return bool(named)

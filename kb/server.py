@@ -3,8 +3,6 @@
 import asyncio
 import logging
 import threading
-from concurrent.futures import TimeoutError as NotInTime
-from contextlib import suppress
 
 from executive.events import Inbox
 from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, Usage
@@ -69,6 +67,7 @@ class Server:
         self._asking = Asking(url, dialect, model, api_key or Key(), timeout_s)
         self._tasks: dict[int, asyncio.Task[None]] = {}
         self._looking: asyncio.Task[None] | None = None
+        self._ending: asyncio.Task[None] | None = None
         self._loop = asyncio.new_event_loop()
         self._loop.set_default_executor(Daemons())
         self._thread = threading.Thread(target=self._loop.run_forever, name="language model server")
@@ -114,9 +113,7 @@ class Server:
         """Hang up and end the thread."""
         if self._loop.is_closed():
             return
-        with suppress(NotInTime):
-            asyncio.run_coroutine_threadsafe(self._hang_up_all(), self._loop).result(CLOSING_S)
-        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._loop.call_soon_threadsafe(self._end)
         self._thread.join(CLOSING_S)
         if not self._thread.is_alive():
             self._loop.close()
@@ -139,6 +136,10 @@ class Server:
     def _hang_up(self, number: int) -> None:
         if task := self._tasks.get(number):
             task.cancel()
+
+    def _end(self) -> None:
+        self._ending = self._loop.create_task(self._hang_up_all())
+        self._ending.add_done_callback(lambda _: self._loop.stop())
 
     async def _hang_up_all(self) -> None:
         tasks = [*self._tasks.values(), *([self._looking] if self._looking else [])]
