@@ -329,7 +329,7 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
             seed=settings.seed,
             grammar=settings.grammar,
         )
-    return LlamaCpp(
+    model = LlamaCpp(
         embedded_model() if settings.llm == "embedded" else Path(settings.llm),
         inbox,
         n_ctx=settings.context_tokens,
@@ -341,6 +341,10 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         gpu_layers=settings.gpu_layers,
         grammar=settings.grammar,
     )
+    if settings.elicitation == "rank" and not model.can_rank:
+        model.close()
+        raise InputError("setting 'elicit'", "this model cannot rank", "use --elicit generate")
+    return model
 
 
 def build_advisor(

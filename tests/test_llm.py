@@ -20,7 +20,8 @@ from executive.types import (
     Scored,
 )
 from kb.advisor import PlaceAdvisor
-from kb.gguf import Context, Gguf
+from kb.context import Context
+from kb.gguf import Gguf
 from kb.llama import LlamaCpp, embedded_model
 from kb.precedents import LIKELIHOOD_WEIGHT
 from kb.sampling import Sampler
@@ -94,19 +95,6 @@ def test_a_file_that_is_no_gguf_is_refused_at_once(tmp_path):
     path.write_text("not a model")
     with pytest.raises(ModelError, match=r"model.gguf is no GGUF file"):
         LlamaCpp(path, Inbox())
-
-
-def test_a_broken_model_file_fails_every_request_and_never_hangs(tmp_path, capfd):
-    path = tmp_path / "model.gguf"
-    path.write_bytes(b"GGUF" + bytes(100))
-    model = LlamaCpp(path, inbox := Inbox())
-    for request in (model.chat, model.rank):
-        reason = end_of(inbox, request(HELLO if request == model.chat else RANK)).reason
-        assert "model.gguf cannot be loaded" in reason
-    with pytest.raises(ModelError, match="cannot be loaded"):
-        model.count_tokens("word")
-    model.close()
-    assert capfd.readouterr() == ("", "")
 
 
 def test_the_embedded_model_is_found_without_importing_its_plugin():
