@@ -70,19 +70,20 @@ def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
     environment = {**os.environ, "GGML_NO_BACKTRACE": "1"}
     environment["PYTHONPATH"] = os.pathsep.join(part or os.getcwd() for part in sys.path)
     environment.pop(VARIABLE, None)
-    child = subprocess.Popen(
-        [sys.executable, "-P", "-c", "from kb.first_load import main; main()", path.absolute()],
+    command = "from kb.first_load import main; main()"
+    with subprocess.Popen(
+        [sys.executable, "-P", "-c", command, path.absolute()],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         env=environment,
         start_new_session=True,
-    )
-    try:
-        said = _until_ended(child, PATIENCE_S + path.stat().st_size / SLOWEST_DISK, called_off)
-    finally:
-        child.kill()
-        child.wait()
+    ) as child:
+        try:
+            patience_s = PATIENCE_S + path.stat().st_size / SLOWEST_DISK
+            said = _until_ended(child, patience_s, called_off)
+        finally:
+            child.kill()
     lines = writable(said.decode(errors="replace")).splitlines()
     if WRITES in lines:
         return lines

@@ -7,6 +7,7 @@ tokens only, while scoring continues one prompt in many ways at once.
 import ctypes
 import operator
 import os
+import stat
 from collections import deque
 from collections.abc import Callable, Sequence
 from itertools import takewhile
@@ -44,6 +45,8 @@ def check_file(path: Path) -> None:
         ModelError: if it is missing or is no GGUF file.
     """
     try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise ModelError(f"model {printable(path)} cannot be read: it is no file")
         with path.open("rb") as file:
             begins = file.read(len(MAGIC))
     except OSError as error:

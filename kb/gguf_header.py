@@ -7,7 +7,6 @@ bounded, so that reading takes time and memory in proportion to a sound file's.
 import mmap
 import struct
 from collections.abc import Mapping
-from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
@@ -61,9 +60,8 @@ def read_header(path: Path) -> Header:
         with (
             path.open("rb") as file,
             mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data,
-            closing(_Reader(path, data)) as reader,
         ):
-            return reader.header()
+            return _Reader(path, data).header()
     except (OSError, ValueError) as error:
         raise ModelError(f"model {printable(path)} cannot be read: {error}") from None
 
@@ -92,14 +90,10 @@ class _Reader:
     """Goes through the bytes of a file once."""
 
     def __init__(self, path: Path, data: mmap.mmap) -> None:
-        self._path, self._data, self._at = path, memoryview(data), 0
-
-    def close(self) -> None:
-        """Let go of the bytes."""
-        self._data.release()
+        self._path, self._data, self._at = path, data, 0
 
     def header(self) -> Header:
-        if bytes(self._take(4)) != b"GGUF":
+        if self._take(4) != b"GGUF":
             self._refuse("does not begin with the letters GGUF")
         if (version := self._number("<I")) not in VERSIONS:
             self._refuse(f"is of version {version}; known are 2 and 3")
@@ -128,10 +122,10 @@ class _Reader:
         kind = int(self._number("<I"))
         count = self._count(f"entries in {name!r}", MOST_ENTRIES)
         if kind in _NUMBERS:
-            self._take(count * struct.calcsize(_NUMBERS[kind]))
+            self._pass_over(count * struct.calcsize(_NUMBERS[kind]))
         elif kind == _TEXT:
             for _ in range(count):
-                self._take(self._count(f"characters in {name!r}", LONGEST_TEXT))
+                self._pass_over(self._count(f"characters in {name!r}", LONGEST_TEXT))
         else:
             self._refuse(f"has lists in the list {name!r}")
 
@@ -172,12 +166,15 @@ class _Reader:
         number: int | float = struct.unpack(form, self._take(struct.calcsize(form)))[0]
         return number
 
-    def _take(self, count: int) -> memoryview:
-        part = self._data[self._at : self._at + count]
-        if len(part) < count:
-            self._refuse("ends in the middle of its header")
+    def _take(self, count: int) -> bytes:
+        begins = self._at
+        self._pass_over(count)
+        return self._data[begins : self._at]
+
+    def _pass_over(self, count: int) -> None:
         self._at += count
-        return part
+        if self._at > len(self._data):
+            self._refuse("ends in the middle of its header")
 
     def _refuse(self, why: str) -> NoReturn:
         raise ModelError(
