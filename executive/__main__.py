@@ -203,6 +203,7 @@ def parser() -> argparse.ArgumentParser:
         help="whether the ontology knows default locations (default: it does)",
     )
     option("--llm", metavar="embedded, FILE.gguf, http://host:port/v1 or none")
+    option("--llm-model", metavar="NAME")
     p.add_argument(
         "--elicit",
         choices=["generate", "rank"],

@@ -40,6 +40,7 @@ from executive.text import one_line, too_long, writable
 from executive.types import Answered, Outcome, Status
 from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
 from kb.facts import FactStore
+from kb.key import Key
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
 from kb.prompts import Prompts
@@ -366,6 +367,8 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         return Server(
             settings.llm,
             inbox,
+            model=settings.llm_model,
+            api_key=Key.from_environment(),
             n_ctx=settings.context_tokens,
             timeout_s=settings.llm_timeout_s,
             temperature=settings.temperature,
@@ -374,7 +377,7 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
             seed=settings.seed,
             grammar=settings.grammar,
         )
-    return LlamaCpp(
+    model = LlamaCpp(
         embedded_model() if settings.llm == "embedded" else Path(settings.llm),
         inbox,
         n_ctx=settings.context_tokens,
@@ -386,6 +389,10 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         gpu_layers=settings.gpu_layers,
         grammar=settings.grammar,
     )
+    if settings.elicitation == "rank" and not model.can_rank:
+        model.close()
+        raise InputError("setting 'elicit'", "this model cannot rank", "use --elicit generate")
+    return model
 
 
 def build_user(

@@ -4,6 +4,7 @@ import tomllib
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Literal
+from urllib.parse import urlsplit
 
 import tomli_w
 from pydantic import Field, ValidationError, field_validator
@@ -32,6 +33,9 @@ class Settings(BaseSettings):
     defaults: bool = Field(True, description="whether the ontology knows default locations")
     llm: str = Field(
         "embedded", description="embedded, FILE.gguf, http://host:port/v1 of a server, or none"
+    )
+    llm_model: str | None = Field(
+        None, description="name of the model on a server (default: the first that chats)"
     )
     grammar: bool = Field(False, description="hold the model's replies to their JSON schema")
     prompts: Path | None = Field(None, description="TOML file of texts that replace ours")
@@ -93,8 +97,15 @@ class Settings(BaseSettings):
         if value in ("embedded", "none") or value.endswith(".gguf"):
             return value
         if value.startswith(("http://", "https://")):
-            return value
+            return _address(value)
         raise ValueError("should be embedded, none, a FILE.gguf or http://host:port/v1")
+
+    @field_validator("llm_model")
+    @classmethod
+    def _name_of_a_model(cls, value: str | None) -> str | None:
+        if value is not None and not (value.strip() and value.isprintable() and len(value) <= 200):
+            raise ValueError("should be a name of one line")
+        return value
 
     @field_validator("detector")
     @classmethod
@@ -141,6 +152,26 @@ def load_settings(config: Path | None = None, **given: Any) -> Settings:
         right = f"known are {known}" if fault["type"] == "extra_forbidden" else ""
         where = f"{config}: {name}" if name in from_file else f"setting '{name}'"
         raise InputError(where, fault["msg"], right) from None
+
+
+def _address(url: str) -> str:
+    """The address of a server, which is written into each recording: so there is no secret in it.
+
+    Raises:
+        ValueError: says what would be right, and nothing of the address.
+    """
+    try:
+        parts = urlsplit(url)
+        fits = bool(parts.hostname) and parts.port != 0
+    except ValueError:
+        fits = False
+    if not fits or not url.isprintable() or " " in url:
+        raise ValueError("should be an address such as http://host:port/v1")
+    if "@" in parts.netloc:
+        raise ValueError("should be without user and password: set EXECUTIVE_LLM_API_KEY instead")
+    if parts.query or parts.fragment:
+        raise ValueError("should end before '?' and '#': a key belongs in EXECUTIVE_LLM_API_KEY")
+    return url
 
 
 def _read(config: Path) -> dict[str, Any]:

@@ -20,7 +20,9 @@ from executive.types import (
     Verdict,
 )
 from kb import ranking, understanding, verification
+from kb.large_homes import Alike, as_many_as_fit, fits, of_all_kinds
 from kb.memory import Memory, history_budget
+from kb.names import unique
 from kb.ontology import Ontology
 from kb.prompts import Prompts
 from kb.ranking import Known
@@ -58,7 +60,12 @@ class PlaceAdvisor:
         self._top = top
         self._prompts = prompts or Prompts.load()
         self._facts = facts
-        self._system = Message("system", self._prompts.home(ontology.places()))
+        home = self._prompts.home(ontology.places())
+        self._by_rooms = not fits(home, model.context_tokens)
+        if self._by_rooms:
+            home = self._prompts.rooms(self._choices())
+        self._system = Message("system", home)
+        self._scored_alike: dict[tuple[str, ...], Alike] = {}
         self._memory: Memory | None = None
 
     def inquiry(self, name: str, among: tuple[str, ...]) -> ChatRequest:
@@ -69,11 +76,11 @@ class PlaceAdvisor:
             )
             return self._request("multiple_pos", text, among)
         text = self._prompts.inquiry("general_pos", object_name=name, top=str(self._top))
-        return self._request("general_pos", text, self._names())
+        return self._request("general_pos", text, self._choices())
 
     def furniture(self, name: str, room: str, among: tuple[str, ...]) -> ChatRequest:
         """`furniture`: which furniture of this room?"""
-        choice = [p.name for p in self._allowed(among) if p.room == room]
+        choice = self._fitting([p for p in self._allowed(among) if p.room == room])
         text = self._prompts.inquiry(
             "furniture", object_name=name, room_name=room, furniture_list=", ".join(choice)
         )
@@ -81,7 +88,7 @@ class PlaceAdvisor:
 
     def again(self, name: str, among: tuple[str, ...]) -> ChatRequest:
         """`again`: the reply named no real place; choose from the list."""
-        choice = self._names(among)
+        choice = self._choices(among)
         text = self._prompts.inquiry("again", object_name=name, furniture_list=", ".join(choice))
         return self._request("again", text, choice)
 
@@ -89,10 +96,10 @@ class PlaceAdvisor:
         """`summarize`: the reply, which is shown once more if no memory holds it."""
         text = self._prompts.inquiry("summarize", object_name=name, situation=SITUATION)
         if self._history()[-1:] == (Message("assistant", reply),):
-            return self._request("summarize", text, self._names())
+            return self._request("summarize", text, self._choices())
         asked = self._prompts.inquiry("general_pos", object_name=name, top=str(self._top))
         exchange = (Message("user", asked), Message("assistant", reply))
-        return self._request("summarize", text, self._names(), exchange)
+        return self._request("summarize", text, self._choices(), exchange)
 
     def remember(self, request: ChatRequest, reply: str) -> None:
         """Keep the exchange for the next prompts, if this system has a memory."""
@@ -134,16 +141,24 @@ class PlaceAdvisor:
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
         """Score every allowed place instead of asking for a list."""
+        alike = Alike.among(self._allowed(among))
         options = [
-            (place, ranking.answer(place, self._ontology.preposition(place)))
-            for place in self._allowed(among)
+            (group[0], ranking.answer(place, self._ontology.preposition(place)))
+            for group, place in zip(alike.groups.values(), alike.spoken_of(), strict=True)
         ]
         thing = self._usual.get(name, Known(name))
-        return ranking.rank_request(thing, options, self._prompts.ranking, self._others(name))
+        others = (
+            replace(other, places=unique(map(alike.stands_for, other.places)))
+            for other in self._others(name)
+        )
+        request = ranking.rank_request(thing, options, self._prompts.ranking, others)
+        self._scored_alike[request.places] = alike
+        return request
 
     def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
         """Places with probabilities (they sum to 1), likeliest first."""
-        return ranking.ranked(scored)
+        alike = self._scored_alike.get(scored.request.places)
+        return ranking.ranked(alike.apart(scored) if alike else scored)
 
     @cached_property
     def _usual(self) -> dict[str, Known]:
@@ -164,8 +179,20 @@ class PlaceAdvisor:
     def _allowed(self, among: tuple[str, ...]) -> tuple[Place, ...]:
         return tuple(p for p in self._ontology.places() if not among or p.name in among)
 
-    def _names(self, among: tuple[str, ...] = ()) -> list[str]:
-        return [place.name for place in self._allowed(among)]
+    def _choices(self, among: tuple[str, ...] = ()) -> list[str]:
+        """What the model may name; rooms, if the home is too large for its furniture."""
+        allowed = self._allowed(among)
+        if not self._by_rooms or among:
+            return self._fitting(allowed)
+        return as_many_as_fit(unique(p.room for p in allowed), self._model.context_tokens)
+
+    def _fitting(self, places: Sequence[Place]) -> list[str]:
+        """The names; of too many as many as fit, of all kinds."""
+        names = [place.name for place in places]
+        fitting = as_many_as_fit(names, self._model.context_tokens)
+        if len(fitting) == len(names):
+            return names
+        return as_many_as_fit(of_all_kinds(places), self._model.context_tokens)
 
     def _history(self) -> tuple[Message, ...]:
         return self._memory.messages() if self._memory else ()

@@ -24,6 +24,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import LanguageModel
 from executive.shell import DONE, entry_point
+from kb.key import Key
 from kb.llama import LlamaCpp, embedded_model
 from kb.measures import Measures, expected_of_chance, mean, measure
 from kb.names import words_of
@@ -196,7 +197,8 @@ def _model(given: argparse.Namespace, inbox: Inbox) -> LanguageModel | None:
     if given.llm == "none":
         return None
     if given.llm.startswith(("http://", "https://")):
-        return Server(given.llm, inbox, seed=given.seed, grammar=given.grammar)
+        key = Key.from_environment()
+        return Server(given.llm, inbox, api_key=key, seed=given.seed, grammar=given.grammar)
     path = embedded_model() if given.llm == "embedded" else Path(given.llm)
     return LlamaCpp(path, inbox, seed=given.seed, grammar=given.grammar, max_tokens=256)
 

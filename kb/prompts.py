@@ -19,6 +19,7 @@ TEXTS = Path(__file__).with_name("prompts.toml")
 PLACEHOLDERS: Mapping[str, Sequence[str]] = {
     "inquiry_system": ("objects", "format"),
     "system": ("rooms", "furniture in rooms", "furniture", "format"),
+    "system_rooms": ("rooms", "format"),
     "general_pos": ("object name", "top"),
     "multiple_pos": ("object name", "position"),
     "furniture": ("object name", "room name", "furniture list"),
@@ -102,6 +103,7 @@ class Prompts(_Part):
     """All texts, by the paper's labels."""
 
     system: str
+    system_rooms: str
     general_pos: str
     multiple_pos: str
     furniture: str
@@ -146,6 +148,11 @@ class Prompts(_Part):
                 "format": json.dumps(Reply.model_json_schema()),
             },
         )
+
+    def rooms(self, rooms: Sequence[str]) -> str:
+        """The system prompt for a home with more furniture than a prompt has room for."""
+        form = json.dumps(Reply.model_json_schema())
+        return _fill(self.system_rooms, {"rooms": ", ".join(rooms), "format": form})
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -7,7 +7,8 @@ from typing import Any, Self
 import llama_cpp
 
 from executive.errors import ModelError
-from kb.gguf import Context, Gguf
+from kb.context import Context
+from kb.gguf import Gguf
 
 
 @dataclass(frozen=True, slots=True)

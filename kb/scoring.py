@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from executive.types import Message, RankRequest
-from kb.gguf import Checkpoint, Context, Gguf
+from kb.context import Context
+from kb.gguf import Checkpoint, Gguf
 from kb.precedents import LIKELIHOOD_WEIGHT, Floats, log_expected, shares
 
 SCORED_AT_ONCE = 63

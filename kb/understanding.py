@@ -7,20 +7,25 @@ put to the person before anything is done.
 from collections.abc import Sequence
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
 
 from executive.types import SEARCHING, ChatRequest, Kind, RankRequest, Scored
 from kb.prompts import Understanding
-from kb.verification import json_objects
+from kb.verification import last_first
 
 
 class Asked(BaseModel):
     """The output format: what to do, and with what."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(frozen=True)
 
     kind: Kind
     object: str
+
+    @field_validator("kind", mode="before")
+    @classmethod
+    def _in_any_case(cls, kind: Any) -> Any:
+        return kind.strip().lower() if isinstance(kind, str) else kind
 
 
 def schema(objects: Sequence[str]) -> dict[str, Any]:
@@ -36,8 +41,8 @@ def schema(objects: Sequence[str]) -> dict[str, Any]:
 
 
 def read(reply: str) -> Asked | None:
-    """What the reply says, or None if nothing in it has the output format. Never raises."""
-    for value in json_objects(reply):
+    """What the reply says last, or None if nothing in it has the output format. Never raises."""
+    for value in last_first(reply):
         try:
             asked = Asked.model_validate(value)
         except ValidationError:

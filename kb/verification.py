@@ -5,16 +5,20 @@ The paper's output parser and existence check. Pure functions.
 
 import json
 from collections.abc import Iterator, Sequence
+from operator import itemgetter
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
 from executive.text import writable
 from executive.types import Verdict
+from kb.lenient import Bare, values
 from kb.names import PlaceNames, unique
 
 MOST_CHARACTERS = 10_000
 """Of a reply, counted from its end: looking through more could take seconds."""
+NAME_KEYS = ("name", "place", "furniture", "location", "room")
+"""What a model may call the name of a place, where it gives more than the name."""
 
 
 class Reply(BaseModel):
@@ -40,16 +44,53 @@ def schema(places: Sequence[str], most: int) -> dict[str, Any]:
 
 
 def read(reply: str) -> tuple[str, ...] | None:
-    """The names in a reply, or None if no JSON object in it has the output format.
+    """The names in a reply, or None if nothing in it has the output format, more or less.
 
-    Text and code fences around the object do no harm. Never raises.
+    The last answer counts: a model that thinks aloud, or corrects itself, ends with what it means.
+    An object with `places` comes before a bare list or an object with one place. Each place is a
+    string, or an object that has one as its name. Never raises.
     """
-    for value in json_objects(reply):
-        try:
-            return tuple(writable(name).strip() for name in Reply.model_validate(value).places)
-        except ValidationError:
-            continue
+    loose = None
+    for value in last_first(reply):
+        names = _places(value)
+        if names is not None:
+            return tuple(writable(name).strip() for name in names)
+        loose = loose or _loosely(value)
+    return tuple(writable(name).strip() for name in loose) if loose else None
+
+
+def _places(value: object) -> list[str] | None:
+    """The names under `places`; None if it has none, or anything else among them."""
+    if not isinstance(value, dict):
+        return None
+    for key, named in value.items():
+        if key.strip().lower() == "places":
+            return _names(named) if isinstance(named, list) else _name(named)
     return None
+
+
+def _loosely(value: object) -> list[str] | None:
+    """The names in a bare list, or the one of an object; words without quotes are prose."""
+    if not isinstance(value, list):
+        return _name(value)
+    return None if any(isinstance(part, Bare) for part in value) else _names(value)
+
+
+def _names(parts: list[object]) -> list[str] | None:
+    """One name for each part; null stands for no part, as numbers do."""
+    named = [_name(part) for part in parts if part is not None]
+    if parts and not named:
+        return None
+    names = [name for some in named if some for name in some]
+    return names if len(names) == len(named) else None
+
+
+def _name(part: object) -> list[str] | None:
+    """The one name in this, as a list; None if there is none."""
+    if isinstance(part, dict):
+        lower = {key.strip().lower(): value for key, value in part.items()}
+        part = next((lower[key] for key in NAME_KEYS if key in lower), None)
+    return [part] if isinstance(part, str) else None
 
 
 def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -> Verdict:
@@ -74,15 +115,25 @@ def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -
     return Verdict(unique(furniture), unique(rooms), unique(dropped))
 
 
-def json_objects(text: str) -> Iterator[object]:
-    """What can be read as JSON from each opening brace on. Never raises, and never takes long."""
-    text = text[-MOST_CHARACTERS:]
+def last_first(reply: str) -> list[object]:
+    """The objects and lists in the end of a reply, the last one first, an outer one before its own.
+
+    What is JSON to the letter is found whatever stands before it, the rest as `lenient` does.
+    Never raises, and never takes long.
+    """
+    text = reply[-MOST_CHARACTERS:]
+    found = [*_strictly(text), *values(text)]
+    return [value for _, value in sorted(found, key=itemgetter(0), reverse=True)]
+
+
+def _strictly(text: str) -> Iterator[tuple[int, object]]:
+    """What can be read as JSON from each opening brace on, with where it ends."""
     decoder = json.JSONDecoder()
     start = text.find("{")
     while start >= 0:
         try:
-            value, _ = decoder.raw_decode(text, start)
-            yield value
+            value, end = decoder.raw_decode(text, start)
+            yield end, value
         except ValueError:
             pass
         except RecursionError:

@@ -1,12 +1,9 @@
-"""The language models behind one protocol: scripted, a server over HTTP, and llama.cpp."""
+"""The language models behind one protocol: scripted, and llama.cpp (servers: test_odd_servers)."""
 
-import json
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from dataclasses import replace
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import pytest
 from conftest import ontology
@@ -23,12 +20,12 @@ from executive.types import (
     Scored,
 )
 from kb.advisor import PlaceAdvisor
-from kb.gguf import Context, Gguf
+from kb.context import Context
+from kb.gguf import Gguf
 from kb.llama import LlamaCpp, embedded_model
 from kb.precedents import LIKELIHOOD_WEIGHT
 from kb.sampling import Sampler
 from kb.scripted import Scripted
-from kb.server import Server
 from kb.verification import Reply
 
 SCHEMA = Reply.model_json_schema()
@@ -85,216 +82,6 @@ def test_a_cancelled_script_delivers_nothing():
     assert not inbox.awaits_anything
 
 
-# --- Server ---
-
-Behaviour = Callable[[BaseHTTPRequestHandler], None]
-
-
-@contextmanager
-def serving(*behaviours: Behaviour) -> Iterator[tuple[str, list[dict]]]:
-    """A server, one behaviour a request; yields its address and what it was sent."""
-    todo, bodies = list(behaviours), []
-
-    class Handler(BaseHTTPRequestHandler):
-        def do_GET(self):
-            self.send_response(200)
-            self.end_headers()
-            self.wfile.write(b'{"data": [{"id": "tiny-model"}]}')
-
-        def do_POST(self):
-            bodies.append(json.loads(self.rfile.read(int(self.headers["Content-Length"]))))
-            todo.pop(0)(self)
-
-        def log_message(self, *arguments):
-            pass
-
-    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
-    thread.start()
-    try:
-        yield f"http://127.0.0.1:{server.server_port}/v1", bodies
-    finally:
-        server.shutdown()
-        thread.join()
-        server.server_close()
-
-
-def send(handler: BaseHTTPRequestHandler, *chunks: dict | str) -> None:
-    """Stream these server-sent events."""
-    handler.send_response(200)
-    handler.end_headers()
-    for chunk in chunks:
-        data = chunk if isinstance(chunk, str) else json.dumps(chunk)
-        handler.wfile.write(f"data: {data}\n\n".encode())
-    handler.wfile.flush()
-
-
-def word(text: str, finish_reason: str | None = None) -> dict:
-    return {"choices": [{"delta": {"content": text}, "finish_reason": finish_reason}]}
-
-
-def says(*words: str) -> Behaviour:
-    usage = {"choices": [], "usage": {"prompt_tokens": 40, "completion_tokens": 7}}
-    return lambda handler: send(
-        handler, *map(word, words), word("", "stop"), {**usage, "timings": {}}, "[DONE]"
-    )
-
-
-def refuses(status: int) -> Behaviour:
-    def refuse(handler: BaseHTTPRequestHandler) -> None:
-        handler.send_response(status)
-        handler.end_headers()
-        handler.wfile.write(b"no such model")
-
-    return refuse
-
-
-@contextmanager
-def asked(*behaviours: Behaviour, **settings):
-    """A Server model that talks to a server with these behaviours, its inbox, and what was sent."""
-    inbox = Inbox()
-    with serving(*behaviours) as (url, bodies):
-        model = Server(url, inbox, **settings)
-        try:
-            yield model, inbox, bodies
-        finally:
-            model.close()
-
-
-def test_a_servers_streamed_words_become_the_reply():
-    with asked(says("on ", "the ", "desk"), seed=7) as (model, inbox, bodies):
-        reply = end_of(inbox, model.chat(HELLO))
-    assert (reply.text, reply.finish_reason) == ("on the desk", "stop")
-    assert (reply.usage.input_tokens, reply.usage.output_tokens) == (40, 7)
-    assert (reply.usage.model, reply.usage.parameters["seed"]) == ("tiny-model", 7)
-    assert 0 < reply.usage.first_token_s <= reply.usage.total_s
-    assert bodies[0]["model"] == "tiny-model"
-    assert bodies[0]["messages"] == [{"role": "user", "content": "Where is the mug?"}]
-
-
-def test_a_character_that_a_server_cuts_in_two_is_whole_in_the_reply():
-    with asked(says("on \ud83d", "\ude00 and \ud83d"), model="m") as (model, inbox, _):
-        reply = end_of(inbox, model.chat(HELLO))
-    assert reply.text == "on \N{GRINNING FACE} and \N{REPLACEMENT CHARACTER}"
-
-
-def test_a_server_is_asked_to_keep_to_the_schema_if_so_set():
-    with asked(says("{}"), says("{}"), grammar=True, model="m") as (model, inbox, bodies):
-        end_of(inbox, model.chat(HELLO))
-    assert bodies[0]["response_format"]["json_schema"]["schema"] == SCHEMA
-
-
-@pytest.mark.parametrize("status", [400, 422, 500])
-def test_a_server_that_dislikes_the_schema_is_given_it_in_the_other_way(status):
-    behaviours = (refuses(status), says("{}"), says("{}"))
-    with asked(*behaviours, grammar=True, model="m") as (model, inbox, bodies):
-        assert end_of(inbox, model.chat(HELLO)).text == "{}"
-        end_of(inbox, model.chat(HELLO))
-    assert [body["response_format"]["type"] for body in bodies] == [
-        "json_schema",
-        *2 * ["json_object"],
-    ]
-    assert bodies[1]["response_format"]["schema"] == SCHEMA
-
-
-def test_a_server_that_refuses_both_ways_has_refused():
-    with asked(refuses(400), refuses(400), grammar=True, model="m") as (model, inbox, _):
-        assert "refused the request: HTTP 400" in end_of(inbox, model.chat(HELLO)).reason
-
-
-def test_a_server_that_fails_once_is_tried_again():
-    with asked(refuses(503), says("desk")) as (model, inbox, bodies):
-        assert end_of(inbox, model.chat(HELLO)).text == "desk"
-    assert len(bodies) == 2
-
-
-def test_a_server_that_fails_twice_has_failed():
-    with asked(refuses(503), refuses(503)) as (model, inbox, _):
-        reason = end_of(inbox, model.chat(HELLO)).reason
-    assert "cannot be reached: HTTP 503" in reason
-
-
-def test_a_refusal_is_passed_on_and_not_repeated():
-    with asked(refuses(404)) as (model, inbox, bodies):
-        reason = end_of(inbox, model.chat(HELLO)).reason
-    assert "refused the request: HTTP 404 no such model" in reason
-    assert len(bodies) == 1
-
-
-def test_a_server_that_dies_in_its_reply_has_failed():
-    with asked(lambda handler: send(handler, word("on the"))) as (model, inbox, _):
-        reason = end_of(inbox, model.chat(HELLO)).reason
-    assert "broke off in the middle of its reply" in reason
-
-
-@pytest.mark.parametrize("chunk", ["{garbage", '{"error": {"message": "out of memory"}}', "[1]"])
-def test_a_stream_of_something_else_has_failed(chunk):
-    with asked(lambda handler: send(handler, chunk)) as (model, inbox, _):
-        reason = end_of(inbox, model.chat(HELLO)).reason
-    assert chunk in reason
-
-
-def test_a_server_that_is_not_there_has_failed():
-    with serving() as (url, _):
-        pass
-    model = Server(url, inbox := Inbox())
-    reason = end_of(inbox, model.chat(HELLO)).reason
-    model.close()
-    assert "cannot be reached" in reason
-
-
-def test_a_silent_server_fails_after_the_time_out():
-    over = threading.Event()
-    with asked(lambda _: over.wait(5), timeout_s=0.1, model="m") as (model, inbox, _):
-        reason = end_of(inbox, model.chat(HELLO)).reason
-        over.set()
-    assert "was silent for 0.1 s" in reason
-
-
-def test_a_cancelled_request_is_hung_up_on_and_the_next_is_served():
-    hung_up = threading.Event()
-
-    def talks_on(handler: BaseHTTPRequestHandler) -> None:
-        send(handler, word("on"))
-        try:
-            while True:
-                handler.wfile.write(f"data: {json.dumps(word('and on'))}\n\n".encode())
-                time.sleep(0.01)
-        except OSError:
-            hung_up.set()
-
-    with asked(talks_on, says("desk"), model="m") as (model, inbox, bodies):
-        first = model.chat(HELLO)
-        while not bodies:
-            time.sleep(0.01)
-        model.cancel(first)
-        assert hung_up.wait(5)
-        assert end_of(inbox, model.chat(HELLO)).text == "desk"
-
-
-def test_a_server_cannot_score_and_says_so():
-    model = Server("http://127.0.0.1:1/v1", inbox := Inbox())
-    assert not model.can_rank
-    assert isinstance(end_of(inbox, model.rank(RANK)), Failed)
-    model.close()
-
-
-def test_closing_in_the_middle_of_a_reply_ends_the_thread():
-    over = threading.Event()
-    with asked(lambda _: over.wait(5), model="m") as (model, inbox, _):
-        model.chat(HELLO)
-        model.close()
-        over.set()
-    assert not [t for t in threading.enumerate() if t.name == "language model server"]
-
-
-def test_a_servers_tokens_are_estimated_rather_too_high():
-    model = Server("http://127.0.0.1:1/v1", Inbox())
-    assert model.count_tokens("dining_table, coffee_table") >= 8
-    assert model.count_tokens("") == 0
-    model.close()
-
-
 # --- LlamaCpp: files ---
 
 
@@ -308,19 +95,6 @@ def test_a_file_that_is_no_gguf_is_refused_at_once(tmp_path):
     path.write_text("not a model")
     with pytest.raises(ModelError, match=r"model.gguf is no GGUF file"):
         LlamaCpp(path, Inbox())
-
-
-def test_a_broken_model_file_fails_every_request_and_never_hangs(tmp_path, capfd):
-    path = tmp_path / "model.gguf"
-    path.write_bytes(b"GGUF" + bytes(100))
-    model = LlamaCpp(path, inbox := Inbox())
-    for request in (model.chat, model.rank):
-        reason = end_of(inbox, request(HELLO if request == model.chat else RANK)).reason
-        assert "model.gguf cannot be loaded" in reason
-    with pytest.raises(ModelError, match="cannot be loaded"):
-        model.count_tokens("word")
-    model.close()
-    assert capfd.readouterr() == ("", "")
 
 
 def test_the_embedded_model_is_found_without_importing_its_plugin():

@@ -14,7 +14,7 @@ from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Message, RankRequest, Replied, Scored, Usage
 from kb.advisor import PlaceAdvisor
-from kb.gguf import Context
+from kb.context import Context
 from kb.llama import LlamaCpp, embedded_model
 from kb.scripted import Scripted
 

@@ -14,7 +14,7 @@ from executive.app import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, Replied, Result, Status
-from kb import server
+from kb import asking
 from kb.advisor import PlaceAdvisor
 from kb.ontology import Ontology
 from kb.server import Server
@@ -101,15 +101,15 @@ def test_a_mission_is_done_with_a_real_server(url: str, tmp_path: Path) -> None:
 def test_a_real_server_that_dies_in_the_middle_of_its_reply_fails_in_words(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    begun, chunks = threading.Event(), server._chunks
+    begun, objects = threading.Event(), asking.objects
 
     async def noted(response: httpx2.Response) -> AsyncIterator[dict[str, Any]]:
-        async for chunk in chunks(response):
+        async for chunk in objects(response):
             yield chunk
             if chunk["choices"][0]["delta"].get("content"):
                 begun.set()
 
-    monkeypatch.setattr(server, "_chunks", noted)
+    monkeypatch.setattr(asking, "objects", noted)
     inbox = Inbox()
     with llama_server(tmp_path / "log") as dying:
         model = Server(dying.url, inbox, max_tokens=2000, temperature=0)

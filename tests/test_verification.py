@@ -19,6 +19,7 @@ some_furniture = st.sets(st.sampled_from(FURNITURE))
         '{"places": ["desk", "sofa"]}',
         'Sure!\n```json\n{"places": ["desk", "sofa"]}\n```\nGood luck.',
         'As {asked}: {"places": [" desk ", "sofa"], "why": {"desk": 1}} {"places": 3}',
+        '["desk", "sofa"]',
     ],
 )
 def test_the_names_are_read_from_the_json_object_in_a_reply(reply):
@@ -27,8 +28,8 @@ def test_the_names_are_read_from_the_json_object_in_a_reply(reply):
 
 @pytest.mark.parametrize(
     "reply",
-    ["", "on the desk", '["desk"]', '{"place": "desk"}', '{"places": "desk"}', '{"places": [1]}']
-    + ['{"places": ["desk"', '{"places": null}', "{" * 5000, '{"a":' * 5000],
+    ["", "on the desk", "[desk]", "{desk}", '{"places": [1]}', '{"places": ["desk"', '["desk"}']
+    + ['{"places": null}', '{"why": "desk"}', "{" * 5000, '{"a":' * 5000],
 )
 def test_a_reply_that_is_not_in_the_format_is_none(reply):
     assert read(reply) is None

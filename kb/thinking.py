@@ -1,0 +1,45 @@
+"""What a model thinks before it answers, and the answer without it."""
+
+import re
+
+_NAMES = "think|thinking|thought|thoughts|reasoning|reflection|scratchpad|seed:think"
+_MARK = re.compile(rf"<(/?)(?:{_NAMES})>|\[(/?)(?:{_NAMES})\]", re.IGNORECASE)
+_CHANNEL = re.compile(r"<\|channel\|>\s*(\w+)[^<]*<\|message\|>")
+_TURN_ENDS = re.compile(r"<\|(?:end|return|start|call)\|>")
+
+
+def answer_of(text: str) -> tuple[str, bool]:
+    """The text without what was thought, and whether anything was.
+
+    Thoughts stand between `<think>` and `</think>` or marks like these. One that is not closed goes
+    on to the end; one that is not opened (the chat's template may have done so) began at the start.
+    """
+    if channels := list(_CHANNEL.finditer(text)):
+        return _final_of(text, channels), True
+    kept: list[str] = []
+    inside, at, thought = False, 0, False
+    for mark in _MARK.finditer(text):
+        thought = True
+        if mark[1] or mark[2]:
+            if not inside:
+                kept.clear()
+            inside, at = False, mark.end()
+        elif not inside:
+            kept.append(text[at : mark.start()])
+            inside = True
+    if not inside:
+        kept.append(text[at:])
+    return ("".join(kept).strip() if thought else text), thought
+
+
+def _final_of(text: str, channels: list[re.Match[str]]) -> str:
+    """What is said in the last channel `final`, in the way of gpt-oss; empty if there is none."""
+    last = channels[-1]
+    if last[1].lower() != "final":
+        return ""
+    return _TURN_ENDS.split(text[last.end() :], maxsplit=1)[0].strip()
+
+
+def used_up(tokens: int) -> str:
+    """The failure of a model that was cut off before its answer."""
+    return f"it used up its {tokens} tokens while thinking; raise max_tokens"
