@@ -7,12 +7,6 @@ from datetime import datetime
 from pathlib import Path as FilePath
 from typing import Any
 
-from foxglove_schemas_protobuf.CameraCalibration_pb2 import CameraCalibration
-from foxglove_schemas_protobuf.CompressedImage_pb2 import CompressedImage
-from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
-from foxglove_schemas_protobuf.ImageAnnotations_pb2 import ImageAnnotations
-from foxglove_schemas_protobuf.Log_pb2 import Log
-from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from mcap.writer import Writer
 from mcap_protobuf.schema import register_schema
 
@@ -38,26 +32,8 @@ from executive.types import Frame
 from logs import foxglove, messages
 from logs.event_messages import event_to_message, in_words
 from logs.recorder import Stamp
-from logs.schema import MESSAGES
 from logs.times import nanoseconds
-
-TOPICS: dict[str, Any] = {
-    "/bt/tree": MESSAGES["BehaviourTree"],
-    "/bt/tick": MESSAGES["Tick"],
-    "/llm/call": MESSAGES["LlmCall"],
-    "/llm/verification": MESSAGES["LlmVerification"],
-    "/dialog": MESSAGES["Utterance"],
-    "/event": MESSAGES["Event"],
-    "/camera/image/compressed": CompressedImage,
-    "/camera/camera_info": CameraCalibration,
-    "/camera/annotations": ImageAnnotations,
-    "/tf": FrameTransforms,
-    "/scene": SceneUpdate,
-    "/mishap": MESSAGES["Mishap"],
-    "/log": Log,
-    "/outcome": MESSAGES["Outcome"],
-}
-"""Every topic with the class of its messages; all are declared in every file, used or not."""
+from logs.topics import TOPICS
 
 CHUNK_BYTES = 256 * 1024
 """Larger chunks compress better but stall the writer (and lose more if the process is killed)."""
