@@ -18,7 +18,7 @@ from executive.types import (
     Scored,
     Succeeded,
 )
-from logs.messages import llm_call_from_message, llm_call_to_message
+from logs.messages import finite, llm_call_from_message, llm_call_to_message, whole
 from logs.schema import MESSAGES
 
 MOST_PIXELS = 100_000
@@ -59,9 +59,9 @@ def event_from_message(message: Any) -> Event:
         case "Started":
             return Started(message.text)
         case "Ended":
-            return Ended(message.request, _result(message))
+            return Ended(whole(message.request), _result(message))
         case "DeadlinePassed":
-            return DeadlinePassed(message.deadline_s)
+            return DeadlinePassed(finite(message.deadline_s))
         case "StopRequested":
             return StopRequested(message.text)
     raise ValueError(f"unknown event {message.name!r}")

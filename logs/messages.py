@@ -112,12 +112,12 @@ def tick_from_message(message: Any) -> Tick:
     situation = {pair.key: _json(pair.value) for pair in message.situation}
     _Known.model_validate(situation)
     return Tick(
-        number=_count(message.tick),
+        number=whole(message.tick),
         cause=message.cause,
         tip=message.tip_id,
         nodes=tuple(NodeState(b.own_id, _status(b.status), b.message) for b in message.behaviours),
         situation=situation,
-        duration_s=_finite(message.duration_s),
+        duration_s=finite(message.duration_s),
     )
 
 
@@ -171,14 +171,23 @@ def _in(outer: list[Any] | dict[str, Any]) -> Any:
     return outer.values() if isinstance(outer, dict) else outer
 
 
-def _count(number: int) -> int:
-    """A number of things, as every table can hold it."""
+def whole(number: int) -> int:
+    """A number of things, as every table can hold it.
+
+    Raises:
+        ValueError: if it is none.
+    """
     if not 0 <= number <= _MOST:
         raise ValueError(f"{number} is no number of things")
     return number
 
 
-def _finite(number: float) -> float:
+def finite(number: float) -> float:
+    """A measure of something.
+
+    Raises:
+        ValueError: if it is none.
+    """
     if not isfinite(number):
         raise ValueError(f"{number} is no measure of anything")
     return number
@@ -195,11 +204,11 @@ def llm_call_to_message(call: LlmCall) -> Any:
         gen_ai_operation_name="chat" if isinstance(result, Replied) else "rank",
         gen_ai_request_model=usage.model,
         gen_ai_response_time_to_first_chunk=usage.first_token_s,
-        gen_ai_usage_input_tokens=_whole(usage.input_tokens),
-        gen_ai_usage_cache_read_input_tokens=_whole(usage.input_tokens - usage.evaluated_tokens),
-        gen_ai_usage_output_tokens=_whole(usage.output_tokens),
+        gen_ai_usage_input_tokens=_figure(usage.input_tokens),
+        gen_ai_usage_cache_read_input_tokens=_figure(usage.input_tokens - usage.evaluated_tokens),
+        gen_ai_usage_output_tokens=_figure(usage.output_tokens),
         duration_s=usage.total_s,
-        prepared_tokens=_whole(usage.prepared_tokens),
+        prepared_tokens=_figure(usage.prepared_tokens),
         prepared_s=usage.prepared_s,
     )
     _add_parameters(message, usage)
@@ -228,16 +237,16 @@ def llm_call_from_message(message: Any) -> LlmCall:
     Raises:
         ValueError: if it asks nothing, or a figure in it is none.
     """
-    read = _count(message.gen_ai_usage_input_tokens)
+    read = whole(message.gen_ai_usage_input_tokens)
     usage = Usage(
         model=message.gen_ai_request_model,
         input_tokens=read,
-        evaluated_tokens=read - _count(message.gen_ai_usage_cache_read_input_tokens),
-        output_tokens=_count(message.gen_ai_usage_output_tokens),
-        first_token_s=_finite(message.gen_ai_response_time_to_first_chunk),
-        total_s=_finite(message.duration_s),
-        prepared_tokens=_count(message.prepared_tokens),
-        prepared_s=_finite(message.prepared_s),
+        evaluated_tokens=read - whole(message.gen_ai_usage_cache_read_input_tokens),
+        output_tokens=whole(message.gen_ai_usage_output_tokens),
+        first_token_s=finite(message.gen_ai_response_time_to_first_chunk),
+        total_s=finite(message.duration_s),
+        prepared_tokens=whole(message.prepared_tokens),
+        prepared_s=finite(message.prepared_s),
         parameters=_parameters(message),
     )
     asked = _turns(message.gen_ai_input_messages)
@@ -268,7 +277,7 @@ def llm_call_from_message(message: Any) -> LlmCall:
     )
 
 
-def _whole(count: float) -> int:
+def _figure(count: float) -> int:
     """A number of tokens, whatever a server calls one: what is none is recorded as 0."""
     return int(count) if isfinite(count) and 0 <= count <= _MOST else 0
 
@@ -370,18 +379,18 @@ def outcome_from_message(message: Any) -> Outcome:
         reason=message.reason,
         source=Source(source) if source else None,
         location=optional("location"),
-        inquiries=_count(message.inquiries),
+        inquiries=whole(message.inquiries),
         visited=tuple(message.visited),
-        llm_calls=_count(message.llm_calls),
+        llm_calls=whole(message.llm_calls),
         candidates=tuple(
             Candidate(
                 c.place, Source(c.source), c.probability if c.HasField("probability") else None
             )
             for c in message.candidates
         ),
-        mission_time_s=_finite(message.mission_time_s),
-        thinking_time_s=_finite(message.thinking_time_s),
-        wall_time_s=_finite(message.wall_time_s),
+        mission_time_s=finite(message.mission_time_s),
+        thinking_time_s=finite(message.thinking_time_s),
+        wall_time_s=finite(message.wall_time_s),
         run_dir=optional("run_dir"),
         model_failure=message.model_failure,
     )

@@ -1,6 +1,7 @@
 """The camera's pictures as files: singly, or as a video in mission time."""
 
-from collections.abc import Callable, Iterable, Iterator
+import warnings
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
@@ -44,20 +45,20 @@ def write_files(frames: Frames, folder: Path, *, png: bool = False) -> list[Path
         raise InputError(str(folder), f"cannot be written: {error.strerror}") from error
 
 
-def write_video(frames: Callable[[], Frames], file: Path) -> int:
+def write_video(frames: Frames, file: Path) -> int:
     """Write an MP4 (MPEG-4) in which a second is a second of the mission; return its pictures.
 
     All pictures are shown at the size of the largest.
 
     Args:
-        frames: the pictures, once more at each call.
+        frames: the pictures, which are gone through twice.
         file: appears when the video is finished; an existing one is replaced.
 
     Raises:
         InputError: if there are no pictures, they span too long a time, or the file cannot be
             written.
     """
-    sizes = [(at.time_s, *_size(at.value)) for at in frames()]
+    sizes = [(at.time_s, *_size(at.value)) for at in frames]
     if not sizes:
         raise InputError(str(file), "the recording holds no pictures to make a video of")
     start_s = min(time_s for time_s, _, _ in sizes)
@@ -67,7 +68,7 @@ def write_video(frames: Callable[[], Frames], file: Path) -> int:
         raise InputError(str(file), what, "name a folder, for single pictures")
     size = max(width for _, width, _ in sizes), max(height for _, _, height in sizes)
     with _video(file, size) as video:
-        return _show(frames(), video, size, start_s)
+        return _show(frames, video, size, start_s)
 
 
 def _show(frames: Frames, video: cv2.VideoWriter, size: tuple[int, int], start_s: float) -> int:
@@ -115,7 +116,8 @@ def _size(jpeg: bytes) -> tuple[int, int]:
         InputError: if it is no JPEG, or too large.
     """
     try:
-        width, height = Image.open(BytesIO(jpeg), formats=["JPEG"]).size
+        with warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning):
+            width, height = Image.open(BytesIO(jpeg), formats=["JPEG"]).size
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise InputError("/camera/image/compressed", "a picture cannot be decoded") from error
     if width * height > MOST_PIXELS:

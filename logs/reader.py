@@ -75,9 +75,7 @@ class Run:
         Raises:
             InputError: if there is none, or it records no mission.
         """
-        self.path = folder / FILE_NAME if folder.is_dir() else folder
-        if not self.path.is_file():
-            raise InputError(str(folder), f"holds no {FILE_NAME}", "name a run's folder")
+        self.path = mcap_of(folder)
         named = self.path.parent if self.path.name == FILE_NAME else self.path
         self.name = named.resolve().name
         """What to call it: its folder's name."""
@@ -237,6 +235,18 @@ class Run:
     def _damaged(self, wanted: str, why: str, offset: int, right: str = "") -> InputError:
         what = f"{wanted} cannot be read: {why}: the file is damaged at byte {offset}"
         return InputError(str(self.path), what, right)
+
+
+def mcap_of(folder: Path) -> Path:
+    """The recording in a run's folder, or the file itself.
+
+    Raises:
+        InputError: if there is none.
+    """
+    file = folder / FILE_NAME if folder.is_dir() else folder
+    if not file.is_file():
+        raise InputError(str(folder), f"holds no {FILE_NAME}", "name a run's folder")
+    return file
 
 
 class _Reading:

@@ -28,7 +28,7 @@ def show(recording: Path, *, web: bool = False) -> None:
     """
     options = ["--web-viewer"] if web else []
     try:
-        ended = subprocess.run([*COMMAND, *options, str(recording)], check=False)
+        ended = subprocess.run([*COMMAND, *options, str(recording.absolute())], check=False)
     except KeyboardInterrupt:
         return
     if ended.returncode:
