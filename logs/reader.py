@@ -20,13 +20,11 @@ from executive.types import Outcome
 from logs import messages
 from logs.event_messages import event_from_message
 from logs.mcap_file import Damage, MiB, is_whole, records
-from logs.schema import PACKAGE, recorded_class
+from logs.schema import recorded_class
 from logs.times import nanoseconds
-from logs.topics import TOPICS
+from logs.topics import TOPICS, is_own, most_in
 
 FILE_NAME = "mission.mcap"
-MOST_IN_A_MESSAGE = 4 * MiB
-"""Of one message of our own (bytes)."""
 MOST_READ, OVERHEAD = 128 * MiB, 256
 """Of all messages that one question reads, and what each one costs beside its bytes (bytes)."""
 LONGEST_S = 30 * 86_400.0
@@ -279,18 +277,12 @@ class _Reading:
     def _parsed(self, channel: Channel, message: Message) -> tuple[str, float, Any]:
         self.topic = channel.topic
         time_s = in_mission((message.log_time - self._origin_ns) / 1e9)
-        kind = self._class(channel)
-        if kind.DESCRIPTOR.file.package == PACKAGE:
-            self._make_room(len(message.data))
-        return channel.topic, time_s, kind.FromString(message.data)
-
-    def _make_room(self, size: int) -> None:
-        self._room -= size + OVERHEAD
-        if size > MOST_IN_A_MESSAGE or self._room < 0:
-            raise ValueError(
-                f"there is more than is read ({MOST_IN_A_MESSAGE} bytes of a message, "
-                f"{MOST_READ} of all)"
-            )
+        size = len(message.data)
+        if is_own(channel.topic):
+            self._room -= size + OVERHEAD
+        if size > most_in(channel.topic) or self._room < 0:
+            raise ValueError(f"a message of {size} bytes, or all before it, are more than is read")
+        return channel.topic, time_s, self._class(channel).FromString(message.data)
 
     def _class(self, channel: Channel) -> Any:
         """What the topic's messages are, with the numbers of the fields that the file has."""
@@ -299,7 +291,7 @@ class _Reading:
         schema = self._schemas.get(channel.schema_id)
         if schema is None or schema.name != name or channel.message_encoding != "protobuf":
             raise ValueError(f"its messages should be {name}")
-        if kind.DESCRIPTOR.file.package != PACKAGE:
+        if not is_own(channel.topic):
             return kind
         return recorded_class(kind.DESCRIPTOR.name, schema.data)
 

@@ -31,6 +31,7 @@ from logs.rerun_candidates import CandidatesView
 from logs.rerun_scene import Taken
 from logs.rerun_times import MISSION_TIME, TICK, At, Moment
 from logs.rerun_tree import TreeView
+from logs.unwritten import Unwritten
 
 APPLICATION = "robot-executive"
 FLUSH_S = 5.0
@@ -78,9 +79,19 @@ class RerunSink:
         self._tick = 0
         self._tree: TreeView | None = None
         self._call: LlmCall | None = None
+        self._unwritten = Unwritten(path.name if path else "the viewer")
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Log a record where the blueprint looks for it; what comes often, with the next flush."""
+        """Log a record where the blueprint looks for it; what comes often, with the next flush.
+
+        One that rerun cannot take costs itself and is told.
+        """
+        try:
+            self._write(stamp, record)
+        except Exception as error:  # noqa: BLE001 - whatever is wrong is wrong with this record
+            self._tell(type(record).__name__, error)
+
+    def _write(self, stamp: Stamp, record: Record) -> None:
         moment = Moment(round(stamp.mission_s * 1e3) * 1_000_000, stamp.wall_ns, self._tick)
         if isinstance(record, Transforms):
             self._moved += [At(moment, transform) for transform in record.transforms]
@@ -168,11 +179,22 @@ class RerunSink:
 
     def _send_kept(self) -> None:
         """Send frames and pictures together: many rows cost rerun hardly more than one."""
-        if self._moved:
-            rerun_scene.send_transforms(self._stream, self._moved)
-        if self._taken:
-            rerun_scene.send_pictures(self._stream, self._taken)
+        moved, taken = self._moved, self._taken
         self._moved, self._taken = [], []
+        try:
+            if moved:
+                rerun_scene.send_transforms(self._stream, moved)
+        except Exception as error:  # noqa: BLE001 - as in `write`
+            self._tell(Transforms.__name__, error)
+        try:
+            if taken:
+                rerun_scene.send_pictures(self._stream, taken)
+        except Exception as error:  # noqa: BLE001 - as in `write`
+            self._tell(Picture.__name__, error)
+
+    def _tell(self, kind: str, error: Exception) -> None:
+        if note := self._unwritten.note(kind, error):
+            self._stream.log(blueprint.LOG, rr.TextLog(note.text, level=_LEVELS[note.level]))
 
 
 def _document(markdown_text: str) -> rr.TextDocument:

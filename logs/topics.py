@@ -9,7 +9,8 @@ from foxglove_schemas_protobuf.ImageAnnotations_pb2 import ImageAnnotations
 from foxglove_schemas_protobuf.Log_pb2 import Log
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
-from logs.schema import MESSAGES
+from logs.mcap_file import MOST_IN_A_RECORD, MiB
+from logs.schema import MESSAGES, PACKAGE
 
 TOPICS: dict[str, Any] = {
     "/bt/tree": MESSAGES["BehaviourTree"],
@@ -28,3 +29,17 @@ TOPICS: dict[str, Any] = {
     "/outcome": MESSAGES["Outcome"],
 }
 """Every topic with the class of its messages; all are declared in every file, used or not."""
+
+MOST_IN_A_MESSAGE = 4 * MiB
+"""Of one message of our own (bytes)."""
+
+
+def is_own(topic: str) -> bool:
+    """Whether its messages are defined here, and not by Foxglove."""
+    package: str = TOPICS[topic].DESCRIPTOR.file.package
+    return package == PACKAGE
+
+
+def most_in(topic: str) -> int:
+    """How long a message on it may be (bytes): a longer one is neither written nor read."""
+    return MOST_IN_A_MESSAGE if is_own(topic) else MOST_IN_A_RECORD // 2
