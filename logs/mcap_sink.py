@@ -35,7 +35,6 @@ from logs.event_messages import event_to_message, in_words
 from logs.recorder import Stamp
 from logs.times import nanoseconds
 from logs.topics import TOPICS, most_in
-from logs.unwritten import Unwritten
 
 CHUNK_BYTES = 256 * 1024
 """Larger chunks compress better but stall the writer (and lose more if the process is killed)."""
@@ -83,21 +82,15 @@ class McapSink:
         self._sequence = dict.fromkeys(TOPICS, 0)
         self._camera_frame_published = False
         self._picture = (-1, 0)
-        self._unwritten = Unwritten(path.name)
         self._begun = False
         self.flush()
 
     def write(self, stamp: Stamp, record: Record) -> None:
         """Write a record to its topic or topics; the first is flushed, and all topics with it.
 
-        One that cannot be encoded costs itself and is told; what the disk refuses is raised.
+        Of a record that cannot be encoded nothing is written.
         """
-        try:
-            encoded = self._encoded(stamp, record)
-        except Exception as error:  # noqa: BLE001 - whatever is wrong is wrong with this record
-            note = self._unwritten.note(type(record).__name__, error)
-            encoded = self._encoded(Stamp(0.0, stamp.wall_ns), note) if note else []
-        for topic, ns, data in encoded:
+        for topic, ns, data in self._encoded(stamp, record):
             self._writer.add_message(self._channels[topic], ns, data, ns, self._sequence[topic])
             self._sequence[topic] += 1
         if not self._begun:

@@ -79,19 +79,10 @@ class RerunSink:
         self._tick = 0
         self._tree: TreeView | None = None
         self._call: LlmCall | None = None
-        self._unwritten = Unwritten(path.name if path else "the viewer")
+        self._unwritten = Unwritten(type(self).__name__)
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Log a record where the blueprint looks for it; what comes often, with the next flush.
-
-        One that rerun cannot take costs itself and is told.
-        """
-        try:
-            self._write(stamp, record)
-        except Exception as error:  # noqa: BLE001 - whatever is wrong is wrong with this record
-            self._tell(type(record).__name__, error)
-
-    def _write(self, stamp: Stamp, record: Record) -> None:
+        """Log a record where the blueprint looks for it; what comes often, with the next flush."""
         moment = Moment(round(stamp.mission_s * 1e3) * 1_000_000, stamp.wall_ns, self._tick)
         if isinstance(record, Transforms):
             self._moved += [At(moment, transform) for transform in record.transforms]
@@ -184,12 +175,12 @@ class RerunSink:
         try:
             if moved:
                 rerun_scene.send_transforms(self._stream, moved)
-        except Exception as error:  # noqa: BLE001 - as in `write`
+        except Exception as error:
             self._tell(Transforms.__name__, error)
         try:
             if taken:
                 rerun_scene.send_pictures(self._stream, taken)
-        except Exception as error:  # noqa: BLE001 - as in `write`
+        except Exception as error:
             self._tell(Picture.__name__, error)
 
     def _tell(self, kind: str, error: Exception) -> None:

@@ -9,11 +9,11 @@ log = logging.getLogger(__name__)
 
 
 class Unwritten:
-    """What one log could not write down."""
+    """What one sink could not write down."""
 
-    def __init__(self, log_name: str) -> None:
-        """Tell of this log."""
-        self._log_name = log_name
+    def __init__(self, sink: str) -> None:
+        """Tell of the sink of this name."""
+        self._sink = sink
         self._told: set[str] = set()
 
     def note(self, kind: str, error: Exception) -> Note | None:
@@ -22,6 +22,6 @@ class Unwritten:
             return None
         self._told.add(kind)
         why = printable(f"{type(error).__name__}: {error}")
-        text = f"a record of kind {kind} could not be written to {self._log_name}: {why}"
+        text = f"a record of kind {kind} could not be written by {self._sink}: {why}"
         log.warning(text)
         return Note("warning", text)
