@@ -11,6 +11,7 @@ from pathlib import Path
 
 from executive.errors import InputError
 from executive.shell import DONE, NOT_DONE, entry_point
+from executive.text import printable
 from kb.facts import FactStore
 from kb.ontology import Ontology
 from sim.home import load_home
@@ -60,14 +61,15 @@ def query(ontology: Ontology, sparql: str, as_json: bool) -> int:
 
 def facts(file: Path, as_json: bool) -> int:
     """Print every fact, oldest first."""
-    with closing(_memory(file)) as memory:
+    with closing(_memory(file, learns=False)) as memory:
         known = memory.all()
     if as_json:
         print(json.dumps([asdict(fact) for fact in known]))
         return DONE
     now = time.time()
     for fact in known:
-        print(f"{fact.object:20} {fact.kind:6} {fact.place:20} {age(now - fact.time_s)} ago")
+        what = f"{printable(fact.object):20} {fact.kind:6} {printable(fact.place):20}"
+        print(f"{what} {age(now - fact.time_s)} ago")
     print(f"{len(known)} facts", file=sys.stderr)
     return DONE
 
@@ -94,10 +96,10 @@ def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> Ontology
     return Ontology(places, defaults=given.defaults, files=[*given.kb, *files])
 
 
-def _memory(file: Path) -> FactStore:
+def _memory(file: Path, *, learns: bool = True) -> FactStore:
     if not file.exists():
         raise InputError(str(file), "there is no such file", "name the one of --memory")
-    return FactStore(file)
+    return FactStore(file, learns=learns)
 
 
 @entry_point

@@ -58,10 +58,9 @@ class FanOut:
     """The Recorder: stamps each record with the time and passes it to every sink.
 
     It outlives missions: `open` begins a mission's logs, `close` ends them, and what is recorded in
-    between reaches the sinks in order. A record that a sink cannot write costs that sink the record,
-    and is told once a kind; a sink that the disk fails, or that cannot be flushed, is closed and
-    dropped, and the others are told. Records are not copied: whoever hands one over must not change
-    it afterwards.
+    between reaches the sinks in order. A record that a sink cannot write costs it that record, and
+    is told once a kind; a sink that the disk fails is closed and dropped, and the others are told.
+    Records are not copied: whoever hands one over must not change it afterwards.
     """
 
     def __init__(self, now: Callable[[], float], *, live: bool = False) -> None:
@@ -93,7 +92,7 @@ class _Writer:
 
     def __init__(self, sinks: Sequence[Sink], rest_s: float) -> None:
         self._sinks = list(sinks)
-        self._unwritten = [(sink, Unwritten(type(sink).__name__)) for sink in sinks]
+        self._unwritten = {id(sink): Unwritten(type(sink).__name__) for sink in sinks}
         self._rest_s = rest_s
         self._queue: queue.SimpleQueue[tuple[Stamp, Record | None]] = queue.SimpleQueue()
         self._hurry = threading.Event()
@@ -153,8 +152,7 @@ class _Writer:
         except OSError:
             raise
         except Exception as error:  # noqa: BLE001 - whatever is wrong is wrong with this record
-            unwritten = next(told for known, told in self._unwritten if known is sink)
-            if note := unwritten.note(type(record).__name__, error):
+            if note := self._unwritten[id(sink)].note(type(record).__name__, error):
                 self._write(stamp, note)
 
     def _each(self, stamp: Stamp, do: Callable[[Sink], None]) -> None:
