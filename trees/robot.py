@@ -37,6 +37,7 @@ class RobotAction(Action):
         """Hand the goal to the robot."""
         goal = self.goal()
         self.feedback_message = _in_words(goal)
+        self.situation.called_off = False
         return self.team.robot.start(goal)
 
     def ended(self, result: Result) -> Status:
@@ -47,6 +48,7 @@ class RobotAction(Action):
 
     def cancel(self, request: int) -> None:
         """Brake."""
+        self.situation.called_off = True
         self.team.robot.cancel(request)
 
 
@@ -123,20 +125,42 @@ class LookForLost(RobotAction):
 
 
 class PickUp(RobotAction):
-    """Grasps the thing where it was seen, and lifts it."""
+    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Reach for it."""
+        super().__init__(name, team)
+        self._finished = False
+
+    def initialise(self) -> None:
+        """Begin."""
+        self._finished = False
+        super().initialise()
 
     def goal(self) -> Goal:
         """Pick what was detected."""
         assert self.situation.detection
+        self.situation.reached_for = self.situation.detection.label
         return Pick(self.situation.detection)
 
     def ended(self, result: Result) -> Status:
-        """Remember that it is no longer there."""
+        """Remember that it is no longer there.
+
+        If the robot failed with the thing in its hand, it is given one chance to finish.
+        """
+        assert self.situation.detection
+        name, felt = self.situation.detection.label, self.situation.felt
+        if isinstance(result, Succeeded) and felt is False:
+            result = Failed(f"the {name} slipped from my fingers")
+        if isinstance(result, Failed) and felt and self.situation.in_hand == name:
+            if not self._finished:
+                self._finished = True
+                return self.start_again()
+            result = Succeeded()
         if isinstance(result, Succeeded):
-            assert self.situation.detection
             assert self.situation.found
-            self.situation.in_hand = self.situation.detection.label
-            self.team.facts.took(self.situation.in_hand, self.situation.found.place)
+            self.situation.in_hand = name
+            self.team.facts.took(name, self.situation.found.place)
             self.situation.lost = ""
         return super().ended(result)
 
