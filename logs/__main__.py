@@ -125,11 +125,14 @@ def _ticks(options: argparse.Namespace) -> Answer:
 def _timeline(options: argparse.Namespace) -> Answer:
     spans = report.timeline(Run(options.run))
     if options.svg:
-        _write(options.svg, gantt.svg(spans).encode())
+        _write(options.svg, gantt.svg(spans).encode(), options.run)
     return Answer([asdict(span) for span in spans], report.timeline_text(spans))
 
 
-def _write(file: Path, data: bytes) -> None:
+def _write(file: Path, data: bytes, run: Path) -> None:
+    """Write a file, but never over the recording that it is about."""
+    if file.exists() and any(file.samefile(of) for of in (run, *run.glob("mission.*"))):
+        raise InputError(str(file), "is the recording itself", "name another file")
     with written(file) as new:
         new.write(data)
 
@@ -221,7 +224,7 @@ def _view(options: argparse.Namespace) -> Answer:
     if not recording.is_file() or recording.suffix not in (".rrd", ".mcap"):
         raise InputError(str(options.run), "holds no mission.rrd", "name a run's folder")
     if options.png:
-        _write(options.png, viewer.picture(recording, options.at))
+        _write(options.png, viewer.picture(recording, options.at), options.run)
         return Answer(str(options.png), printable(options.png))
     viewer.show(recording, web=options.web)
     return Answer(str(recording), printable(f"shown: {recording}"))
