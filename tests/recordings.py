@@ -1,27 +1,36 @@
 """Small recordings, sound and not, for the tests that read them."""
 
 import struct
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from zlib import crc32
 
+import lz4.frame
+import zstandard
 from mcap.opcode import Opcode
-from mcap.records import Chunk
 from sample_mission import STARTED, mission
 
+from executive.records import Record
+from logs.mcap_file import MAGIC
 from logs.mcap_sink import McapSink
 from logs.recorder import Stamp
 
-MAGIC = b"\x89MCAP0\r\n"
 HEAD = struct.Struct("<BQ")
+PACK = {"zstd": zstandard.compress, "lz4": lz4.frame.compress}
 
 
-def record_mission(folder: Path, attachments: Mapping[str, bytes] | None = None) -> Path:
-    """A run's folder with the sample mission."""
+def record(
+    folder: Path,
+    records: Iterable[tuple[float, Record]] | None = None,
+    attachments: Mapping[str, bytes] | None = None,
+    facts: Mapping[str, str] | None = None,
+) -> Path:
+    """A run's folder with these records, else with the sample mission; each in its own chunk."""
     folder.mkdir(parents=True, exist_ok=True)
-    sink = McapSink(folder / "mission.mcap", STARTED, attachments or {}, {"seed": "7"})
-    for time, entry in mission():
+    sink = McapSink(folder / "mission.mcap", STARTED, attachments or {}, facts or {"seed": "7"})
+    for time, entry in mission() if records is None else records:
         sink.write(Stamp(time, 0), entry)
+        sink.flush()
     sink.close()
     return folder
 
@@ -31,46 +40,42 @@ def framed(opcode: int, inside: bytes) -> bytes:
     return HEAD.pack(opcode, len(inside)) + inside
 
 
-def chunk(data: bytes, packed: bytes, packing: str, *, size: int | None = None) -> bytes:
-    """A chunk that says of itself what it is told to."""
-    name = packing.encode()
-    inside = struct.pack("<QQQI", 0, 0, len(data) if size is None else size, crc32(data))
-    inside += struct.pack("<I", len(name)) + name + struct.pack("<Q", len(packed)) + packed
-    return framed(Opcode.CHUNK, inside)
+def chunk(data: bytes, packing: str = "zstd", *, says: int | None = None) -> bytes:
+    """A chunk of these data, which may lie about their size."""
+    packed = PACK[packing](data)
+    size = len(data) if says is None else says
+    inside = struct.pack("<QQQII", 0, 0, size, crc32(data), len(packing)) + packing.encode()
+    return framed(Opcode.CHUNK, inside + struct.pack("<Q", len(packed)) + packed)
 
 
-def insert(file: Path, *records: bytes) -> int:
-    """Put records before the first chunk; return where."""
+def records_of(data: bytes) -> Iterable[tuple[int, int, bytes]]:
+    """Offset, opcode and all bytes of each record of a whole file."""
+    offset = len(MAGIC)
+    while offset < len(data) - len(MAGIC):
+        opcode, length = HEAD.unpack_from(data, offset)
+        yield offset, opcode, data[offset : offset + HEAD.size + length]
+        offset += HEAD.size + length
+
+
+def insert(run: Path, *records: bytes) -> int:
+    """Put records before the second chunk, the first that has messages; return where."""
+    file = run / "mission.mcap"
     data = file.read_bytes()
-    at = offset_of(data, Opcode.CHUNK)
+    _, at, *_ = (offset for offset, opcode, _ in records_of(data) if opcode == Opcode.CHUNK)
     file.write_bytes(data[:at] + b"".join(records) + data[at:])
     return at
 
 
-def offset_of(data: bytes, wanted: int) -> int:
-    """Where the first record of this kind is."""
-    offset = len(MAGIC)
-    while (head := HEAD.unpack_from(data, offset))[0] != wanted:
-        offset += HEAD.size + head[1]
-    return offset
-
-
-def repack(file: Path, change: Callable[[bytes], bytes]) -> None:
+def repack(
+    run: Path, change: Callable[[bytes], bytes] = lambda inside: inside, packing: str = "zstd"
+) -> None:
     """Change what is in the chunks, so that every checksum is right again."""
-    import zstandard
-
-    data, out, offset = file.read_bytes(), bytearray(MAGIC), len(MAGIC)
-    while offset < len(data) - len(MAGIC):
-        opcode, length = HEAD.unpack_from(data, offset)
-        whole = data[offset : offset + HEAD.size + length]
+    file = run / "mission.mcap"
+    changed = [MAGIC]
+    for _, opcode, whole in records_of(file.read_bytes()):
         if opcode == Opcode.CHUNK:
-            size = struct.unpack_from("<Q", whole, HEAD.size + 16)[0]
-            packed = whole[HEAD.size + 8 * 3 + 4 + 4 + len("zstd") + 8 :]
-            inside = change(zstandard.decompress(packed, max_output_size=size))
-            whole = chunk(inside, zstandard.compress(inside), "zstd")
-        out += whole
-        offset += HEAD.size + length
-    file.write_bytes(bytes(out) + MAGIC)
-
-
-__all__ = ["Chunk", "chunk", "framed", "insert", "offset_of", "record_mission", "repack"]
+            packed = whole[HEAD.size + 40 + len("zstd") :]
+            inside = change(zstandard.ZstdDecompressor().stream_reader(packed).read())
+            whole = chunk(inside, packing)
+        changed.append(whole)
+    file.write_bytes(b"".join([*changed, MAGIC]))
