@@ -30,11 +30,14 @@ MOST_IN_A_FACT = MiB
 """Of a record that only says something about others: a schema, a channel, metadata."""
 MOST_KEPT = 256 * MiB
 """Of all attachments together."""
+MOST_RECORDS = 1_000_000
+"""Of a file, in chunks or not: ten hours of a robot that moves all the time."""
 MOST_UNPACKED, MOST_PACKED_TIMES = 64 * MiB, 100
 """A file may unpack to so many bytes and so many times its own size; a mission's, to twice it."""
 
 _HEAD = struct.Struct("<BQ")
 _MESSAGE = struct.Struct("<HIQQ")
+_TOO_MANY = f"there are more than the {MOST_RECORDS} records that are read"
 _FOOTER_BYTES = _HEAD.size + 20
 _BROKEN = (McapError, struct.error, zstandard.ZstdError, RuntimeError, ValueError, OverflowError)
 """What the readers of a record's inside raise; lz4's is a RuntimeError."""
@@ -99,6 +102,7 @@ class _Walk:
         self._size = size
         self._may_unpack = MOST_UNPACKED + MOST_PACKED_TIMES * size
         self._may_keep = MOST_KEPT
+        self._may_find = MOST_RECORDS
 
     def __iter__(self) -> Iterator[Found]:
         offset = len(MAGIC)
@@ -118,6 +122,10 @@ class _Walk:
                 return
             if opcode == Opcode.FOOTER:
                 return
+            if not self._may_find:
+                yield offset, Damage(_TOO_MANY)
+                return
+            self._may_find -= 1
             yield from ((offset, found) for found in self._found(opcode, length, end))
             offset = end
 
@@ -161,7 +169,21 @@ class _Walk:
         if len(data) != chunk.uncompressed_size:
             raise _Unsound(f"a chunk does not unpack to its {chunk.uncompressed_size} bytes")
         _check_sum("a chunk", data, chunk.uncompressed_crc)
-        return _broken_up(data)
+        return self._broken_up(data)
+
+    def _broken_up(self, data: bytes) -> Iterator[McapRecord]:
+        position = 0
+        while position < len(data):
+            if not self._may_find:
+                raise _Unsound(_TOO_MANY)
+            self._may_find -= 1
+            opcode, length = _HEAD.unpack_from(data, position)
+            start = position + _HEAD.size
+            position = start + length
+            if position > len(data) or not opcode:
+                raise _Unsound("a record in a chunk is none, or reaches beyond the chunk")
+            if opcode in (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE):
+                yield _read(opcode, data[start:position])
 
     def _is_blank(self, offset: int) -> bool:
         """Whether there is nothing but zeros from here on, as a power failure may leave it."""
@@ -190,19 +212,6 @@ def _read(opcode: int, inside: bytes) -> McapRecord:
         return read(ReadDataStream(BytesIO(inside)))
     channel, sequence, log_time, publish_time = _MESSAGE.unpack_from(inside)
     return Message(channel, log_time, inside[_MESSAGE.size :], publish_time, sequence)
-
-
-def _broken_up(data: bytes) -> Iterator[McapRecord]:
-    """The records of a chunk."""
-    position = 0
-    while position < len(data):
-        opcode, length = _HEAD.unpack_from(data, position)
-        start = position + _HEAD.size
-        position = start + length
-        if position > len(data) or not opcode:
-            raise _Unsound("a record in a chunk is none, or reaches beyond the chunk")
-        if opcode in (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE):
-            yield _read(opcode, data[start:position])
 
 
 def _unpacked(chunk: Chunk) -> bytes:

@@ -86,6 +86,16 @@ def test_many_chunks_may_not_unpack_to_more_than_a_mission_does(
         list(Run(run).ticks())
 
 
+def test_of_many_tiny_records_no_more_are_read_than_a_mission_has(
+    run: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(mcap_file, "MOST_RECORDS", 1000)
+    assert list(Run(run).ticks())
+    at = insert(run, chunk(framed(0x90, b"") * 1000))
+    with pytest.raises(InputError, match=f"records that are read: .* damaged at byte {at}"):
+        list(Run(run).ticks())
+
+
 @pytest.mark.parametrize("opcode", [Opcode.ATTACHMENT, Opcode.METADATA, Opcode.CHUNK])
 def test_a_record_that_is_huge_is_not_read(run: Path, opcode: int) -> None:
     file, huge = run / "mission.mcap", 3 * 2**30
