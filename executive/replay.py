@@ -7,8 +7,6 @@ is a regression test:
     assert replay(Path("runs/20260101T120000Z-find-an-apple")).parting is None
 """
 
-import json
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -17,7 +15,7 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import TypeVar
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from executive.composition import OURS, Advise, Grounds, build_advisor, build_team
 from executive.config import Settings
@@ -28,6 +26,7 @@ from executive.loop import Executive
 from executive.recorded import Absent, RecordedTime
 from executive.records import Record, Tick, TreeShape
 from executive.situation import Situation
+from executive.text import printable
 from executive.types import Place
 from kb.facts import FactStore
 from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
@@ -48,6 +47,8 @@ from trees.team import Team
 from trees.tree import MissionTree
 
 T = TypeVar("T")
+
+_BELIEFS = TypeAdapter(dict[str, list[str]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +95,7 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     began = perf_counter()
     run = Run(folder)
     inbox, situation = Inbox(), _situation(run)
-    clock = RecordedTime(run.turns(), inbox, int(_kept(run, run.metadata, "requests_before")))
+    clock = RecordedTime(tuple(run.turns()), inbox, _requests_before(run))
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox)
     absent.rests = "policy" not in run.metadata
@@ -193,9 +194,7 @@ def _grounds(run: Run, absent: Absent) -> Grounds:
         knowledge=_ontology(home.places(), settings.defaults, files, settings.person),
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
-        facts=FactStore.believing(
-            json.loads(_kept(run, run.attachments, "facts.json")), learns=settings.learn
-        ),
+        facts=FactStore.believing(_beliefs(run), learns=settings.learn),
     )
 
 
@@ -211,9 +210,25 @@ def _advise(run: Run) -> Advise:
     return POLICIES[name].advisor
 
 
+def _requests_before(run: Run) -> int:
+    number = _kept(run, run.metadata, "requests_before")
+    if not (number.isdecimal() and len(number) < 19):
+        raise InputError(str(run.path), f"its 'requests_before' is no number: {number!r}")
+    return int(number)
+
+
+def _beliefs(run: Run) -> dict[str, list[str]]:
+    try:
+        return _BELIEFS.validate_json(_kept(run, run.attachments, "facts.json"))
+    except ValidationError as error:
+        what = f"its facts.json does not say what is where: {error.errors()[0]['msg']}"
+        raise InputError(str(run.path), what) from error
+
+
 def _settings(run: Run) -> Settings:
     """As recorded; what is not recorded was not set, whatever the environment says now."""
-    recorded = tomllib.loads(_kept(run, run.attachments, "config.toml").decode())
+    _kept(run, run.attachments, "config.toml")
+    recorded = run.config()
     fields = Settings.model_fields.items()
     unset = {name: field.get_default(call_default_factory=True) for name, field in fields}
     try:
@@ -277,16 +292,17 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
 
 def replay_text(replayed: Replay) -> str:
     """That all was as recorded; or where it parts, and in what."""
-    notes = "".join(f"\n  note: {note}" for note in replayed.notes)
+    notes = "".join(f"\n  note: {printable(note)}" for note in replayed.notes)
+    run = printable(replayed.run)
     if replayed.parting is None:
         return (
-            f"{replayed.run}: {replayed.ticks} ticks as recorded, {replayed.recorded_s:.1f} s in "
+            f"{run}: {replayed.ticks} ticks as recorded, {replayed.recorded_s:.1f} s in "
             f"{replayed.took_s:.3f} s ({replayed.speed:.0f} times as fast){notes}"
         )
     at = replayed.parting
     tick = "after the last tick" if at.tick is None else f"at tick {at.tick}"
     return (
-        f"{replayed.run}: {replayed.ticks} ticks as recorded; parts {tick}, {at.time_s:.3f} s"
+        f"{run}: {replayed.ticks} ticks as recorded; parts {tick}, {at.time_s:.3f} s"
         f"{notes}\n{aspects_text(at.aspects, ('recorded', 'replayed'))}"
     )
 

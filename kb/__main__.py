@@ -68,7 +68,7 @@ def query(ontology: Ontology, sparql: str, as_json: bool) -> int:
 
 def facts(file: Path, as_json: bool) -> int:
     """Print every fact, oldest first."""
-    with closing(_memory(file)) as memory:
+    with closing(_memory(file, learns=False)) as memory:
         known = memory.all()
     if as_json:
         print(json.dumps([asdict(fact) for fact in known]))
@@ -107,10 +107,10 @@ def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> Ontology
     return ontology
 
 
-def _memory(file: Path) -> FactStore:
+def _memory(file: Path, *, learns: bool = True) -> FactStore:
     if not file.exists():
         raise InputError(str(file), "there is no such file", "name the one of --memory")
-    return FactStore(file)
+    return FactStore(file, learns=learns)
 
 
 @entry_point

@@ -7,46 +7,21 @@ beside them, so that a question takes as long with a million facts as with ten.
 import logging
 import sqlite3
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from math import isfinite
 from pathlib import Path
 from typing import Self
 
 from executive.errors import InputError
+from executive.text import printable
+from kb.facts_file import opened
 
 log = logging.getLogger(__name__)
 
-APPLICATION_ID = 0x0FAC7501
-"""Marks an SQLite file as ours (https://sqlite.org/fileformat.html, "Application ID")."""
-BUSY_S = 1.0
-"""How long to wait for another process that is writing."""
-_SCHEMA = f"""
-BEGIN;
-CREATE TABLE fact (
-    number INTEGER PRIMARY KEY, time_s REAL NOT NULL, kind TEXT NOT NULL, object TEXT NOT NULL,
-    place TEXT NOT NULL);
-
--- Where an object was seen (or put) and said to be, less what is contradicted since. The triggers
--- belong to the transaction that adds the fact: a kill leaves both or neither.
-CREATE TABLE belief (
-    object TEXT NOT NULL, place TEXT NOT NULL, seen INTEGER NOT NULL, number INTEGER NOT NULL,
-    PRIMARY KEY (object, place, seen)) WITHOUT ROWID;
-CREATE INDEX belief_newest ON belief (object, number, place, seen);
-CREATE TRIGGER is_there AFTER INSERT ON fact WHEN new.kind IN ('seen', 'put', 'said') BEGIN
-    INSERT OR REPLACE INTO belief VALUES (new.object, new.place, new.kind != 'said', new.number);
-END;
-CREATE TRIGGER is_not_there AFTER INSERT ON fact WHEN new.kind = 'missed' BEGIN
-    DELETE FROM belief WHERE object = new.object AND place = new.place;
-END;
-CREATE TRIGGER is_nowhere AFTER INSERT ON fact WHEN new.kind = 'taken' BEGIN
-    DELETE FROM belief WHERE object = new.object;
-END;
-
-PRAGMA application_id = {APPLICATION_ID};
-COMMIT;
-"""
+MOST_BELIEFS, MOST_PLACES, MOST_NAME = 10_000, 100, 200
+"""Objects that are believed to be anywhere; places of one; letters of a name."""
 
 
 class FactKind(StrEnum):
@@ -77,7 +52,8 @@ class FactStore:
     """Implements `Facts` with an SQLite file, each fact one committed transaction.
 
     A process that is killed at any moment leaves every fact that it was told (write-ahead log).
-    A disk that is full costs the fact and a warning, not the mission.
+    A disk that is full, or a file that is damaged later, costs the fact and a warning, not the
+    mission. Several processes may open one file, and make it, at a time.
     """
 
     def __init__(
@@ -99,14 +75,20 @@ class FactStore:
         """
         self._learns = learns
         self._now = now
-        self._database = _open(file)
+        self._where = printable(file or "memory")
+        self._database = opened(file, learns=learns)
+        self._failing = False
+        """Whether the person knows that it does not work."""
 
     @classmethod
     def believing(cls, beliefs: Mapping[str, Sequence[str]], *, learns: bool = True) -> Self:
         """A store that lasts as long as the process and believes what another one did."""
         store = cls()
-        for name, places in beliefs.items():
-            store.heard(name, places)
+        store.load(
+            Fact(FactKind.SAID, name, place, 0.0)
+            for name, places in beliefs.items()
+            for place in reversed(places)
+        )
         store._learns = learns
         return store
 
@@ -141,24 +123,43 @@ class FactStore:
         nowhere until seen again.
         """
         try:
-            return self._believed(name)
-        except sqlite3.Error as error:
-            log.warning("facts about the %s could not be read: %s", name, error)
+            places = self._believed(name)
+        except _FAILURES as error:
+            self._warn(f"facts about the {name} could not be read", error)
             return ()
+        self._failing = False
+        return places
 
     # --- for whoever keeps and shows them ---
 
     def beliefs(self) -> dict[str, tuple[str, ...]]:
         """Each object that is believed to be anywhere, and where."""
-        names = self._database.execute("SELECT DISTINCT object FROM belief ORDER BY object")
-        return {name: self.places_of(name) for (name,) in names.fetchall()}
+        query = "SELECT DISTINCT object FROM belief ORDER BY object LIMIT ?"
+        try:
+            names = [name for (name,) in self._database.execute(query, (MOST_BELIEFS,))]
+        except _FAILURES as error:
+            self._warn("facts could not be read", error)
+            return {}
+        known = {name: self.places_of(name) for name in names if _is_name(name)}
+        return {name: places for name, places in known.items() if places}
 
     def all(self) -> tuple[Fact, ...]:
-        """Every fact, oldest first."""
-        rows = self._database.execute(
-            "SELECT kind, object, place, time_s FROM fact ORDER BY number"
-        )
-        return tuple(Fact(FactKind(kind), *rest) for kind, *rest in rows)
+        """Every fact, oldest first; rows that are none are passed over.
+
+        Raises:
+            InputError: if the file cannot be read.
+        """
+        query = "SELECT kind, object, place, time_s FROM fact ORDER BY number"
+        try:
+            return tuple(Fact(FactKind(row[0]), *row[1:]) for row in self._rows(query))
+        except _FAILURES as error:
+            raise InputError(self._where, f"cannot be read: {error}") from error
+
+    def _rows(self, query: str) -> Iterator[tuple[str, str, str, float]]:
+        for kind, name, place, time_s in self._database.execute(query):
+            timed = isinstance(time_s, int | float) and isfinite(time_s)
+            if kind in _KINDS and _is_name(name) and _is_name(place) and timed:
+                yield kind, name, place, float(time_s)
 
     def load(self, facts: Iterable[Fact]) -> None:
         """Add facts with the times that they have."""
@@ -169,11 +170,18 @@ class FactStore:
             )
 
     def forget(self, name: str | None = None) -> int:
-        """Remove the facts about one object, or all; return how many there were."""
+        """Remove the facts about one object, or all; return how many there were.
+
+        Raises:
+            InputError: if the file cannot be written.
+        """
         condition, values = ("", ()) if name is None else (" WHERE object = ?", (name,))
-        with self._database:
-            self._database.execute(f"DELETE FROM belief{condition}", values)
-            return self._database.execute(f"DELETE FROM fact{condition}", values).rowcount
+        try:
+            with self._database:
+                self._database.execute(f"DELETE FROM belief{condition}", values)
+                return self._database.execute(f"DELETE FROM fact{condition}", values).rowcount
+        except _FAILURES as error:
+            raise InputError(self._where, f"cannot be changed: {error}") from error
 
     def close(self) -> None:
         """Close the file."""
@@ -181,11 +189,13 @@ class FactStore:
 
     def _believed(self, name: str) -> tuple[str, ...]:
         newest_first = self._database.execute(
-            "SELECT place, seen FROM belief WHERE object = ? ORDER BY number DESC", (name,)
+            "SELECT place, seen FROM belief WHERE object = ? ORDER BY number DESC LIMIT ?",
+            (name, MOST_PLACES),
         )
         places: list[str] = []
         for place, seen in newest_first:
-            places.append(place)
+            if _is_name(place):
+                places.append(place)
             if seen:
                 break
         return tuple(dict.fromkeys(places))
@@ -195,30 +205,23 @@ class FactStore:
             return
         try:
             self.load((Fact(kind, name, place, self._now()),))
-        except sqlite3.Error as error:
-            log.warning("a fact could not be kept (%s %s %s): %s", name, kind, place, error)
+        except _FAILURES as error:
+            self._warn(f"a fact could not be kept ({name} {kind} {place})", error)
+        else:
+            self._failing = False
+
+    def _warn(self, what: str, error: Exception) -> None:
+        """Say it once, until it works again."""
+        if not self._failing:
+            log.warning("%s, %s: %s", printable(what), self._where, printable(error))
+        self._failing = True
 
 
-def _open(file: Path | None) -> sqlite3.Connection:
-    where = str(file or ":memory:")
-    with ExitStack() as on_error:
-        try:
-            database = sqlite3.connect(where, timeout=BUSY_S)
-            on_error.callback(database.close)
-            _prepare(database)
-        except sqlite3.Error as error:
-            right = "name a file that --memory made, or one that does not exist yet"
-            raise InputError(where, f"is no memory: {error}", right) from None
-        on_error.pop_all()
-    return database
+_KINDS = frozenset(FactKind)
+
+_FAILURES = (sqlite3.Error, ValueError, OverflowError)
+"""What a query raises: the disk or the file fails, or a value is none for a database."""
 
 
-def _prepare(database: sqlite3.Connection) -> None:
-    """Make the table in an empty file; let no other file pass."""
-    [[mark]] = database.execute("PRAGMA application_id")
-    [[tables]] = database.execute("SELECT count(*) FROM sqlite_schema")
-    if not mark and not tables:
-        database.execute("PRAGMA journal_mode = WAL")
-        database.executescript(_SCHEMA)
-    elif mark != APPLICATION_ID:
-        raise sqlite3.DatabaseError("it is a database of something else")
+def _is_name(value: object) -> bool:
+    return isinstance(value, str) and 0 < len(value) <= MOST_NAME

@@ -16,16 +16,17 @@ from typing import Any, NamedTuple, TypeVar
 
 from executive.errors import InputError
 from executive.shell import entry_point
+from executive.text import printable
 from logs import comparison, gantt, pictures, report, viewer
-from logs.reader import FILE_NAME, Run
-from logs.recovery import damaged_at, recover
+from logs.reader import FILE_NAME, At, Run, mcap_of
+from logs.recovery import first_damage, recover, written
 from logs.why import why, why_text
 
 T = TypeVar("T")
 
 
 class Answer(NamedTuple):
-    """To a question: as data, as text, and as exit status (1: the two are not the same)."""
+    """To a question: as data, as printable text, and as exit status (1: not all, or not alike)."""
 
     data: Any
     text: str
@@ -46,7 +47,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m logs",
         description="Questions to recorded missions.",
-        epilog="exit: 0 answered, 1 compare or replay: not the same, 2 bad usage or input",
+        epilog="exit: 0 answered, 1 compare or replay: not the same, export or replay: of several "
+        "runs some could not be read, 2 bad usage or input",
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
@@ -88,7 +90,7 @@ def _parser() -> argparse.ArgumentParser:
     view.add_argument("--png", type=Path, metavar="FILE", help="instead, a picture of the viewer")
     view.add_argument("--at", type=float, default=0.0, metavar="S", help="at this mission time")
     mend = add("recover", _recover, "write a broken mcap file whole again, as far as it reads")
-    mend.add_argument("file", type=Path, metavar="FILE")
+    mend.add_argument("run", type=Path, metavar="RUN", help="a run's folder, or its mcap file")
     return parser
 
 
@@ -98,12 +100,12 @@ def _summary(options: argparse.Namespace) -> Answer:
 
 
 def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> Iterator[T | report.Row]:
-    """An answer a run; in a folder of runs, what cannot be read has a row that says so."""
+    """An answer a run; of several, what cannot be read has a row that says so."""
     for run in _runs_in(folders):
         try:
             yield ask(run)
         except InputError as error:
-            if run in folders:
+            if [run] == list(folders):
                 raise
             yield {"run": run.name, "error": str(error).removeprefix(f"{run / FILE_NAME}: ")}
 
@@ -128,16 +130,16 @@ def _ticks(options: argparse.Namespace) -> Answer:
 def _timeline(options: argparse.Namespace) -> Answer:
     spans = report.timeline(Run(options.run))
     if options.svg:
-        _write(options.svg, gantt.svg(spans).encode())
+        _write(options.svg, gantt.svg(spans).encode(), options.run)
     return Answer([asdict(span) for span in spans], report.timeline_text(spans))
 
 
-def _write(file: Path, data: bytes) -> None:
-    try:
-        file.write_bytes(data)
-    except OSError as error:
-        right = "name a file in an existing folder"
-        raise InputError(str(file), f"cannot be written: {error.strerror}", right) from error
+def _write(file: Path, data: bytes, run: Path) -> None:
+    """Write a file, but never over the recording that it is about."""
+    if file.exists() and any(file.samefile(of) for of in (run, *run.glob("mission.*"))):
+        raise InputError(str(file), "is the recording itself", "name another file")
+    with written(file) as new:
+        new.write(data)
 
 
 def _llm(options: argparse.Namespace) -> Answer:
@@ -151,19 +153,41 @@ def _dialog(options: argparse.Namespace) -> Answer:
 
 
 def _frames(options: argparse.Namespace) -> Answer:
-    frames, out = Run(options.run).frames(), options.out
+    run, out = Run(options.run), options.out
+    where = printable(out)
     if out.suffix == ".mp4":
-        count = pictures.write_video(frames, out)
-        return Answer([str(out)], f"{count} pictures, {count / pictures.VIDEO_HZ:g} s, in {out}")
-    files = pictures.write_files(frames, out, png=options.png)
-    return Answer([str(file) for file in files], f"{len(files)} pictures in {out}")
+        count = pictures.write_video(_Frames(run), out)
+        return Answer([str(out)], f"{count} pictures, {count / pictures.VIDEO_HZ:g} s, in {where}")
+    files = pictures.write_files(run.frames(), out, png=options.png)
+    return Answer([str(file) for file in files], f"{len(files)} pictures in {where}")
+
+
+class _Frames:
+    """The pictures of a run, as often as they are asked for."""
+
+    def __init__(self, run: Run) -> None:
+        self._run = run
+
+    def __iter__(self) -> Iterator[At[bytes]]:
+        return self._run.frames()
 
 
 def _export(options: argparse.Namespace) -> Answer:
     from logs.export import write_parquet
 
-    files = write_parquet((Run(run) for run in _runs_in(options.runs)), options.parquet)
-    return Answer([str(file) for file in files], "\n".join(str(file) for file in files))
+    runs = list(_runs_in(options.runs))
+    exported = write_parquet(runs, options.parquet)
+    if runs == options.runs[:1] and exported.unread:
+        raise exported.unread[0]
+    for error in exported.unread:
+        print(f"left out: {printable(error)}", file=sys.stderr)
+    for run in exported.early:
+        print(f"{printable(run)}: ends early, exported as far as it reads", file=sys.stderr)
+    return Answer(
+        [str(file) for file in exported.files],
+        "\n".join(map(printable, exported.files)),
+        int(bool(exported.unread)),
+    )
 
 
 def _compare(options: argparse.Namespace) -> Answer:
@@ -180,7 +204,8 @@ def _replay(options: argparse.Namespace) -> Answer:
     answers = list(_each(options.runs, replay))
     replays = [answer for answer in answers if isinstance(answer, Replay)]
     unread = [answer for answer in answers if not isinstance(answer, Replay)]
-    lines = [*map(replay_text, replays), *(f"{row['run']}: {row['error']}" for row in unread)]
+    lines = [*map(replay_text, replays)]
+    lines += [printable(f"{row['run']}: {row['error']}") for row in unread]
     if len(replays) > 1:
         lines.append(replays_text(replays))
     same = not unread and all(replayed.parting is None for replayed in replays)
@@ -188,24 +213,26 @@ def _replay(options: argparse.Namespace) -> Answer:
 
 
 def _recover(options: argparse.Namespace) -> Answer:
-    file, damaged = options.file, None
-    recovered = recover(file)
-    damaged = damaged_at(file)
-    where = "nothing was missing" if damaged is None else f"{file} does not read at byte {damaged}"
+    file = mcap_of(options.run)
+    recovered, damage = recover(file), first_damage(file)
+    where = "nothing was missing"
+    if damage:
+        where = f"{file} does not read at byte {damage[0]}: {damage[1].what}"
     return Answer(
-        {"recovered": str(recovered), "damaged_at": damaged}, f"recovered: {recovered}; {where}"
+        {"recovered": str(recovered), "damaged_at": damage[0] if damage else None},
+        printable(f"recovered: {recovered}; {where}"),
     )
 
 
 def _view(options: argparse.Namespace) -> Answer:
     recording = options.run / "mission.rrd" if options.run.is_dir() else options.run
-    if not recording.is_file():
+    if not recording.is_file() or recording.suffix not in (".rrd", ".mcap"):
         raise InputError(str(options.run), "holds no mission.rrd", "name a run's folder")
     if options.png:
-        _write(options.png, viewer.picture(recording, options.at))
-        return Answer(str(options.png), str(options.png))
+        _write(options.png, viewer.picture(recording, options.at), options.run)
+        return Answer(str(options.png), printable(options.png))
     viewer.show(recording, web=options.web)
-    return Answer(str(recording), f"shown: {recording}")
+    return Answer(str(recording), printable(f"shown: {recording}"))
 
 
 if __name__ == "__main__":

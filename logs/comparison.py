@@ -1,9 +1,8 @@
 """Two recorded missions side by side: how they were set up, where they part, how they ended."""
 
-import tomllib
 from dataclasses import dataclass
-from typing import Any
 
+from executive.text import printable
 from logs.difference import Aspect, Parting, aspects_text, parting
 from logs.reader import Run
 from logs.why import Decision, why
@@ -43,17 +42,13 @@ def compare(one: Run, other: Run) -> Comparison:
 
 
 def _setup(one: Run, other: Run) -> list[Aspect]:
-    facts = [_settings(run) | run.metadata for run in (one, other)]
+    facts = [run.config() | run.metadata for run in (one, other)]
     names = dict.fromkeys((*facts[0], *facts[1]))
     return [
         Aspect(name, *(str(fact.get(name, "")) for fact in facts))
         for name in names
         if name not in ("started", "runs") and facts[0].get(name) != facts[1].get(name)
     ]
-
-
-def _settings(run: Run) -> dict[str, Any]:
-    return tomllib.loads(run.attachments.get("config.toml", b"").decode())
 
 
 def _first_of_its_own(
@@ -76,7 +71,7 @@ def _end(run: Run) -> str:
 def compare_text(compared: Comparison) -> str:
     """The comparison in lines; A is the first mission, B the second."""
     names = ("A", "B")
-    lines = [f"A  {compared.one}", f"B  {compared.other}"]
+    lines = [printable(f"A  {compared.one}"), printable(f"B  {compared.other}")]
     if compared.setup:
         lines += ["set up differently", aspects_text(compared.setup, names)]
     if compared.parting is None:
@@ -87,10 +82,13 @@ def compare_text(compared: Comparison) -> str:
     lines.append("first decision of its own")
     for name, decision in zip(names, compared.decisions, strict=True):
         lines.append(
-            f"    {name}  {decision.time_s:.3f} s  {decision.question}: {decision.answer}"
+            printable(
+                f"    {name}  {decision.time_s:.3f} s  {decision.question}: {decision.answer}"
+            )
             if decision
             else f"    {name}  none"
         )
     lines.append("ended")
-    lines += [f"    {name}  {end}" for name, end in zip(names, compared.ends, strict=True)]
+    ends = zip(names, compared.ends, strict=True)
+    lines += [printable(f"    {name}  {end}") for name, end in ends]
     return "\n".join(lines)

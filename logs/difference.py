@@ -7,6 +7,7 @@ from itertools import zip_longest
 from typing import Any
 
 from executive.records import NodeState, Tick
+from executive.text import printable
 from executive.types import Outcome
 from logs.reader import At, Run
 
@@ -124,9 +125,9 @@ def aspects_text(aspects: Iterable[Aspect], names: tuple[str, str]) -> str:
     """Three lines for each aspect: what it is, and how it is on either side."""
     width = max(len(name) for name in names)
     return "\n".join(
-        f"  {aspect.what}\n"
+        f"  {printable(aspect.what)}\n"
         + "\n".join(
-            f"    {name:{width}}  {value or '-'}"
+            f"    {name:{width}}  {printable(value or '-')}"
             for name, value in zip(names, (aspect.one, aspect.other), strict=True)
         )
         for aspect in aspects

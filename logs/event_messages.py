@@ -26,8 +26,11 @@ from executive.types import (
     Scored,
     Succeeded,
 )
-from logs.messages import llm_call_from_message, llm_call_to_message
+from logs.messages import finite, llm_call_from_message, llm_call_to_message, whole
 from logs.schema import MESSAGES
+
+MOST_PIXELS = 100_000
+"""Along an edge of a picture."""
 
 
 def event_to_message(event: Event, mission_time_s: float) -> Any:
@@ -66,9 +69,9 @@ def event_from_message(message: Any) -> Event:
         case "Started":
             return Started(message.text)
         case "Ended":
-            return Ended(message.request, _result(message))
+            return Ended(whole(message.request), _result(message))
         case "DeadlinePassed":
-            return DeadlinePassed(message.deadline_s)
+            return DeadlinePassed(finite(message.deadline_s))
         case "StopRequested":
             return StopRequested(message.text)
         case "HandFelt":
@@ -110,7 +113,9 @@ def _add_detection(field: Any, detection: Detection) -> None:
 
 def _detection(message: Any) -> Detection:
     box = Box(message.left, message.top, message.width, message.height)
-    mask = np.zeros((box.height, box.width), np.bool_)
+    if not all(abs(edge) <= MOST_PIXELS for edge in (box.left, box.top, box.width, box.height)):
+        raise ValueError(f"a detection in {box}, which is in no picture")
+    mask = np.broadcast_to(np.bool_(False), (box.height, box.width))
     detection = Detection(message.label, message.confidence, box, mask, cut_off=message.cut_off)
     if not message.HasField("position"):
         return detection

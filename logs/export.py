@@ -5,8 +5,11 @@ Every table has the column `run`; together with `tick` or `time_s` (mission time
 
 import json
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass, field
+from itertools import chain, islice
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -19,27 +22,75 @@ from logs.reader import Run
 
 Row = report.Row
 
+ROWS = 10_000
+"""That are in memory at a time."""
 
-def write_parquet(runs: Iterable[Run], folder: Path) -> list[Path]:
+
+@dataclass(slots=True)
+class Exported:
+    """What came of it."""
+
+    files: list[Path] = field(default_factory=list)
+    unread: list[InputError] = field(default_factory=list)
+    """Why runs are in no table."""
+    early: list[Path] = field(default_factory=list)
+    """Runs that end early, which are in the tables as far as they read."""
+
+
+def write_parquet(folders: Iterable[Path], folder: Path) -> Exported:
     """Write `runs`, `ticks`, `behaviours`, `events`, `llm_calls` and `dialog` `.parquet`.
 
-    A table without rows is left out.
+    A table without rows is left out. The tables appear when all are finished. A run that cannot be
+    read costs no other its place in them.
 
     Raises:
-        InputError: if the folder cannot be written, or a recording cannot be read.
+        InputError: if the folder cannot be written.
     """
-    runs = list(runs)
-    written = []
+    exported = Exported()
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for name, rows_of in TABLES.items():
-            rows = [{"run": run.name, **row} for run in runs for row in rows_of(run)]
-            if rows:
-                written.append(folder / f"{name}.parquet")
-                pq.write_table(pa.Table.from_pylist(rows), written[-1], compression="zstd")
+        with TemporaryDirectory(dir=folder, prefix=".tables") as unfinished:
+            names = _write(folders, Path(unfinished), exported)
+            exported.files = [(Path(unfinished) / name).replace(folder / name) for name in names]
     except OSError as error:
-        raise InputError(str(folder), f"cannot be written: {error}") from error
-    return written
+        raise InputError(str(folder), f"cannot be written: {error.strerror or error}") from error
+    return exported
+
+
+def _write(folders: Iterable[Path], folder: Path, exported: Exported) -> list[str]:
+    """Write the tables; return the names of those that have rows."""
+    files = {name: f"{name}.parquet" for name in TABLES}
+    with ExitStack() as open_tables:
+        writers: dict[str, pq.ParquetWriter] = {}
+        for run_folder in folders:
+            try:
+                run = _readable(run_folder)
+            except InputError as error:
+                exported.unread.append(error)
+                continue
+            if not run.whole:
+                exported.early.append(run_folder)
+            for name, (rows_of, columns) in TABLES.items():
+                schema = pa.schema([("run", pa.string()), *columns])
+                for rows in _batches({"run": run.name, **row} for row in rows_of(run)):
+                    if name not in writers:
+                        writers[name] = open_tables.enter_context(
+                            pq.ParquetWriter(folder / files[name], schema, compression="zstd")
+                        )
+                    writers[name].write_table(pa.Table.from_pylist(rows, schema))
+    return [files[name] for name in TABLES if name in writers]
+
+
+def _readable(folder: Path) -> Run:
+    """A run, all of which has been read once: what is damaged must be in no table."""
+    run = Run(folder)
+    for _ in chain.from_iterable(rows_of(run) for rows_of, _ in TABLES.values()):
+        pass
+    return run
+
+
+def _batches(rows: Iterator[Row]) -> Iterator[list[Row]]:
+    return iter(lambda: list(islice(rows, ROWS)), [])
 
 
 def _runs(run: Run) -> Iterator[Row]:
@@ -48,7 +99,7 @@ def _runs(run: Run) -> Iterator[Row]:
         "whole": run.whole,
         "started": run.metadata["started"],
         "metadata": json.dumps(run.metadata),
-        "config": run.attachments.get("config.toml", b"").decode(),
+        "config": run.attachments.get("config.toml", b"").decode(errors="replace"),
         **(asdict(outcome) if outcome else {}),
     }
 
@@ -90,12 +141,105 @@ def _llm_calls(run: Run) -> Iterator[Row]:
         yield {"reply": None, "finish_reason": None, "verified": None, **row, **nested}
 
 
-TABLES: dict[str, Callable[[Run], Iterable[Row]]] = {
-    "runs": _runs,
-    "ticks": _ticks,
-    "behaviours": _behaviours,
-    "events": _events,
-    "llm_calls": _llm_calls,
-    "dialog": report.dialog,
+_STRINGS = pa.list_(pa.string())
+_CANDIDATE = {"place": pa.string(), "source": pa.string(), "probability": pa.float64()}
+_VERIFIED = {
+    "label": pa.string(),
+    "accepted": _STRINGS,
+    "rooms": _STRINGS,
+    "dropped": _STRINGS,
 }
-"""Name of each table, and its rows of one run."""
+_MESSAGE = {"role": pa.string(), "content": pa.string()}
+
+Columns = list[tuple[str, pa.DataType]]
+
+
+def _columns(**types: pa.DataType) -> Columns:
+    return list(types.items())
+
+
+TABLES: dict[str, tuple[Callable[[Run], Iterable[Row]], Columns]] = {
+    "runs": (
+        _runs,
+        _columns(
+            whole=pa.bool_(),
+            started=pa.string(),
+            metadata=pa.string(),
+            config=pa.string(),
+            command=pa.string(),
+            kind=pa.string(),
+            target=pa.string(),
+            object=pa.string(),
+            status=pa.string(),
+            reason=pa.string(),
+            source=pa.string(),
+            location=pa.string(),
+            inquiries=pa.int64(),
+            visited=_STRINGS,
+            llm_calls=pa.int64(),
+            candidates=pa.list_(pa.struct(_CANDIDATE)),
+            mission_time_s=pa.float64(),
+            thinking_time_s=pa.float64(),
+            wall_time_s=pa.float64(),
+            run_dir=pa.string(),
+            model_failure=pa.string(),
+        ),
+    ),
+    "ticks": (
+        _ticks,
+        _columns(
+            tick=pa.int64(),
+            time_s=pa.float64(),
+            cause=pa.string(),
+            tip=pa.string(),
+            duration_s=pa.float64(),
+            situation=pa.string(),
+        ),
+    ),
+    "behaviours": (
+        _behaviours,
+        _columns(
+            tick=pa.int64(),
+            time_s=pa.float64(),
+            path=pa.string(),
+            status=pa.string(),
+            message=pa.string(),
+        ),
+    ),
+    "events": (
+        _events,
+        _columns(
+            time_s=pa.float64(),
+            name=pa.string(),
+            request=pa.int64(),
+            result=pa.string(),
+            text=pa.string(),
+        ),
+    ),
+    "llm_calls": (
+        _llm_calls,
+        _columns(
+            reply=pa.string(),
+            finish_reason=pa.string(),
+            verified=pa.struct(_VERIFIED),
+            time_s=pa.float64(),
+            label=pa.string(),
+            model=pa.string(),
+            input_tokens=pa.int64(),
+            evaluated_tokens=pa.int64(),
+            output_tokens=pa.int64(),
+            first_token_s=pa.float64(),
+            total_s=pa.float64(),
+            prepared_tokens=pa.int64(),
+            prepared_s=pa.float64(),
+            messages=pa.list_(pa.struct(_MESSAGE)),
+            scores=pa.string(),
+            parameters=pa.string(),
+        ),
+    ),
+    "dialog": (
+        report.dialog,
+        _columns(time_s=pa.float64(), speaker=pa.string(), text=pa.string()),
+    ),
+}
+"""Name of each table; its rows of one run; its columns beside `run`."""

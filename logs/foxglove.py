@@ -156,10 +156,17 @@ def _add_shape(message: SceneEntity, shape: Shape) -> None:
                 color=color,
                 override_color=not shape.mesh.endswith(".glb"),
                 media_type=guess_type(shape.mesh)[0] or "model/obj",
-                data=FilePath(shape.mesh).read_bytes(),
+                data=_mesh(FilePath(shape.mesh)),
             )
         case kind:
             raise ValueError(f"shape of unknown kind {kind!r}: box, cylinder, sphere or mesh")
+
+
+def _mesh(file: FilePath) -> bytes:
+    try:
+        return file.read_bytes()
+    except OSError as error:
+        raise ValueError(f"the mesh {file} cannot be read: {error.strerror}") from error
 
 
 def _corners(box: Box) -> list[Point2]:

@@ -1,8 +1,11 @@
 """What ran when as a picture: a row for each behaviour, a bar from its start to its end."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
+from math import ceil
 from xml.sax.saxutils import escape
 
+from executive.text import printable
 from logs.report import Span
 
 ROW, HEIGHT, MARGIN = 22.0, 14.0, 12.0
@@ -33,6 +36,7 @@ def svg(spans: Sequence[Span]) -> str:
     Hovering over a bar shows when it was and what the behaviour said.
     """
     paths = list(dict.fromkeys(span.path for span in spans))
+    rows = {path: row for row, path in enumerate(paths)}
     names = _names(paths)
     labels = max((len(name) for name in names), default=0) * LETTER
     end_s = max((span.end_s for span in spans), default=0.0)
@@ -41,7 +45,7 @@ def svg(spans: Sequence[Span]) -> str:
     shapes = [*_scale(axis, end_s, bottom)]
     for row, name in enumerate(names):
         shapes.append(_text(MARGIN, MARGIN + (row + 0.5) * ROW, name))
-    shapes += [_bar(span, axis, paths.index(span.path)) for span in spans]
+    shapes += [_bar(span, axis, rows[span.path]) for span in spans]
     width, height = axis.x(end_s) + 4 * MARGIN, bottom + ROW + MARGIN
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}" '
@@ -64,14 +68,19 @@ class _Axis:
 def _names(paths: Sequence[str]) -> list[str]:
     """Last names of the paths; where two are alike, with the one before."""
     last = [path.rpartition("/")[2] for path in paths]
+    times = Counter(last)
     return [
-        name if last.count(name) == 1 else "/".join(path.split("/")[-2:])
+        name if times[name] == 1 else "/".join(path.split("/")[-2:])
         for path, name in zip(paths, last, strict=True)
     ]
 
 
 def _scale(axis: _Axis, end_s: float, bottom: float) -> Iterator[str]:
-    step = next((s for s in STEPS_S if end_s / s <= MOST_MARKS), STEPS_S[-1])
+    longest = STEPS_S[-1]
+    step = next(
+        (s for s in STEPS_S if end_s / s <= MOST_MARKS),
+        longest * ceil(end_s / longest / MOST_MARKS),
+    )
     for number in range(int(end_s / step) + 1):
         x = axis.x(number * step)
         yield f'<line x1="{x:.1f}" y1="{MARGIN:.1f}" x2="{x:.1f}" y2="{bottom:.1f}"/>'
@@ -85,9 +94,9 @@ def _bar(span: Span, axis: _Axis, row: int) -> str:
     return (
         f'<rect x="{left:.1f}" y="{top:.1f}" width="{max(right - left, LEAST):.1f}" '
         f'height="{HEIGHT:.0f}" fill="{COLORS[span.status]}">'
-        f"<title>{escape(what.strip())}</title></rect>"
+        f"<title>{escape(printable(what.strip()))}</title></rect>"
     )
 
 
 def _text(x: float, y: float, text: str, anchor: str = "start") -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{escape(text)}</text>'
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{escape(printable(text))}</text>'

@@ -1,13 +1,17 @@
 """What a person reads in the viewer beside the pictures: the model's calls, and the belief."""
 
+import re
 from collections.abc import Iterable, Mapping
 from textwrap import shorten
 from typing import Any
 
 from executive.records import LlmCall, Verified
+from executive.text import printable
 from executive.types import Candidate, Message, Outcome, Replied, Scored
 from logs.candidates import State, states
 
+_ACTIVE = re.compile(r"[\\`*<|~]|(?<=[!\]])[\[(:]")
+"""What Markdown may make a picture, a link, HTML or a table of: a backslash takes its power."""
 DOTS = 10
 GIST_LENGTH = 300
 
@@ -24,7 +28,7 @@ def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
     """One call: what was asked, what was answered, and what the verification made of it."""
     result, usage = call.result, call.result.usage
     parts = [
-        f"### {result.request.label}",
+        f"### {plain(result.request.label)}",
         f"**Asked** {_gist(result.request.messages[-1].content)}",
     ]
     if isinstance(result, Replied):
@@ -34,10 +38,10 @@ def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
     if verified is not None:
         parts += _verification(verified)
     parts += [
-        f"{usage.model} · {usage.total_s:.2f} s · {usage.input_tokens} tokens in "
+        f"{plain(usage.model)} · {usage.total_s:.2f} s · {usage.input_tokens} tokens in "
         f"({usage.evaluated_tokens} evaluated, {usage.prepared_tokens} before it was asked) · "
         f"{usage.output_tokens} out"
-        + "".join(f" · {name} {value}" for name, value in usage.parameters.items()),
+        + "".join(f" · {plain(name)} {plain(v)}" for name, v in usage.parameters.items()),
         "---",
         "### The whole exchange",
         *_turns(result.request.messages),
@@ -53,7 +57,7 @@ def belief(situation: dict[str, Any]) -> str:
     Args:
         situation: the snapshot that each tick carries.
     """
-    heading = f"### Where is {situation.get('object') or 'the thing'}?\n\n"
+    heading = f"### Where is {plain(situation.get('object') or 'the thing')}?\n\n"
     candidates = [
         Candidate(c["place"], c["source"], c["probability"])
         for c in situation.get("candidates") or ()
@@ -66,11 +70,11 @@ def belief(situation: dict[str, Any]) -> str:
 
 def outcome(outcome: Outcome) -> str:
     """How the mission ended, and what it took."""
-    parts = [f"### {outcome.command}: {outcome.status.replace('_', ' ')}"]
+    parts = [f"### {plain(outcome.command)}: {outcome.status.replace('_', ' ')}"]
     if outcome.reason:
-        parts.append(outcome.reason)
+        parts.append(plain(outcome.reason))
     if outcome.location:
-        parts.append(f"Found: **{outcome.location}** (says {outcome.source})")
+        parts.append(f"Found: **{plain(outcome.location)}** (says {outcome.source})")
     parts.append(
         f"{outcome.mission_time_s:.1f} s, of them {outcome.thinking_time_s:.1f} s thinking · "
         f"{outcome.llm_calls} calls of the model · {outcome.inquiries} questions"
@@ -83,9 +87,15 @@ def outcome(outcome: Outcome) -> str:
     return "\n\n".join(parts)
 
 
+def plain(text: object) -> str:
+    """Text from outside on one line, as it reads: no picture is fetched, nothing is drawn by it."""
+    return _ACTIVE.sub(r"\\\g<0>", printable(text))
+
+
 def _candidates(candidates: Iterable[Candidate], marks: Mapping[str, str]) -> str:
     rows = [
-        f"| {marks.get(c.place, '')} | {c.place} | {_probability(c.probability)} | {c.source} |"
+        f"| {marks.get(c.place, '')} | {plain(c.place)} | {_probability(c.probability)} "
+        f"| {plain(c.source)} |"
         for c in candidates
     ]
     return "\n".join(["| | place | probability | says |", "|---|---|---|---|", *rows])
@@ -96,7 +106,9 @@ def _scores(scored: Scored) -> str:
         zip(scored.scores, scored.request.places, scored.request.options, strict=True), reverse=True
     )
     rows = ["| score | place | as the model read it |", "|---:|---|---|"]
-    rows += [f"| {score:.2f} | {place} | {option} |" for score, place, option in ranked]
+    rows += [
+        f"| {score:.2f} | {plain(place)} | {plain(option)} |" for score, place, option in ranked
+    ]
     return "\n".join(rows)
 
 
@@ -106,20 +118,20 @@ def _verification(verified: Verified) -> list[str]:
         ("▶ Rooms, to be expanded", verified.rooms),
         ("✗ Dropped, not in this home", verified.dropped),
     )
-    return [f"**{what}** {', '.join(names)}" for what, names in rows if names]
+    return [f"**{what}** {plain(', '.join(names))}" for what, names in rows if names]
 
 
 def _turns(messages: Iterable[Message]) -> list[str]:
-    return [f"**{m.role}**\n\n{_quote(m.content)}" for m in messages]
+    return [f"**{plain(m.role)}**\n\n{_quote(m.content)}" for m in messages]
 
 
 def _quote(text: str) -> str:
-    return "\n".join(f"> {line}  " for line in text.splitlines())
+    return "\n".join(f"> {plain(line)}  " for line in text.splitlines())
 
 
 def _gist(text: str) -> str:
     """The text on one line, and no more of it than is read at a glance."""
-    return shorten(text, GIST_LENGTH, placeholder=" …")
+    return plain(shorten(text, GIST_LENGTH, placeholder=" …"))
 
 
 def _probability(probability: float | None) -> str:

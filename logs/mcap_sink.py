@@ -2,17 +2,11 @@
 
 import mimetypes
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from datetime import datetime
 from pathlib import Path as FilePath
 from typing import Any
 
-from foxglove_schemas_protobuf.CameraCalibration_pb2 import CameraCalibration
-from foxglove_schemas_protobuf.CompressedImage_pb2 import CompressedImage
-from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
-from foxglove_schemas_protobuf.ImageAnnotations_pb2 import ImageAnnotations
-from foxglove_schemas_protobuf.Log_pb2 import Log
-from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from mcap.writer import Writer
 from mcap_protobuf.schema import register_schema
 
@@ -34,30 +28,13 @@ from executive.records import (
     Utterance,
     Verified,
 )
+from executive.text import writable
 from executive.types import Frame
 from logs import foxglove, messages
 from logs.event_messages import event_to_message, in_words
 from logs.recorder import Stamp
-from logs.schema import MESSAGES
 from logs.times import nanoseconds
-
-TOPICS: dict[str, Any] = {
-    "/bt/tree": MESSAGES["BehaviourTree"],
-    "/bt/tick": MESSAGES["Tick"],
-    "/llm/call": MESSAGES["LlmCall"],
-    "/llm/verification": MESSAGES["LlmVerification"],
-    "/dialog": MESSAGES["Utterance"],
-    "/event": MESSAGES["Event"],
-    "/camera/image/compressed": CompressedImage,
-    "/camera/camera_info": CameraCalibration,
-    "/camera/annotations": ImageAnnotations,
-    "/tf": FrameTransforms,
-    "/scene": SceneUpdate,
-    "/mishap": MESSAGES["Mishap"],
-    "/log": Log,
-    "/outcome": MESSAGES["Outcome"],
-}
-"""Every topic with the class of its messages; all are declared in every file, used or not."""
+from logs.topics import TOPICS, most_in
 
 CHUNK_BYTES = 256 * 1024
 """Larger chunks compress better but stall the writer (and lose more if the process is killed)."""
@@ -90,10 +67,11 @@ class McapSink:
         self._file = path.open("wb")
         self._writer: Any = Writer(self._file, chunk_size=CHUNK_BYTES)
         self._writer.start(library="robot-executive")
-        self._writer.add_metadata("run", {"started": started.isoformat(), **metadata})
+        facts = {"started": started.isoformat(), **metadata}
+        self._writer.add_metadata("run", {name: writable(fact) for name, fact in facts.items()})
         for name, data in attachments.items():
             self._writer.add_attachment(
-                self._origin_ns, self._origin_ns, name, _media_type(name), data
+                self._origin_ns, self._origin_ns, writable(name), _media_type(name), data
             )
         self._channels = {
             topic: self._writer.register_channel(
@@ -108,52 +86,84 @@ class McapSink:
         self.flush()
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Write a record to its topic or topics; the first is flushed, and all topics with it."""
-        self._write(stamp, record)
+        """Write a record to its topic or topics; the first is flushed, and all topics with it.
+
+        Of a record that cannot be encoded nothing is written.
+        """
+        for topic, ns, data in self._encoded(stamp, record):
+            self._writer.add_message(self._channels[topic], ns, data, ns, self._sequence[topic])
+            self._sequence[topic] += 1
         if not self._begun:
             self._begun = True
             self.flush()
 
-    def _write(self, stamp: Stamp, record: Record) -> None:
+    def _encoded(self, stamp: Stamp, record: Record) -> list[tuple[str, int, bytes]]:
+        """Topic, log time (ns) and bytes of all messages that a record becomes."""
         ns = self._origin_ns + round(stamp.mission_s * 1e9)
+        if not 0 <= ns < 2**63:
+            raise ValueError(f"a mission time of {stamp.mission_s} s")
+        found = [
+            (topic, ns, message.SerializeToString())
+            for topic, message in self._messages(stamp, record, ns)
+        ]
+        for topic, _, data in found:
+            most = most_in(topic)
+            if len(data) > most:
+                raise ValueError(f"{len(data)} bytes, of which at most {most} are read")
+        return found
+
+    def _messages(self, stamp: Stamp, record: Record, ns: int) -> Iterator[tuple[str, Any]]:
+        def own(message: Any) -> Any:
+            message.timestamp.FromNanoseconds(ns)
+            message.wall_time.FromNanoseconds(stamp.wall_ns)
+            return message
+
         match record:
             case TreeShape():
-                self._add_own("/bt/tree", messages.tree_to_message(record), ns, stamp)
+                yield "/bt/tree", own(messages.tree_to_message(record))
             case Tick():
-                self._add_own("/bt/tick", messages.tick_to_message(record), ns, stamp)
+                yield "/bt/tick", own(messages.tick_to_message(record))
             case LlmCall():
-                self._add_own("/llm/call", messages.llm_call_to_message(record), ns, stamp)
+                yield "/llm/call", own(messages.llm_call_to_message(record))
             case Verified():
-                self._add_own("/llm/verification", messages.verified_to_message(record), ns, stamp)
+                yield "/llm/verification", own(messages.verified_to_message(record))
             case Utterance(speaker, text):
-                self._add_own("/dialog", messages.utterance_to_message(record), ns, stamp)
-                self._add_line(Note("info", f"{speaker}: {text}"), ns)
+                yield "/dialog", own(messages.utterance_to_message(record))
+                yield "/log", foxglove.log_line(Note("info", f"{speaker}: {text}"), ns)
             case EventTaken(event):
-                message = event_to_message(event, stamp.mission_s)
-                self._add_own("/event", message, ns, stamp)
-                self._add_line(Note("debug", in_words(event)), ns)
-            case Mishap():
-                self._add_line(Note("warning", f"{record.fault}: {record.text}"), ns)
-                self._add_own("/mishap", messages.mishap_to_message(record), ns, stamp)
+                yield "/event", own(event_to_message(event, stamp.mission_s))
+                yield "/log", foxglove.log_line(Note("debug", in_words(event)), ns)
+            case Mishap(fault, text):
+                yield "/log", foxglove.log_line(Note("warning", f"{fault}: {text}"), ns)
+                yield "/mishap", own(messages.mishap_to_message(record))
             case Finished(outcome):
-                self._add_line(Note("info", f"{outcome.status}: {outcome.reason}"), ns)
-                self._add_own("/outcome", messages.outcome_to_message(outcome), ns, stamp)
+                ending = f"{outcome.status}: {outcome.reason}"
+                yield "/log", foxglove.log_line(Note("info", ending), ns)
+                yield "/outcome", own(messages.outcome_to_message(outcome))
             case Picture(frame):
-                self._add_picture(frame, ns)
+                yield from self._picture_messages(frame, ns)
             case Seen():
                 taken = self._picture[1] if record.frame_number == self._picture[0] else ns
-                self._add("/camera/annotations", foxglove.image_annotations(record, taken), ns)
+                yield "/camera/annotations", foxglove.image_annotations(record, taken)
             case Scene(entities):
-                self._add("/scene", foxglove.scene_update(entities, ns), ns)
+                yield "/scene", foxglove.scene_update(entities, ns)
             case Path():
-                self._add("/scene", foxglove.path_update(record, ns), ns)
+                yield "/scene", foxglove.path_update(record, ns)
             case Transforms(transforms):
-                self._add("/tf", foxglove.frame_transforms(transforms, ns), ns)
+                yield "/tf", foxglove.frame_transforms(transforms, ns)
                 self._camera_frame_published |= any(
                     t.child == foxglove.CAMERA_FRAME for t in transforms
                 )
             case Note():
-                self._add_line(record, ns)
+                yield "/log", foxglove.log_line(record, ns)
+
+    def _picture_messages(self, frame: Frame, ns: int) -> Iterator[tuple[str, Any]]:
+        self._picture = (frame.number, ns)
+        if not self._camera_frame_published:
+            pose = Transform("map", foxglove.CAMERA_FRAME, frame.pose)
+            yield "/tf", foxglove.frame_transforms([pose], ns)
+        yield "/camera/camera_info", foxglove.camera_calibration(frame, ns)
+        yield "/camera/image/compressed", foxglove.compressed_image(frame, ns)
 
     def flush(self) -> None:
         """Finish the chunk and have it written to the disk: it survives process and power."""
@@ -166,28 +176,6 @@ class McapSink:
             self._writer.finish()
         finally:
             self._file.close()
-
-    def _add_picture(self, frame: Frame, ns: int) -> None:
-        self._picture = (frame.number, ns)
-        if not self._camera_frame_published:
-            pose = Transform("map", foxglove.CAMERA_FRAME, frame.pose)
-            self._add("/tf", foxglove.frame_transforms([pose], ns), ns)
-        self._add("/camera/camera_info", foxglove.camera_calibration(frame, ns), ns)
-        self._add("/camera/image/compressed", foxglove.compressed_image(frame, ns), ns)
-
-    def _add_line(self, note: Note, ns: int) -> None:
-        self._add("/log", foxglove.log_line(note, ns), ns)
-
-    def _add_own(self, topic: str, message: Any, ns: int, stamp: Stamp) -> None:
-        message.timestamp.FromNanoseconds(ns)
-        message.wall_time.FromNanoseconds(stamp.wall_ns)
-        self._add(topic, message, ns)
-
-    def _add(self, topic: str, message: Any, ns: int) -> None:
-        self._writer.add_message(
-            self._channels[topic], ns, message.SerializeToString(), ns, self._sequence[topic]
-        )
-        self._sequence[topic] += 1
 
 
 def _media_type(name: str) -> str:

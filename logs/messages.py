@@ -1,7 +1,10 @@
 """Records to the messages of `schema.py`, and back: each pair side by side."""
 
 import json
+from math import isfinite
 from typing import Any
+
+from pydantic import BaseModel
 
 from executive.records import (
     LlmCall,
@@ -29,6 +32,10 @@ from executive.types import (
 )
 from logs.schema import MESSAGES, STATUS
 
+MOST_BEHAVIOURS = 2000
+MOST_DEEP = 64
+"""Levels of a tree, or of a JSON value."""
+_MOST = 2**63 - 1
 _PARAMETERS = ("temperature", "top_p", "top_k", "seed", "max_tokens")
 
 
@@ -54,7 +61,20 @@ def tree_to_message(tree: TreeShape) -> Any:
 
 
 def tree_from_message(message: Any) -> TreeShape:
-    """The tree of a `/bt/tree` message."""
+    """The tree of a `/bt/tree` message.
+
+    Raises:
+        ValueError: if it is no tree: parents come before their children, and no path comes twice.
+    """
+    if len(message.behaviours) > MOST_BEHAVIOURS:
+        raise ValueError(f"a tree of {len(message.behaviours)} behaviours")
+    levels = {"": 0}
+    for b in message.behaviours:
+        if b.parent_id not in levels or b.own_id in levels:
+            raise ValueError(f"a tree in which {b.own_id!r} comes twice, or before its parent")
+        levels[b.own_id] = levels[b.parent_id] + 1
+        if levels[b.own_id] > MOST_DEEP:
+            raise ValueError(f"a tree of more than {MOST_DEEP} levels")
     return TreeShape(
         tuple(
             NodeShape(b.own_id, b.parent_id, b.name, b.type, b.class_name)
@@ -81,15 +101,96 @@ def tick_to_message(tick: Tick) -> Any:
 
 
 def tick_from_message(message: Any) -> Tick:
-    """The tick of a `/bt/tick` message."""
+    """The tick of a `/bt/tick` message.
+
+    Raises:
+        ValueError: if it has too many behaviours, a status that is none, or knows what no mission
+            does.
+    """
+    if len(message.behaviours) > MOST_BEHAVIOURS:
+        raise ValueError(f"a tick of {len(message.behaviours)} behaviours")
+    situation = {pair.key: _json(pair.value) for pair in message.situation}
+    _Known.model_validate(situation)
     return Tick(
-        number=message.tick,
+        number=whole(message.tick),
         cause=message.cause,
         tip=message.tip_id,
-        nodes=tuple(NodeState(b.own_id, STATUS[b.status], b.message) for b in message.behaviours),
-        situation={pair.key: json.loads(pair.value) for pair in message.situation},
-        duration_s=message.duration_s,
+        nodes=tuple(NodeState(b.own_id, _status(b.status), b.message) for b in message.behaviours),
+        situation=situation,
+        duration_s=finite(message.duration_s),
     )
+
+
+def _status(number: int) -> str:
+    if not 0 < number < len(STATUS):
+        raise ValueError(f"{number} is no status of a behaviour")
+    return STATUS[number]
+
+
+class _There(BaseModel):
+    """A place, and who says so."""
+
+    place: str
+
+
+class _Asked(BaseModel):
+    """A command."""
+
+    kind: str | None = None
+
+
+class _Known(BaseModel):
+    """What readers look for in a situation, if it is there; the rest may be anything."""
+
+    command: _Asked | None = None
+    candidates: list[_There] | None = None
+    candidate: _There | None = None
+    found: _There | None = None
+    visited: list[str] | None = None
+    unreached: dict[str, str] | None = None
+    among: list[str] | None = None
+
+
+def _json(text: str) -> Any:
+    """A JSON value that is not nested too deeply for whatever reads it.
+
+    Raises:
+        ValueError: if it is none.
+        RecursionError: if it is nested very deeply.
+    """
+    value = json.loads(text)
+    level = [value]
+    for _ in range(MOST_DEEP):
+        level = [inner for outer in level if isinstance(outer, list | dict) for inner in _in(outer)]
+        if not level:
+            return value
+    raise ValueError(f"a value is nested more than {MOST_DEEP} times")
+
+
+def _in(outer: list[Any] | dict[str, Any]) -> Any:
+    return outer.values() if isinstance(outer, dict) else outer
+
+
+def whole(number: int) -> int:
+    """A number of things, as every table can hold it.
+
+    Raises:
+        ValueError: if it is none.
+    """
+    if not 0 <= number <= _MOST:
+        raise ValueError(f"{number} is no number of things")
+    return number
+
+
+def finite(number: float) -> float:
+    """A measure of something.
+
+    Raises:
+        ValueError: if it is none.
+    """
+    if not isfinite(number):
+        raise ValueError(f"{number} is no measure of anything")
+    return number
 
 
 # --- the language model ---
@@ -103,11 +204,11 @@ def llm_call_to_message(call: LlmCall) -> Any:
         gen_ai_operation_name="chat" if isinstance(result, Replied) else "rank",
         gen_ai_request_model=usage.model,
         gen_ai_response_time_to_first_chunk=usage.first_token_s,
-        gen_ai_usage_input_tokens=usage.input_tokens,
-        gen_ai_usage_cache_read_input_tokens=usage.input_tokens - usage.evaluated_tokens,
-        gen_ai_usage_output_tokens=usage.output_tokens,
+        gen_ai_usage_input_tokens=_figure(usage.input_tokens),
+        gen_ai_usage_cache_read_input_tokens=_figure(usage.input_tokens - usage.evaluated_tokens),
+        gen_ai_usage_output_tokens=_figure(usage.output_tokens),
         duration_s=usage.total_s,
-        prepared_tokens=usage.prepared_tokens,
+        prepared_tokens=_figure(usage.prepared_tokens),
         prepared_s=usage.prepared_s,
     )
     _add_parameters(message, usage)
@@ -131,20 +232,26 @@ def llm_call_to_message(call: LlmCall) -> Any:
 
 
 def llm_call_from_message(message: Any) -> LlmCall:
-    """The call of a `/llm/call` message."""
+    """The call of a `/llm/call` message.
+
+    Raises:
+        ValueError: if it asks nothing, or a figure in it is none.
+    """
+    read = whole(message.gen_ai_usage_input_tokens)
     usage = Usage(
         model=message.gen_ai_request_model,
-        input_tokens=message.gen_ai_usage_input_tokens,
-        evaluated_tokens=message.gen_ai_usage_input_tokens
-        - message.gen_ai_usage_cache_read_input_tokens,
-        output_tokens=message.gen_ai_usage_output_tokens,
-        first_token_s=message.gen_ai_response_time_to_first_chunk,
-        total_s=message.duration_s,
-        prepared_tokens=message.prepared_tokens,
-        prepared_s=message.prepared_s,
+        input_tokens=read,
+        evaluated_tokens=read - whole(message.gen_ai_usage_cache_read_input_tokens),
+        output_tokens=whole(message.gen_ai_usage_output_tokens),
+        first_token_s=finite(message.gen_ai_response_time_to_first_chunk),
+        total_s=finite(message.duration_s),
+        prepared_tokens=whole(message.prepared_tokens),
+        prepared_s=finite(message.prepared_s),
         parameters=_parameters(message),
     )
     asked = _turns(message.gen_ai_input_messages)
+    if not asked:
+        raise ValueError("a call of the model that asks nothing")
     if message.gen_ai_operation_name == "rank":
         ranking = RankRequest(
             label=message.label,
@@ -159,7 +266,7 @@ def llm_call_from_message(message: Any) -> LlmCall:
             kind=message.kind,
         )
         return LlmCall(Scored(ranking, tuple(o.score for o in message.options), usage))
-    schema = json.loads(message.output_schema) if message.output_schema else None
+    schema = _json(message.output_schema) if message.output_schema else None
     return LlmCall(
         Replied(
             ChatRequest(message.label, asked, schema),
@@ -168,6 +275,11 @@ def llm_call_from_message(message: Any) -> LlmCall:
             finish_reason="".join(message.gen_ai_response_finish_reasons),
         )
     )
+
+
+def _figure(count: float) -> int:
+    """A number of tokens, whatever a server calls one: what is none is recorded as 0."""
+    return int(count) if isfinite(count) and 0 <= count <= _MOST else 0
 
 
 def _add_parameters(message: Any, usage: Usage) -> None:
@@ -183,7 +295,7 @@ def _parameters(message: Any) -> dict[str, float | int | str]:
         name: getattr(message, f"gen_ai_request_{name}")
         for name in _PARAMETERS
         if message.HasField(f"gen_ai_request_{name}")
-    } | {pair.key: json.loads(pair.value) for pair in message.other_parameters}
+    } | {pair.key: _json(pair.value) for pair in message.other_parameters}
 
 
 def _add_turns(field: Any, messages: tuple[Message, ...]) -> None:
@@ -267,18 +379,18 @@ def outcome_from_message(message: Any) -> Outcome:
         reason=message.reason,
         source=Source(source) if source else None,
         location=optional("location"),
-        inquiries=message.inquiries,
+        inquiries=whole(message.inquiries),
         visited=tuple(message.visited),
-        llm_calls=message.llm_calls,
+        llm_calls=whole(message.llm_calls),
         candidates=tuple(
             Candidate(
                 c.place, Source(c.source), c.probability if c.HasField("probability") else None
             )
             for c in message.candidates
         ),
-        mission_time_s=message.mission_time_s,
-        thinking_time_s=message.thinking_time_s,
-        wall_time_s=message.wall_time_s,
+        mission_time_s=finite(message.mission_time_s),
+        thinking_time_s=finite(message.thinking_time_s),
+        wall_time_s=finite(message.wall_time_s),
         run_dir=optional("run_dir"),
-        model_failure=getattr(message, "model_failure", ""),
+        model_failure=message.model_failure,
     )

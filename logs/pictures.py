@@ -1,12 +1,16 @@
 """The camera's pictures as files: singly, or as a video in mission time."""
 
-from collections.abc import Iterable
-from itertools import pairwise
+import warnings
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from executive.errors import InputError
 from logs.reader import At
@@ -15,57 +19,108 @@ VIDEO_HZ = 10
 """Pictures a second in a video; between two of the camera's the first one stays."""
 
 
-def write_files(frames: Iterable[At[bytes]], folder: Path, *, png: bool = False) -> list[Path]:
-    """Write each picture to `folder` as `<number>-<mission time>s.jpg`, or as PNG.
+MOST_PIXELS = 64_000_000
+"""Of one picture: a few hundred bytes of JPEG can say that they are a billion."""
+LONGEST_VIDEO_S = 6 * 3600.0
+
+Frames = Iterable[At[bytes]]
+
+
+def write_files(frames: Frames, folder: Path, *, png: bool = False) -> list[Path]:
+    """Write each picture to `folder` as `<number>-<mission time>s.jpg`, or as PNG; all or none.
 
     Raises:
-        InputError: if the folder or a file cannot be written.
+        InputError: if the folder or a file cannot be written, or a picture cannot be read.
     """
-    written = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for number, at in enumerate(frames, start=1):
-            data = cv2.imencode(".png", _image(at.value))[1].tobytes() if png else at.value
-            name = f"{number:05}-{at.time_s:.3f}s{'.png' if png else '.jpg'}"
-            written.append(folder / name)
-            written[-1].write_bytes(data)
+        with TemporaryDirectory(dir=folder, prefix=".pictures") as unfinished:
+            names = []
+            for number, at in enumerate(frames, start=1):
+                data = cv2.imencode(".png", _image(at.value))[1].tobytes() if png else at.value
+                names.append(f"{number:05}-{at.time_s:.3f}s{'.png' if png else '.jpg'}")
+                (Path(unfinished) / names[-1]).write_bytes(data)
+            return [(Path(unfinished) / name).replace(folder / name) for name in names]
     except OSError as error:
         raise InputError(str(folder), f"cannot be written: {error.strerror}") from error
-    return written
 
 
-def write_video(frames: Iterable[At[bytes]], file: Path) -> int:
+def write_video(frames: Frames, file: Path) -> int:
     """Write an MP4 (MPEG-4) in which a second is a second of the mission; return its pictures.
 
     All pictures are shown at the size of the largest.
 
+    Args:
+        frames: the pictures, which are gone through twice.
+        file: appears when the video is finished; an existing one is replaced.
+
     Raises:
-        InputError: if there are no pictures, or the file cannot be written.
+        InputError: if there are no pictures, they span too long a time, or the file cannot be
+            written.
     """
-    taken = list(frames)
-    if not taken:
+    sizes = [(at.time_s, *_size(at.value)) for at in frames]
+    if not sizes:
         raise InputError(str(file), "the recording holds no pictures to make a video of")
-    height, width = max(_image(at.value).shape[:2] for at in taken)
-    video, shown = _open(file, (width, height)), 0
-    for at, following in pairwise(taken):
-        image = cv2.resize(_image(at.value), (width, height))
-        while shown < (following.time_s - taken[0].time_s) * VIDEO_HZ:
+    start_s = min(time_s for time_s, _, _ in sizes)
+    long_s = max(time_s for time_s, _, _ in sizes) - start_s
+    if long_s > LONGEST_VIDEO_S:
+        what = f"a video of {long_s:.0f} s is longer than the {LONGEST_VIDEO_S:.0f} that are made"
+        raise InputError(str(file), what, "name a folder, for single pictures")
+    size = max(width for _, width, _ in sizes), max(height for _, _, height in sizes)
+    with _video(file, size) as video:
+        return _show(frames, video, size, start_s)
+
+
+def _show(frames: Frames, video: cv2.VideoWriter, size: tuple[int, int], start_s: float) -> int:
+    """Show each picture until the next one was taken, the last one once."""
+    shown = 0
+    image: NDArray[np.uint8] | None = None
+    for at in frames:
+        while image is not None and shown < (at.time_s - start_s) * VIDEO_HZ:
             video.write(image)
             shown += 1
-    video.write(cv2.resize(_image(taken[-1].value), (width, height)))
-    video.release()
+        image = np.asarray(cv2.resize(_image(at.value), size), np.uint8)
+    if image is not None:
+        video.write(image)
     return shown + 1
 
 
-def _open(file: Path, size: tuple[int, int]) -> cv2.VideoWriter:
-    video = cv2.VideoWriter(str(file), cv2.VideoWriter.fourcc(*"mp4v"), VIDEO_HZ, size)
-    if not video.isOpened():
-        raise InputError(str(file), "cannot be written", "name a .mp4 file in an existing folder")
-    return video
+@contextmanager
+def _video(file: Path, size: tuple[int, int]) -> Iterator[cv2.VideoWriter]:
+    right = "name a .mp4 file in an existing folder"
+    try:
+        with TemporaryDirectory(dir=file.parent, prefix=".video") as unfinished:
+            new = Path(unfinished) / file.name
+            video = cv2.VideoWriter(str(new), cv2.VideoWriter.fourcc(*"mp4v"), VIDEO_HZ, size)
+            if not video.isOpened():
+                raise InputError(str(file), "cannot be written", right)
+            yield video
+            video.release()
+            new.replace(file)
+    except OSError as error:
+        raise InputError(str(file), f"cannot be written: {error.strerror}", right) from error
 
 
 def _image(jpeg: bytes) -> NDArray[np.uint8]:
+    _size(jpeg)
     image = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR)
     if image is None:
         raise InputError("/camera/image/compressed", "a picture cannot be decoded")
     return image.astype(np.uint8, copy=False)
+
+
+def _size(jpeg: bytes) -> tuple[int, int]:
+    """Width and height of a picture, read before it is decoded.
+
+    Raises:
+        InputError: if it is no JPEG, or too large.
+    """
+    try:
+        with warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning):
+            width, height = Image.open(BytesIO(jpeg), formats=["JPEG"]).size
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        raise InputError("/camera/image/compressed", "a picture cannot be decoded") from error
+    if width * height > MOST_PIXELS:
+        what = f"a picture of {width} x {height} pixels is larger than what is decoded"
+        raise InputError("/camera/image/compressed", what)
+    return width, height

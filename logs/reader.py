@@ -1,26 +1,45 @@
 """A recorded mission, read back as the records it was made of."""
 
-import contextlib
+import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
+from math import isfinite
 from pathlib import Path
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from mcap.reader import McapReader, NonSeekingReader, make_reader
-from mcap.records import Attachment, Channel, Message, Metadata
-from mcap_protobuf.decoder import DecoderFactory
+from google.protobuf.message import DecodeError
+from mcap.records import Attachment, Channel, McapRecord, Message, Metadata, Schema
+from pydantic import ValidationError
 
 from executive.errors import InputError
 from executive.events import Event
 from executive.records import LlmCall, Mishap, Tick, TreeShape, Utterance, Verified
+from executive.text import printable
 from executive.types import Outcome
 from logs import messages
 from logs.event_messages import event_from_message
-from logs.recovery import BREAKS, SoundRecords, damaged_at, is_whole
+from logs.mcap_file import Damage, MiB, is_whole, records
+from logs.schema import recorded_class
 from logs.times import nanoseconds
+from logs.topics import TOPICS, is_own, most_in
 
 FILE_NAME = "mission.mcap"
+MOST_READ, OVERHEAD = 128 * MiB, 256
+"""Of all messages that one question reads, and what each one costs beside its bytes (bytes)."""
+LONGEST_S = 30 * 86_400.0
+"""No mission takes longer: a time beyond it is wrong."""
+_MISFITS = (
+    DecodeError,
+    ValueError,
+    TypeError,
+    LookupError,
+    AttributeError,
+    ArithmeticError,
+    RecursionError,
+)
+"""What turning a message into a record raises where it is not as we write it."""
+_WHY_LENGTH = 200
 
 T = TypeVar("T")
 
@@ -54,9 +73,7 @@ class Run:
         Raises:
             InputError: if there is none, or it records no mission.
         """
-        self.path = folder / FILE_NAME if folder.is_dir() else folder
-        if not self.path.is_file():
-            raise InputError(str(folder), f"holds no {FILE_NAME}", "name a run's folder")
+        self.path = mcap_of(folder)
         named = self.path.parent if self.path.name == FILE_NAME else self.path
         self.name = named.resolve().name
         """What to call it: its folder's name."""
@@ -65,17 +82,32 @@ class Run:
         self.metadata: dict[str, str] = {}
         """Facts about the run: start, seed, versions, model."""
         self.attachments: dict[str, bytes] = {}
-        """Files kept with it, by name: configuration, home, ontology."""
+        """Files kept with it, by name: configuration, home, ontology. No name leads anywhere."""
+        self._tree: TreeShape | None = None
         self._check()
+
+    def config(self) -> dict[str, Any]:
+        """The recorded settings, as they were written down; empty if none were.
+
+        Raises:
+            InputError: if they are no TOML.
+        """
+        try:
+            return tomllib.loads(self.attachments.get("config.toml", b"").decode())
+        except (ValueError, RecursionError) as error:
+            what = f"its config.toml is not TOML: {_why(error)}"
+            raise InputError(str(self.path), what) from error
 
     def tree(self) -> TreeShape:
         """The tree's shape; empty if the mission ended before it was recorded."""
-        shapes = self._read("/bt/tree", messages.tree_from_message)
-        return next((at.value for at in shapes), TreeShape(()))
+        if self._tree is None:
+            shapes = self._read("/bt/tree", messages.tree_from_message)
+            self._tree = next((at.value for at in shapes), TreeShape(()))
+        return self._tree
 
     def ticks(self) -> Iterator[At[Tick]]:
         """Every tick, with all behaviours' states."""
-        return self._read("/bt/tick", messages.tick_from_message)
+        return self._read("/bt/tick", self._tick_from_message)
 
     def llm_calls(self) -> Iterator[At[LlmCall]]:
         """Every call of the language model."""
@@ -98,7 +130,7 @@ class Run:
         time_s, events = 0.0, list[Event]()
         decoders: dict[str, Callable[[Any], _Exact | Tick]] = {
             "/event": _exact_event,
-            "/bt/tick": messages.tick_from_message,
+            "/bt/tick": self._tick_from_message,
         }
         for _, at in self._read_all(decoders):
             if isinstance(at.value, Tick):
@@ -113,7 +145,7 @@ class Run:
     def thoughts(self) -> Iterator[At[Tick | LlmCall | Verified]]:
         """Ticks, calls of the model and verifications, in the order in which they were."""
         decoders: dict[str, Callable[[Any], Tick | LlmCall | Verified]] = {
-            "/bt/tick": messages.tick_from_message,
+            "/bt/tick": self._tick_from_message,
             "/llm/call": messages.llm_call_from_message,
             "/llm/verification": messages.verified_from_message,
         }
@@ -135,72 +167,133 @@ class Run:
     def last_time_s(self) -> float:
         """Mission time of the last message of all (s)."""
         last = self._origin_ns
-        for record in SoundRecords(self.path):
+        for _, record in self._records("its end"):
             if isinstance(record, Message):
                 last = max(last, record.log_time)
         return (last - self._origin_ns) / 1e9
 
     def _check(self) -> None:
         """Read the facts at the start of the file; refuse what is no mission."""
-        records = SoundRecords(self.path)
-        for record in records:
+        for _, record in self._records("its start"):
             if isinstance(record, Metadata) and record.name == "run":
                 self.metadata = record.metadata
-            elif isinstance(record, Attachment):
-                self.attachments[record.name] = record.data
+            elif isinstance(record, Attachment) and _is_plain(record.name):
+                self.attachments.setdefault(record.name, record.data)
             elif isinstance(record, Channel) and record.topic == "/bt/tree":
                 break
         else:
-            damaged = records.damaged_at
             raise InputError(
                 str(self.path),
                 "records no mission: topic /bt/tree is missing"
-                + (f" (nothing can be read from byte {damaged} on)" if damaged else ""),
+                + ("" if self.whole else f" (it ends early, at byte {self.path.stat().st_size})"),
                 f"name a run's folder or its {FILE_NAME}",
             )
         try:
-            started = datetime.fromisoformat(self.metadata["started"])
-        except (KeyError, ValueError) as error:
+            self._origin_ns = nanoseconds(datetime.fromisoformat(self.metadata["started"]))
+        except (KeyError, ValueError, OverflowError) as error:
             what = "its metadata 'run' names no time 'started'"
             raise InputError(str(self.path), what) from error
-        self._origin_ns = nanoseconds(started)
+
+    def _tick_from_message(self, message: Any) -> Tick:
+        tick = messages.tick_from_message(message)
+        told = {node.path for node in tick.nodes}
+        if missing := next((n.path for n in self.tree().nodes if n.path not in told), None):
+            raise ValueError(f"a tick that does not tell how {missing!r} is")
+        return tick
 
     def _read(self, topic: str, decode: Callable[[Any], T]) -> Iterator[At[T]]:
         return (at for _, at in self._read_all({topic: decode}))
 
     def _read_all(self, decoders: dict[str, Callable[[Any], T]]) -> Iterator[tuple[str, At[T]]]:
         """What was recorded under these topics, in the order in which it was."""
-        topic = ", ".join(decoders)
-        try:
-            for topic, time_ns, message in self._messages(tuple(decoders)):
-                yield topic, At((time_ns - self._origin_ns) / 1e9, decoders[topic](message))
-        except AttributeError as error:
-            what = f"{topic} is not as this version records it: {error}"
-            raise InputError(str(self.path), what) from error
-        except BREAKS as error:
-            where = damaged_at(self.path)
-            what = f"{topic} cannot be read: " + (
-                str(error) if where is None else f"the file is damaged at byte {where}"
-            )
-            right = f"`python -m logs recover {self.path}` saves the rest"
-            raise InputError(str(self.path), what, right) from error
+        reading = _Reading(tuple(decoders), self._origin_ns)
+        for offset, record in self._records(", ".join(decoders)):
+            try:
+                if (found := reading.take(record)) is None:
+                    continue
+                topic, time_s, message = found
+                value = decoders[topic](message)
+            except _MISFITS as error:
+                raise self._damaged(reading.topic, _why(error), offset) from error
+            yield topic, At(time_s, value)
 
-    def _messages(self, topics: tuple[str, ...]) -> Iterator[tuple[str, int, Any]]:
-        """Topics, log times (ns), decoded messages: all, or from the start to the break."""
-        factories = [DecoderFactory()]
-        with self.path.open("rb") as file:
-            reader: McapReader
-            broken: contextlib.AbstractContextManager[None]
-            if self.whole:
-                reader, broken = make_reader(file, True, factories), contextlib.nullcontext()
-            else:
-                reader = NonSeekingReader(file, decoder_factories=factories)
-                broken = contextlib.suppress(*BREAKS)
-            with broken:
-                for _, channel, message, decoded in reader.iter_decoded_messages(
-                    topics, log_time_order=False
-                ):
-                    yield channel.topic, message.log_time, decoded
+    def _records(self, wanted: str) -> Iterator[tuple[int, McapRecord]]:
+        """All records, or those from the start of a file that was never closed to its break.
+
+        Raises:
+            InputError: at what cannot be read.
+        """
+        for offset, found in records(self.path):
+            if not isinstance(found, Damage):
+                yield offset, found
+            elif self.whole or not found.cut:
+                right = f"`python -m logs recover {self.path}` saves the rest"
+                raise self._damaged(wanted, found.what, offset, right)
+
+    def _damaged(self, wanted: str, why: str, offset: int, right: str = "") -> InputError:
+        what = f"{wanted} cannot be read: {why}: the file is damaged at byte {offset}"
+        return InputError(str(self.path), what, right)
+
+
+def mcap_of(folder: Path) -> Path:
+    """The recording in a run's folder, or the file itself.
+
+    Raises:
+        InputError: if there is none.
+    """
+    file = folder / FILE_NAME if folder.is_dir() else folder
+    if not file.is_file():
+        raise InputError(str(folder), f"holds no {FILE_NAME}", "name a run's folder")
+    return file
+
+
+class _Reading:
+    """Finds the messages of some topics among records, and parses them as they were defined."""
+
+    def __init__(self, topics: tuple[str, ...], origin_ns: int) -> None:
+        self.topic = topics[0]
+        """What was read last."""
+        self._topics = topics
+        self._origin_ns = origin_ns
+        self._room = MOST_READ
+        self._schemas: dict[int, Schema] = {}
+        self._channels: dict[int, Channel] = {}
+
+    def take(self, record: McapRecord) -> tuple[str, float, Any] | None:
+        """Topic, mission time (s) and message, if it is one that is wanted."""
+        match record:
+            case Schema():
+                self._schemas.setdefault(record.id, record)
+            case Channel():
+                self._channels.setdefault(record.id, record)
+            case Message():
+                channel = self._channels.get(record.channel_id)
+                if channel is None:
+                    raise ValueError(f"a message of channel {record.channel_id}, which is not told")
+                if channel.topic in self._topics:
+                    return self._parsed(channel, record)
+        return None
+
+    def _parsed(self, channel: Channel, message: Message) -> tuple[str, float, Any]:
+        self.topic = channel.topic
+        time_s = in_mission((message.log_time - self._origin_ns) / 1e9)
+        size = len(message.data)
+        if is_own(channel.topic):
+            self._room -= size + OVERHEAD
+        if size > most_in(channel.topic) or self._room < 0:
+            raise ValueError(f"a message of {size} bytes, or all before it, are more than is read")
+        return channel.topic, time_s, self._class(channel).FromString(message.data)
+
+    def _class(self, channel: Channel) -> Any:
+        """What the topic's messages are, with the numbers of the fields that the file has."""
+        kind = TOPICS[channel.topic]
+        name = kind.DESCRIPTOR.full_name
+        schema = self._schemas.get(channel.schema_id)
+        if schema is None or schema.name != name or channel.message_encoding != "protobuf":
+            raise ValueError(f"its messages should be {name}")
+        if not is_own(channel.topic):
+            return kind
+        return recorded_class(kind.DESCRIPTOR.name, schema.data)
 
 
 class _Exact(NamedTuple):
@@ -209,4 +302,31 @@ class _Exact(NamedTuple):
 
 
 def _exact_event(message: Any) -> _Exact:
-    return _Exact(message.mission_time_s, event_from_message(message))
+    return _Exact(in_mission(message.mission_time_s), event_from_message(message))
+
+
+def in_mission(time_s: float) -> float:
+    """A mission time (s), which must be one.
+
+    Raises:
+        ValueError: if no mission has it.
+    """
+    if not isfinite(time_s) or abs(time_s) > LONGEST_S:
+        raise ValueError(f"a time of {time_s:.6g} s is none of a mission")
+    return time_s
+
+
+def _is_plain(name: str) -> bool:
+    """Whether an attachment is called as a file in a folder may be."""
+    plain = name == Path(name).name and name not in ("", ".", "..") and printable(name) == name
+    return plain and len(name.encode()) <= 255
+
+
+def _why(error: Exception) -> str:
+    """What does not fit, in a few words."""
+    if isinstance(error, ValidationError):
+        fault = error.errors(include_url=False, include_input=False)[0]
+        return f"{'.'.join(map(str, fault['loc']))}: {fault['msg']}"
+    if isinstance(error, RecursionError):
+        return "it is nested too deeply"
+    return f"{error}"[:_WHY_LENGTH]

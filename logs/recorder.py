@@ -10,6 +10,8 @@ from datetime import datetime
 from typing import NamedTuple, Protocol
 
 from executive.records import Note, Record
+from executive.text import printable
+from logs.unwritten import Unwritten
 
 log = logging.getLogger(__name__)
 
@@ -40,7 +42,7 @@ class Sink(Protocol):
     """One log. Everything but its making happens in the writing thread; it may raise."""
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Keep a record."""
+        """Keep a record. An OSError is the end of the log, another exception that of the record."""
         ...
 
     def flush(self) -> None:
@@ -56,8 +58,9 @@ class FanOut:
     """The Recorder: stamps each record with the time and passes it to every sink.
 
     It outlives missions: `open` begins a mission's logs, `close` ends them, and what is recorded in
-    between reaches the sinks in order. A sink that raises is closed and dropped, and the others are
-    told. Records are not copied: whoever hands one over must not change it afterwards.
+    between reaches the sinks in order. A record that a sink cannot write costs it that record, and
+    is told once a kind; a sink that the disk fails is closed and dropped, and the others are told.
+    Records are not copied: whoever hands one over must not change it afterwards.
     """
 
     def __init__(self, now: Callable[[], float], *, live: bool = False) -> None:
@@ -89,6 +92,7 @@ class _Writer:
 
     def __init__(self, sinks: Sequence[Sink], rest_s: float) -> None:
         self._sinks = list(sinks)
+        self._unwritten = {id(sink): Unwritten(type(sink).__name__) for sink in sinks}
         self._rest_s = rest_s
         self._queue: queue.SimpleQueue[tuple[Stamp, Record | None]] = queue.SimpleQueue()
         self._hurry = threading.Event()
@@ -140,7 +144,16 @@ class _Writer:
             self._hurry.clear()
 
     def _write(self, stamp: Stamp, record: Record) -> None:
-        self._each(stamp, lambda sink: sink.write(stamp, record))
+        self._each(stamp, lambda sink: self._write_to(sink, stamp, record))
+
+    def _write_to(self, sink: Sink, stamp: Stamp, record: Record) -> None:
+        try:
+            sink.write(stamp, record)
+        except OSError:
+            raise
+        except Exception as error:  # noqa: BLE001 - whatever is wrong is wrong with this record
+            if note := self._unwritten[id(sink)].note(type(record).__name__, error):
+                self._write(stamp, note)
 
     def _each(self, stamp: Stamp, do: Callable[[Sink], None]) -> None:
         """Do it to every sink; close and drop those that raise, and tell the others."""
@@ -163,6 +176,6 @@ class _Writer:
                 self._warn(stamp, sink, "could not be finished", error)
 
     def _warn(self, stamp: Stamp, sink: Sink, what: str, error: BaseException) -> None:
-        text = f"{type(sink).__name__} {what}: {type(error).__name__}: {error}"
+        text = printable(f"{type(sink).__name__} {what}: {type(error).__name__}: {error}")
         log.warning(text)
         self._write(stamp, Note("warning", text))

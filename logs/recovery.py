@@ -1,133 +1,135 @@
-"""Reading mcap files that end early or are damaged, and making them whole again."""
+"""Making mcap files that end early or are damaged whole again."""
 
-import contextlib
-import struct
+import os
+import tempfile
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
-from mcap.exceptions import McapError
-from mcap.reader import make_reader
-from mcap.records import Attachment, Channel, Chunk, Header, McapRecord, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader, breakup_chunk
+from mcap.records import Attachment, Channel, Header, McapRecord, Message, Metadata, Schema
 from mcap.writer import Writer
-from zstandard import ZstdError
 
 from executive.errors import InputError
+from logs.mcap_file import Damage, records
 from logs.mcap_sink import CHUNK_BYTES
 
-BREAKS = (McapError, struct.error, ZstdError, ValueError, UnicodeDecodeError, EOFError)
-"""What reading raises where a file ends early or is damaged."""
 
-
-def is_whole(path: Path) -> bool:
-    """Whether the file has the index that is written last.
+def first_damage(path: Path) -> tuple[int, Damage] | None:
+    """The first thing that does not read, and its offset (bytes); None if all does.
 
     Raises:
         InputError: if it is no mcap file at all.
     """
-    try:
-        with path.open("rb") as file:
-            if not isinstance(next(StreamReader(file).records, None), Header):
-                raise InputError(str(path), "is not an mcap file", "the magic number is missing")
-            file.seek(0)
-            with contextlib.suppress(*BREAKS):
-                return make_reader(file).get_summary() is not None
-            return False
-    except OSError as error:
-        raise InputError(str(path), error.strerror or "cannot be read") from error
-    except BREAKS as error:
-        raise InputError(str(path), "is not an mcap file", "its header is missing") from error
-
-
-class SoundRecords:
-    """The records of a file that read: damaged chunks are passed over, a break ends it."""
-
-    def __init__(self, path: Path) -> None:
-        """Read this file when iterated over."""
-        self._path = path
-        self.damaged_at: int | None = None
-        """Offset (bytes) of the first record that does not read, as far as was iterated."""
-
-    def __iter__(self) -> Iterator[McapRecord]:
-        """All records, those in chunks singly."""
-        with self._path.open("rb") as file:
-            offset = 0
-            try:
-                for record in StreamReader(file, emit_chunks=True).records:
-                    if isinstance(record, Chunk):
-                        yield from self._inside(record, offset)
-                    else:
-                        yield record
-                    offset = file.tell()
-            except BREAKS:
-                self._note(offset)
-
-    def _inside(self, chunk: Chunk, offset: int) -> Iterator[McapRecord]:
-        try:
-            records = list(breakup_chunk(chunk, validate_crc=True))
-        except BREAKS:
-            self._note(offset)
-            return
-        yield from records
-
-    def _note(self, offset: int) -> None:
-        if self.damaged_at is None:
-            self.damaged_at = offset
+    found = ((at, record) for at, record in records(path) if isinstance(record, Damage))
+    return next(found, None)
 
 
 def damaged_at(path: Path) -> int | None:
     """Offset (bytes) of the first record that does not read; None if all do."""
-    records = SoundRecords(path)
-    for _ in records:
-        pass
-    return records.damaged_at
+    damage = first_damage(path)
+    return damage[0] if damage else None
 
 
 def recover(path: Path) -> Path:
     """Write what can be read of a broken file to `<name>.recovered.mcap` beside it.
 
+    The file is there whole or, if anything goes wrong, not at all; the broken one is left as it is.
+
     Raises:
-        InputError: if it is no mcap file at all.
+        InputError: if it is no mcap file at all, nothing of it reads, or there is no room.
     """
-    is_whole(path)
-    target = path.with_suffix(".recovered.mcap")
-    with target.open("wb") as file:
-        writer: Any = Writer(file, chunk_size=CHUNK_BYTES)
-        schemas: dict[int, int] = {0: 0}
-        channels: dict[int, int] = {}
-        for record in SoundRecords(path):
-            match record:
-                case Header():
-                    writer.start(record.profile, record.library)
-                case Schema() if record.id not in schemas:
-                    schemas[record.id] = writer.register_schema(
-                        record.name, record.encoding, record.data
-                    )
-                case Channel() if record.id not in channels:
-                    channels[record.id] = writer.register_channel(
-                        record.topic,
-                        record.message_encoding,
-                        schemas[record.schema_id],
-                        record.metadata,
-                    )
-                case Message() if record.channel_id in channels:
-                    writer.add_message(
-                        channels[record.channel_id],
-                        record.log_time,
-                        record.data,
-                        record.publish_time,
-                        record.sequence,
-                    )
-                case Attachment():
-                    writer.add_attachment(
-                        record.create_time,
-                        record.log_time,
-                        record.name,
-                        record.media_type,
-                        record.data,
-                    )
-                case Metadata():
-                    writer.add_metadata(record.name, record.metadata)
-        writer.finish()
+    target = path.with_name(f"{path.stem}.recovered.mcap")
+    with written(target) as file:
+        _copy(path, file)
     return target
+
+
+@contextmanager
+def written(target: Path) -> Iterator[IO[bytes]]:
+    """A file to write, which takes its place and its name when all is written, or is removed.
+
+    Raises:
+        InputError: if it cannot be written.
+    """
+    try:
+        with tempfile.NamedTemporaryFile(
+            dir=target.parent, prefix=f".{target.name}.", delete=False
+        ) as file:
+            new = Path(file.name)
+            try:
+                yield file
+                file.flush()
+                os.fsync(file.fileno())
+                new.chmod(0o666 & ~_umask())
+                new.replace(target)
+            except BaseException:
+                new.unlink(missing_ok=True)
+                raise
+    except OSError as error:
+        right = "name a file in a folder that can be written to and has room"
+        raise InputError(str(target), f"cannot be written: {error.strerror}", right) from error
+
+
+def _umask() -> int:
+    """The mask of new files, which can only be read by setting it."""
+    mask = os.umask(0o022)
+    os.umask(mask)
+    return mask
+
+
+def _copy(path: Path, file: IO[bytes]) -> None:
+    copy: _Copy | None = None
+    for _, record in records(path):
+        if isinstance(record, Header) and copy is None:
+            copy = _Copy(file, record)
+        elif copy is not None and not isinstance(record, Damage):
+            copy.add(record)
+    if copy is None:
+        raise InputError(str(path), "nothing of it can be read", "its header is damaged")
+    copy.finish()
+
+
+class _Copy:
+    """Writes records anew, with what they refer to; what refers to nothing is left out."""
+
+    def __init__(self, file: IO[bytes], header: Header) -> None:
+        self._writer: Any = Writer(file, chunk_size=CHUNK_BYTES)
+        self._writer.start(header.profile, header.library)
+        self._schemas = {0: 0}
+        self._channels: dict[int, int] = {}
+
+    def add(self, record: McapRecord) -> None:
+        writer = self._writer
+        match record:
+            case Schema() if record.id not in self._schemas:
+                schema = writer.register_schema(record.name, record.encoding, record.data)
+                self._schemas[record.id] = schema
+            case Channel() if record.id not in self._channels and record.schema_id in self._schemas:
+                self._channels[record.id] = writer.register_channel(
+                    record.topic,
+                    record.message_encoding,
+                    self._schemas[record.schema_id],
+                    record.metadata,
+                )
+            case Message() if record.channel_id in self._channels:
+                writer.add_message(
+                    self._channels[record.channel_id],
+                    record.log_time,
+                    record.data,
+                    record.publish_time,
+                    record.sequence,
+                )
+            case Attachment():
+                writer.add_attachment(
+                    record.create_time,
+                    record.log_time,
+                    record.name,
+                    record.media_type,
+                    record.data,
+                )
+            case Metadata():
+                writer.add_metadata(record.name, record.metadata)
+
+    def finish(self) -> None:
+        self._writer.finish()

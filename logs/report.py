@@ -7,6 +7,7 @@ from textwrap import shorten
 from typing import Any
 
 from executive.records import LlmCall, NodeState, Tick, Verified
+from executive.text import printable
 from executive.types import Replied, Scored
 from logs.event_messages import in_words
 from logs.reader import At, Run
@@ -158,21 +159,23 @@ def summary_text(rows: Sequence[Row]) -> str:
 def _in_words(row: Row) -> str:
     size = f"{row['ticks']} ticks, {row['frames']} frames"
     outcome = row["outcome"]
+    name = printable(row["run"])
     if outcome is None:
         why = "" if row["whole"] else " (the recording ends early)"
-        return f"{row['run']}: no outcome{why}; {size}"
+        return f"{name}: no outcome{why}; {size}"
     where = f" in {outcome['location']} (says {outcome['source']})" if outcome["location"] else ""
     reason = f": {outcome['reason']}" if outcome["reason"] else ""
-    split = ", ".join(f"{name} {spent:.1f}" for name, spent in row["time_by_behaviour_s"].items())
-    return (
-        f"{row['run']}: {outcome['command']!r} {outcome['status']}{where}{reason}\n"
+    split = ", ".join(f"{what} {spent:.1f}" for what, spent in row["time_by_behaviour_s"].items())
+    lines = [
+        f"{name}: {outcome['command']!r} {outcome['status']}{where}{reason}",
         f"    {outcome['mission_time_s']:.1f} s, "
         f"of them {outcome['thinking_time_s']:.1f} s thinking; "
         f"{outcome['llm_calls']} calls of the model, {outcome['inquiries']} questions, "
-        f"{len(outcome['visited'])} places visited; {size}\n"
-        f"    seconds by behaviour: {split or 'none'}"
-        + "".join(f"\n    {m['time_s']:.1f} s {m['fault']}: {m['text']}" for m in row["mishaps"])
-    )
+        f"{len(outcome['visited'])} places visited; {size}",
+        f"    seconds by behaviour: {split or 'none'}",
+        *(f"    {m['time_s']:.1f} s {m['fault']}: {m['text']}" for m in row["mishaps"]),
+    ]
+    return "\n".join(map(printable, lines))
 
 
 def _cells(row: Row) -> Row:
@@ -214,7 +217,9 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def _cell(value: Any) -> str:
-    return "-" if value is None else f"{value:.1f}" if isinstance(value, float) else str(value)
+    if value is None:
+        return "-"
+    return f"{value:.1f}" if isinstance(value, float) else printable(value)
 
 
 def ticks_text(rows: Iterable[Row]) -> str:
@@ -230,7 +235,7 @@ def _tick_text(row: Row) -> str:
         + (f"  ({_one_line(node['message'])})" if node["message"] else "")
         for node in row.get("changed", ())
     ]
-    return "\n".join(lines)
+    return "\n".join(map(printable, lines))
 
 
 def _one_line(text: str) -> str:
@@ -240,8 +245,8 @@ def _one_line(text: str) -> str:
 def timeline_text(spans: Iterable[Span]) -> str:
     """A line for each span: from, to, status, behaviour, message."""
     return "\n".join(
-        f"{s.start_s:9.3f} {s.end_s:9.3f}  {s.status:8} {s.path}"
-        + (f"  ({_one_line(s.message)})" if s.message else "")
+        f"{s.start_s:9.3f} {s.end_s:9.3f}  {s.status:8} {printable(s.path)}"
+        + (f"  ({printable(_one_line(s.message))})" if s.message else "")
         for s in spans
     )
 
@@ -252,24 +257,34 @@ def llm_text(rows: Iterable[Row]) -> str:
 
 
 def _call_text(row: Row) -> str:
+    usage = f"{row['input_tokens']} -> {row['output_tokens']} tokens"
     lines = [
-        f"{row['time_s']:.3f} s  {row['label']}  {row['model']}  {row['total_s']:.2f} s  "
-        f"{row['input_tokens']} -> {row['output_tokens']} tokens",
-        f"  asked     {row['messages'][-1]['content']}",
+        printable(f"{row['time_s']:.3f} s  {row['label']}  {row['model']}  ")
+        + f"{row['total_s']:.2f} s  {usage}",
+        *_paragraph("asked", row["messages"][-1]["content"]),
     ]
     if row["prepared_tokens"]:
         lines.append(f"  prepared  {row['prepared_tokens']} tokens in {row['prepared_s']:.2f} s")
     if "reply" in row:
-        lines.append(f"  answered  {row['reply']}")
+        lines += _paragraph("answered", row["reply"])
     else:
         ranked = sorted(row["scores"].items(), key=lambda item: -item[1])
-        lines.append("  scored    " + ", ".join(f"{place} {score:.2f}" for place, score in ranked))
+        scores = ", ".join(f"{place} {score:.2f}" for place, score in ranked)
+        lines += _paragraph("scored", scores)
     for part in ("accepted", "rooms", "dropped"):
         if row.get("verified", {}).get(part):
-            lines.append(f"  {part:9} {', '.join(row['verified'][part])}")
+            lines += _paragraph(part, ", ".join(row["verified"][part]))
     return "\n".join(lines)
+
+
+def _paragraph(title: str, text: str) -> list[str]:
+    """The text after its title; its further lines are set in, behind a bar that no text forges."""
+    first, *others = (printable(line) for line in text.replace("\r\n", "\n").split("\n"))
+    return [f"  {title:9} {first}", *(f"{'':10}| {line}" for line in others)]
 
 
 def dialog_text(rows: Iterable[Row]) -> str:
     """A line for each utterance."""
-    return "\n".join(f"{row['time_s']:9.3f}  {row['speaker']:6}  {row['text']}" for row in rows)
+    return "\n".join(
+        printable(f"{row['time_s']:9.3f}  {row['speaker']:6}  {row['text']}") for row in rows
+    )

@@ -95,6 +95,8 @@ def _log_shapes(stream: rr.RecordingStream, entity: Entity, kind: str, shapes: l
 def _log_mesh(
     stream: rr.RecordingStream, path: str, frame: rr.CoordinateFrame, shape: Shape
 ) -> None:
+    if not FilePath(shape.mesh).is_file():
+        raise ValueError(f"the mesh {shape.mesh} is not there")
     turn = Rotation.from_quat(shape.pose.orientation)
     if shape.mesh.endswith(".glb"):
         turn *= _GLTF_TURN

@@ -31,6 +31,7 @@ from logs.rerun_candidates import CandidatesView
 from logs.rerun_scene import Taken
 from logs.rerun_times import MISSION_TIME, TICK, At, Moment
 from logs.rerun_tree import TreeView
+from logs.unwritten import Unwritten
 
 APPLICATION = "robot-executive"
 FLUSH_S = 5.0
@@ -78,6 +79,7 @@ class RerunSink:
         self._tick = 0
         self._tree: TreeView | None = None
         self._call: LlmCall | None = None
+        self._unwritten = Unwritten(type(self).__name__)
 
     def write(self, stamp: Stamp, record: Record) -> None:
         """Log a record where the blueprint looks for it; what comes often, with the next flush."""
@@ -168,11 +170,22 @@ class RerunSink:
 
     def _send_kept(self) -> None:
         """Send frames and pictures together: many rows cost rerun hardly more than one."""
-        if self._moved:
-            rerun_scene.send_transforms(self._stream, self._moved)
-        if self._taken:
-            rerun_scene.send_pictures(self._stream, self._taken)
+        moved, taken = self._moved, self._taken
         self._moved, self._taken = [], []
+        try:
+            if moved:
+                rerun_scene.send_transforms(self._stream, moved)
+        except Exception as error:
+            self._tell(Transforms.__name__, error)
+        try:
+            if taken:
+                rerun_scene.send_pictures(self._stream, taken)
+        except Exception as error:
+            self._tell(Picture.__name__, error)
+
+    def _tell(self, kind: str, error: Exception) -> None:
+        if note := self._unwritten.note(kind, error):
+            self._stream.log(blueprint.LOG, rr.TextLog(note.text, level=_LEVELS[note.level]))
 
 
 def _document(markdown_text: str) -> rr.TextDocument:

@@ -6,6 +6,8 @@ for time (`timestamp`), and OpenTelemetry's conventions for generative AI, dots 
 `wall_time` is when the record was made.
 """
 
+from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 from foxglove_schemas_protobuf import KeyValuePair_pb2, Point3_pb2
@@ -14,6 +16,7 @@ from google.protobuf.descriptor_pb2 import (
     DescriptorProto,
     FieldDescriptorProto,
     FileDescriptorProto,
+    FileDescriptorSet,
 )
 
 PACKAGE = "robot_executive"
@@ -144,10 +147,19 @@ _SCALARS = {
 }
 
 
-def _add_field(message: DescriptorProto, name: str, spec: str) -> None:
+_DEPENDENCIES = (timestamp_pb2, KeyValuePair_pb2, Point3_pb2)
+
+_UNUSED = 100_000
+"""Numbers from here on are given to fields that an older recording has not."""
+
+Numbers = Mapping[tuple[str, str], int]
+"""Of fields, by message and name."""
+
+
+def _add_field(message: DescriptorProto, name: str, spec: str, number: int) -> None:
     """Add a field to a message; `spec` reads as in a .proto file, without name and number."""
     label, _, kind = spec.rpartition(" ")
-    field = message.field.add(name=name, number=len(message.field) + 1)
+    field = message.field.add(name=name, number=number)
     field.label = (
         FieldDescriptorProto.LABEL_REPEATED
         if label == "repeated"
@@ -168,33 +180,78 @@ def _add_field(message: DescriptorProto, name: str, spec: str) -> None:
         field.type_name = f".{kind}" if "." in kind else f".{PACKAGE}.{kind}"
 
 
-def _describe() -> FileDescriptorProto:
+def _describe(numbers: Numbers) -> FileDescriptorProto:
     file = FileDescriptorProto(
         name=f"{PACKAGE}.proto",
         package=PACKAGE,
         syntax="proto3",
-        dependency=[
-            module.DESCRIPTOR.name for module in (timestamp_pb2, KeyValuePair_pb2, Point3_pb2)
-        ],
+        dependency=[module.DESCRIPTOR.name for module in _DEPENDENCIES],
     )
     status = file.enum_type.add(name="Status")
     for number, name in enumerate(STATUS):
         status.value.add(name=name, number=number)
     for name, fields in _MESSAGES.items():
         message = file.message_type.add(name=name)
-        for field, spec in fields.items():
-            _add_field(message, field, spec)
+        for place, (field, spec) in enumerate(fields.items()):
+            _add_field(message, field, spec, numbers.get((name, field), _UNUSED + place))
     return file
 
 
-def _classes() -> dict[str, Any]:
-    pool = descriptor_pool.Default()
-    pool.AddSerializedFile(_describe().SerializeToString())
+def _classes(pool: descriptor_pool.DescriptorPool, numbers: Numbers) -> dict[str, Any]:
+    pool.AddSerializedFile(_describe(numbers).SerializeToString())
     return {
         name: message_factory.GetMessageClass(pool.FindMessageTypeByName(f"{PACKAGE}.{name}"))
         for name in _MESSAGES
     }
 
 
-MESSAGES = _classes()
+NUMBERS: Numbers = {
+    (message, field): number
+    for message, fields in _MESSAGES.items()
+    for number, field in enumerate(fields, start=1)
+}
+"""As they are written today."""
+
+MESSAGES = _classes(descriptor_pool.Default(), NUMBERS)
 """The message classes by name: `MESSAGES["Tick"](tick=3)`."""
+
+
+@lru_cache(maxsize=64)
+def recorded_class(name: str, definition: bytes) -> Any:
+    """The class that reads a recorded message; of an older recording, other numbers for its fields.
+
+    Of the definition in the file, only the numbers of the fields that we know are taken: names and
+    types are ours, and nothing else of it is built.
+
+    Args:
+        name: of the message, as in `MESSAGES`.
+        definition: a serialized FileDescriptorSet, as mcap keeps it.
+
+    Raises:
+        ValueError: if the definition does not read, or lacks the message.
+        google.protobuf.message.DecodeError: if it is no FileDescriptorSet.
+    """
+    numbers = {
+        (message.name, field.name): field.number
+        for file in FileDescriptorSet.FromString(definition).file
+        if file.package == PACKAGE
+        for message in file.message_type
+        for field in message.field
+    }
+    if not any(message == name for message, _ in numbers):
+        raise ValueError(f"its definition lacks the message {name}")
+    known = {key: number for key, number in numbers.items() if key in NUMBERS}
+    if all(NUMBERS[key] == number for key, number in known.items()):
+        return MESSAGES[name]
+    return _older(tuple(sorted(known.items())))[name]
+
+
+@lru_cache(maxsize=8)
+def _older(numbers: tuple[tuple[tuple[str, str], int], ...]) -> dict[str, Any]:
+    pool = descriptor_pool.DescriptorPool()
+    for module in _DEPENDENCIES:
+        pool.AddSerializedFile(module.DESCRIPTOR.serialized_pb)
+    try:
+        return _classes(pool, dict(numbers))
+    except TypeError as error:
+        raise ValueError(f"its definition numbers fields as none can be: {error}") from None

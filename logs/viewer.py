@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.errors import ExecutiveError
+from executive.text import printable
 from logs.rerun_times import MISSION_TIME
 
 COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
@@ -28,7 +29,7 @@ def show(recording: Path, *, web: bool = False) -> None:
     """
     options = ["--web-viewer"] if web else []
     try:
-        ended = subprocess.run([*COMMAND, *options, str(recording)], check=False)
+        ended = subprocess.run([*COMMAND, *options, str(recording.absolute())], check=False)
     except KeyboardInterrupt:
         return
     if ended.returncode:
@@ -71,6 +72,8 @@ def picture(recording: Path, mission_s: float) -> bytes:
             time.sleep(0.2)
             pictures.append(client.take_screenshot())
         return pictures[-1]
+    except (RuntimeError, OSError, ValueError) as error:
+        raise ExecutiveError(f"the viewer does not show {printable(recording)}: {error}") from error
     finally:
         live.close()
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from heapq import merge
 
 from executive.records import LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
+from executive.text import printable
 from executive.types import Scored
 from logs.reader import At, Run
 
@@ -147,8 +148,7 @@ class _Chain:
         return said or ("no" if leaf is child else f"not {leaf.name}")
 
     def _last(self, node: NodeShape, holds: Callable[[NodeShape], bool]) -> NodeShape | None:
-        inside = (leaf for leaf in self._family.leaves if _is_in(leaf.path, node.path))
-        return next((leaf for leaf in reversed(list(inside)) if holds(leaf)), None)
+        return next(filter(holds, reversed(self._family.leaves[node.path])), None)
 
     def _remember(self, states: dict[str, NodeState]) -> None:
         for path, state in states.items():
@@ -165,7 +165,14 @@ class _Family:
         self.children: dict[str, list[NodeShape]] = defaultdict(list)
         for node in tree.nodes:
             self.children[node.parent].append(node)
-        self.leaves = [node for node in tree.nodes if node.path not in self.children]
+        nodes = {node.path: node for node in tree.nodes}
+        self.leaves: dict[str, list[NodeShape]] = defaultdict(list)
+        """Of each behaviour the leaves in it, itself if it is one."""
+        for leaf in (node for node in tree.nodes if node.path not in self.children):
+            above: NodeShape | None = leaf
+            while above is not None:
+                self.leaves[above.path].append(leaf)
+                above = nodes.get(above.parent)
         self.fallbacks = [
             node
             for root in self.children[""]
@@ -191,10 +198,6 @@ def _outermost(settled: Iterable[Decision]) -> Iterator[Decision]:
         last = decision
     if last is not None:
         yield last
-
-
-def _is_in(path: str, ancestor: str) -> bool:
-    return path == ancestor or path.startswith(f"{ancestor}/")
 
 
 def _source(leaf: NodeShape) -> str:
@@ -257,4 +260,4 @@ def _text(decision: Decision) -> str:
     spare = [a.what for a in decision.alternatives if a.why_not == NOT_NEEDED]
     if spare:
         lines.append(f"{'':13}- not needed: {', '.join(spare)}")
-    return "\n".join(lines)
+    return "\n".join(map(printable, lines))

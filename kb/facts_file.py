@@ -1,0 +1,138 @@
+"""The SQLite file of facts: made by us, possibly by several processes at once, or refused."""
+
+import os
+import sqlite3
+from contextlib import ExitStack, closing, suppress
+from functools import cache
+from pathlib import Path
+
+from executive.errors import InputError
+from executive.text import printable
+
+APPLICATION_ID = 0x0FAC7501
+"""Marks an SQLite file as ours (https://sqlite.org/fileformat.html, "Application ID")."""
+BUSY_S = 1.0
+"""How long to wait for another process that is writing."""
+OPENING_S = 10.0
+"""The same while it is opened: others may be making it."""
+MOST_CHECKED = 16 * 1024 * 1024
+"""A file of so many bytes is looked through for damage when it is opened; a larger one is not."""
+MOST_BYTES = 1_000_000
+"""Of a row."""
+
+_SCHEMA = (
+    """CREATE TABLE fact (
+    number INTEGER PRIMARY KEY, time_s REAL NOT NULL, kind TEXT NOT NULL, object TEXT NOT NULL,
+    place TEXT NOT NULL)""",
+    # Where an object was seen (or put) and said to be, less what is contradicted since. The
+    # triggers belong to the transaction that adds the fact: a kill leaves both or neither.
+    """CREATE TABLE belief (
+    object TEXT NOT NULL, place TEXT NOT NULL, seen INTEGER NOT NULL, number INTEGER NOT NULL,
+    PRIMARY KEY (object, place, seen)) WITHOUT ROWID""",
+    "CREATE INDEX belief_newest ON belief (object, number, place, seen)",
+    """CREATE TRIGGER is_there AFTER INSERT ON fact WHEN new.kind IN ('seen', 'put', 'said') BEGIN
+    INSERT OR REPLACE INTO belief VALUES (new.object, new.place, new.kind != 'said', new.number);
+END""",
+    """CREATE TRIGGER is_not_there AFTER INSERT ON fact WHEN new.kind = 'missed' BEGIN
+    DELETE FROM belief WHERE object = new.object AND place = new.place;
+END""",
+    """CREATE TRIGGER is_nowhere AFTER INSERT ON fact WHEN new.kind = 'taken' BEGIN
+    DELETE FROM belief WHERE object = new.object;
+END""",
+    f"PRAGMA application_id = {APPLICATION_ID}",
+)
+"""A file with anything else in it, such as another's trigger or view, is not opened."""
+
+
+def opened(file: Path | None, *, learns: bool) -> sqlite3.Connection:
+    """Open a file of facts, or make it; None: in this process' memory.
+
+    Args:
+        file: where.
+        learns: whether it will be added to.
+
+    Raises:
+        InputError: if it cannot be opened, is something else, or cannot be added to.
+    """
+    with ExitStack() as on_error:
+        try:
+            database = _connect(file, learns)
+            on_error.callback(database.close)
+            _distrust(database)
+            _prepare(database)
+            if file is not None and file.stat().st_size <= MOST_CHECKED:
+                _check(database)
+            if learns:
+                database.execute("DELETE FROM fact WHERE 0")  # raises if it can only be read
+                database.rollback()
+            database.execute(f"PRAGMA busy_timeout = {round(BUSY_S * 1000)}")
+        except (sqlite3.Error, OSError, ValueError) as error:
+            right = "name a file that --memory made, or one that does not exist yet"
+            if "readonly" in str(error):
+                right = "let it be written, or add --no-learn"
+            raise InputError(printable(file), f"is no memory: {printable(error)}", right) from None
+        on_error.pop_all()
+    return database
+
+
+def _connect(file: Path | None, learns: bool) -> sqlite3.Connection:
+    if file is None:
+        return sqlite3.connect(":memory:")
+    if file.exists() and not file.is_file():
+        raise sqlite3.DatabaseError("it is no file")
+    if not learns and not os.access(
+        file.parent, os.W_OK
+    ):  # no place for what SQLite puts beside it
+        return sqlite3.connect(f"{file.absolute().as_uri()}?immutable=1", uri=True)
+    return sqlite3.connect(str(file.absolute()), timeout=OPENING_S)
+
+
+def _distrust(database: sqlite3.Connection) -> None:
+    """Let nothing in a stranger's file run, and nothing in it be large."""
+    database.text_factory = lambda text: text.decode(errors="replace")
+    database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MOST_BYTES)
+    database.execute("PRAGMA trusted_schema = OFF")
+    database.execute("PRAGMA cell_size_check = ON")
+
+
+def _prepare(database: sqlite3.Connection) -> None:
+    """Make the tables in an empty file; let no other file pass."""
+    if _is_empty(database):
+        database.execute("BEGIN IMMEDIATE")  # others wait here, and then find it made
+        with database:
+            if _is_empty(database):
+                for statement in _SCHEMA:
+                    database.execute(statement)
+        with suppress(sqlite3.OperationalError):  # another one is at it
+            database.execute("PRAGMA journal_mode = WAL")
+    if _mark(database) != APPLICATION_ID or _definitions(database) != _ours():
+        raise sqlite3.DatabaseError("it is a database of something else")
+
+
+def _is_empty(database: sqlite3.Connection) -> bool:
+    return not _mark(database) and not _definitions(database)
+
+
+def _mark(database: sqlite3.Connection) -> int:
+    [[mark]] = database.execute("PRAGMA application_id")
+    return int(mark)
+
+
+def _definitions(database: sqlite3.Connection) -> list[tuple[object, ...]]:
+    """All that is defined in a file, as text: it is compared, never run."""
+    query = "SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY type, name LIMIT 99"
+    return database.execute(query).fetchall()
+
+
+@cache
+def _ours() -> list[tuple[object, ...]]:
+    with closing(sqlite3.connect(":memory:")) as database:
+        for statement in _SCHEMA:
+            database.execute(statement)
+        return _definitions(database)
+
+
+def _check(database: sqlite3.Connection) -> None:
+    [[found]] = database.execute("PRAGMA quick_check(1)")
+    if found != "ok":
+        raise sqlite3.DatabaseError(f"it is damaged: {found}")

@@ -1,0 +1,239 @@
+"""The records of an mcap file that a stranger may have made: sizes are checked first.
+
+The framing is walked here (https://mcap.dev/spec), each record is read by mcap's own classes from
+no more bytes than it has, and a chunk is unpacked to no more than it says and than is allowed. The
+index at the end of a file is never used: it may lie.
+"""
+
+import struct
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import IO, Any
+from zlib import crc32
+
+import lz4.frame
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import Attachment, Channel, Chunk, Header, McapRecord, Message, Metadata, Schema
+
+from executive.errors import InputError
+
+MAGIC = b"\x89MCAP0\r\n"
+MiB = 1024 * 1024
+MOST_IN_A_RECORD = 256 * MiB
+"""Of a record, or of a chunk when it is unpacked (bytes)."""
+MOST_IN_A_FACT = MiB
+"""Of a record that only says something about others: a schema, a channel, metadata."""
+MOST_KEPT = 256 * MiB
+"""Of all attachments together."""
+MOST_RECORDS = 1_000_000
+"""Of a file, in chunks or not: ten hours of a robot that moves all the time."""
+MOST_UNPACKED, MOST_PACKED_TIMES = 64 * MiB, 100
+"""A file may unpack to so many bytes and so many times its own size; a mission's, to twice it."""
+
+_HEAD = struct.Struct("<BQ")
+_MESSAGE = struct.Struct("<HIQQ")
+_TOO_MANY = f"there are more than the {MOST_RECORDS} records that are read"
+_FOOTER_BYTES = _HEAD.size + 20
+_BROKEN = (McapError, struct.error, zstandard.ZstdError, RuntimeError, ValueError, OverflowError)
+"""What the readers of a record's inside raise; lz4's is a RuntimeError."""
+
+
+@dataclass(frozen=True, slots=True)
+class Damage:
+    """What cannot be read, and why; `cut`: nothing of the file comes after it."""
+
+    what: str
+    cut: bool = False
+
+
+Found = tuple[int, McapRecord | Damage]
+"""The offset (bytes) of a record in the file, or of the chunk that it is in, and the record."""
+
+
+class _Unsound(ValueError):
+    """A record is not as it says."""
+
+
+def is_whole(path: Path) -> bool:
+    """Whether the file was closed: it ends as mcap files do.
+
+    Raises:
+        InputError: if it is no mcap file at all, or cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            if file.read(len(MAGIC)) != MAGIC:
+                raise InputError(str(path), "is not an mcap file", "the magic number is missing")
+            size = file.seek(0, 2)
+            file.seek(max(0, size - _FOOTER_BYTES - len(MAGIC)))
+            end = file.read()
+    except OSError as error:
+        raise InputError(str(path), error.strerror or "cannot be read") from error
+    return end.startswith(_HEAD.pack(Opcode.FOOTER, 20)) and end.endswith(MAGIC)
+
+
+def records(path: Path) -> Iterator[Found]:
+    """All records, those in chunks singly, and in their place what cannot be read.
+
+    After damage that leaves the next record findable it goes on there. Indexes are passed over, as
+    are kinds of records that are not known.
+
+    Raises:
+        InputError: if it is no mcap file at all, or cannot be read.
+    """
+    is_whole(path)
+    try:
+        with path.open("rb") as file:
+            yield from _Walk(file, path.stat().st_size)
+    except OSError as error:
+        raise InputError(str(path), error.strerror or "cannot be read") from error
+
+
+class _Walk:
+    """From record to record through one file."""
+
+    def __init__(self, file: IO[bytes], size: int) -> None:
+        self._file = file
+        self._size = size
+        self._may_unpack = MOST_UNPACKED + MOST_PACKED_TIMES * size
+        self._may_keep = MOST_KEPT
+        self._may_find = MOST_RECORDS
+
+    def __iter__(self) -> Iterator[Found]:
+        offset = len(MAGIC)
+        while True:
+            self._file.seek(offset)
+            head = self._file.read(_HEAD.size)
+            if len(head) < _HEAD.size:
+                yield offset, Damage("the file ends early", cut=True)
+                return
+            opcode, length = _HEAD.unpack(head)
+            end = offset + _HEAD.size + length
+            if end > self._size:
+                yield offset, Damage("a record reaches beyond the end of the file", cut=True)
+                return
+            if opcode == 0:
+                yield offset, Damage("there is no record", cut=self._is_blank(offset))
+                return
+            if opcode == Opcode.FOOTER:
+                return
+            if not self._may_find:
+                yield offset, Damage(_TOO_MANY)
+                return
+            self._may_find -= 1
+            yield from ((offset, found) for found in self._found(opcode, length, end))
+            offset = end
+
+    def _found(self, opcode: int, length: int, end: int) -> Iterator[McapRecord | Damage]:
+        """What a record is or holds; the file stands at its inside."""
+        try:
+            record = self._record(opcode, length)
+            if isinstance(record, Chunk):
+                yield from self._inside(record)
+            elif record is not None:
+                yield record
+        except _BROKEN as error:
+            yield Damage(_why(error), cut=end == self._size)
+
+    def _record(self, opcode: int, length: int) -> McapRecord | None:
+        if opcode not in _READ:
+            return None
+        _, name, most = _READ[opcode]
+        if opcode == Opcode.ATTACHMENT:
+            most = min(most, self._may_keep)
+        if length > most:
+            raise _Unsound(f"{name} of {length} bytes is more than the {most} that are read")
+        inside = self._file.read(length)
+        record = _read(opcode, inside)
+        if isinstance(record, Attachment):
+            self._may_keep -= length
+            recorded = int.from_bytes(inside[-4:], "little")
+            _check_sum(f"attachment {record.name}", inside[:-4], recorded)
+        return record
+
+    def _inside(self, chunk: Chunk) -> Iterator[McapRecord]:
+        """The records of a chunk; none if its checksum is wrong."""
+        most = min(MOST_IN_A_RECORD, self._may_unpack)
+        if chunk.uncompressed_size > most:
+            raise _Unsound(
+                f"a chunk unpacks to {chunk.uncompressed_size} bytes, more than the {most} "
+                "that are read of a file of this size"
+            )
+        self._may_unpack -= chunk.uncompressed_size
+        data = _unpacked(chunk)
+        if len(data) != chunk.uncompressed_size:
+            raise _Unsound(f"a chunk does not unpack to its {chunk.uncompressed_size} bytes")
+        _check_sum("a chunk", data, chunk.uncompressed_crc)
+        return self._broken_up(data)
+
+    def _broken_up(self, data: bytes) -> Iterator[McapRecord]:
+        position = 0
+        while position < len(data):
+            if not self._may_find:
+                raise _Unsound(_TOO_MANY)
+            self._may_find -= 1
+            opcode, length = _HEAD.unpack_from(data, position)
+            start = position + _HEAD.size
+            position = start + length
+            if position > len(data) or not opcode:
+                raise _Unsound("a record in a chunk is none, or reaches beyond the chunk")
+            if opcode in (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE):
+                yield _read(opcode, data[start:position])
+
+    def _is_blank(self, offset: int) -> bool:
+        """Whether there is nothing but zeros from here on, as a power failure may leave it."""
+        self._file.seek(offset)
+        blocks = iter(lambda: self._file.read(MiB), b"")
+        return not any(block.strip(b"\0") for block in blocks)
+
+
+_READ: dict[int, tuple[Callable[[ReadDataStream], McapRecord] | None, str, int]] = {
+    Opcode.HEADER: (Header.read, "a header", MOST_IN_A_FACT),
+    Opcode.SCHEMA: (Schema.read, "a schema", MOST_IN_A_FACT),
+    Opcode.CHANNEL: (Channel.read, "a channel", MOST_IN_A_FACT),
+    Opcode.METADATA: (Metadata.read, "metadata", MOST_IN_A_FACT),
+    Opcode.MESSAGE: (None, "a message", MOST_IN_A_RECORD),
+    Opcode.CHUNK: (Chunk.read, "a chunk", MOST_IN_A_RECORD),
+    Opcode.ATTACHMENT: (Attachment.read, "an attachment", MOST_KEPT),
+}
+"""What is read: how (None: here), what to call it, and how long it may be (bytes)."""
+
+
+def _read(opcode: int, inside: bytes) -> McapRecord:
+    read, name, most = _READ[opcode]
+    if len(inside) > most:
+        raise _Unsound(f"{name} of {len(inside)} bytes is more than the {most} that are read")
+    if read is not None:
+        return read(ReadDataStream(BytesIO(inside)))
+    channel, sequence, log_time, publish_time = _MESSAGE.unpack_from(inside)
+    return Message(channel, log_time, inside[_MESSAGE.size :], publish_time, sequence)
+
+
+def _unpacked(chunk: Chunk) -> bytes:
+    """As many bytes as the chunk says that it has, or one more, whatever the packed data say."""
+    most = chunk.uncompressed_size + 1
+    match chunk.compression:
+        case "":
+            return chunk.data
+        case "zstd":
+            return zstandard.ZstdDecompressor().stream_reader(chunk.data).read(most)
+        case "lz4":
+            unpacking: Any = lz4.frame.LZ4FrameDecompressor()
+            unpacked: bytes = unpacking.decompress(chunk.data, max_length=most)
+            return unpacked
+    raise _Unsound(f"a chunk is packed in an unknown way, {chunk.compression!r}")
+
+
+def _check_sum(what: str, data: bytes, recorded: int) -> None:
+    """Refuse what is not what was written; 0 means that no checksum was."""
+    if recorded and crc32(data) != recorded:
+        raise _Unsound(f"the checksum of {what} is wrong")
+
+
+def _why(error: Exception) -> str:
+    return str(error) if isinstance(error, _Unsound) else f"a record is broken ({error!r})"
