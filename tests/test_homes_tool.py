@@ -137,7 +137,7 @@ def test_json_lists_the_sentences(tmp_path: Path, capsys):
     assert main(["check", str(file), "--json"]) == 1
     sentences = json.loads(capsys.readouterr().out)
     assert (
-        f"{file}: furniture 'person': this name has a meaning of its own; give each its own name"
+        f"{file}: furniture 'person': this name has a meaning of its own; give another name"
         in sentences
     )
 
