@@ -26,6 +26,7 @@ from executive.metrics import ClassReport, Ints, Judged, by_class, confusion, ma
 from executive.perception import locate
 from executive.segmentation import segment
 from executive.shell import DONE, entry_point
+from executive.text import printable
 from executive.types import Box, Detection, Frame
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.scenes import Scene, SceneMaker
@@ -228,7 +229,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         judgements.append(judgement)
         print(f"\r{len(judgements)} of {options.scenes} scenes", end="", file=sys.stderr)
     print(file=sys.stderr)
-    print(report(judgements, milliseconds, path.name), end="")
+    print(report(judgements, milliseconds, printable(path.name)), end="")
     if options.picture:
         pictures = [one.picture for one in judgements]
         table = confusion(pictures, len(class_names()), LEAST_CONFIDENCE)
