@@ -13,6 +13,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from importlib.metadata import version
 from pathlib import Path
 from types import FrameType
@@ -20,18 +21,24 @@ from typing import TextIO
 
 from executive import households, paper
 from executive.app import PACKAGES
+from executive.claim import lock_folder
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.engines import Engine, Here, Pool
 from executive.errors import InputError
-from executive.experiment import write_report
+from executive.experiment import not_counted, write_report
+from executive.files import read_text
 from executive.journal import CRASHED, Entry, Journal, in_order, write_tables
 from executive.policies import POLICIES
-from executive.shell import DONE, STOPPED, entry_point, on_stop_signals
+from executive.shell import DONE, NOT_DONE, STOPPED, entry_point, on_stop_signals
 from executive.terminal import show_over
+from executive.text import printable
 
 OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
 """Settings that the campaign itself varies."""
 SHOWN_EVERY_S = 0.5
+LONGEST_COMMAND = 1000
+MOST_MISSIONS = 1_000_000
+"""Of one campaign."""
 
 
 @entry_point
@@ -44,15 +51,19 @@ class Campaign:
     """A grid of missions, and the folder that keeps what came of them."""
 
     def __init__(self, options: argparse.Namespace) -> None:
-        """Read the options and make the folder.
+        """Read the options, and make the folder and have it to oneself.
 
         Raises:
-            InputError: if an option or a file is wrong, or the folder holds another campaign.
+            InputError: if an option or a file is wrong, or the folder holds another campaign, or
+                another process runs one in it.
         """
         self._out: Path = options.out or Path("campaigns") / options.setting
         self._policies = tuple(dict.fromkeys(options.policy or ["ours"]))
         settings = all_settings(options)
         commands = read_commands(options.commands) if options.commands else paper.COMMANDS
+        most = options.seeds * len(commands) * len(settings) * len(self._policies)
+        if most > MOST_MISSIONS:
+            raise InputError("--seeds", f"more than {MOST_MISSIONS:,} missions", "give fewer")
         self._households = households.grid(
             settings,
             self._policies,
@@ -62,14 +73,26 @@ class Campaign:
             options.runs.resolve() if options.runs else None,
         )
         self._keys = {key for household in self._households for key in household.keys}
-        self._about = claim(self._out, settings[0], commands)
-        self._journal = Journal(self._out / "journal.jsonl")
-        self._journal.mend()
+        self._as_in_paper = as_in_paper(settings, commands)
         self._interrupted = False
         self._engine = self._engine_for(options)
+        make_folder(self._out)
+        with ExitStack() as until_it_fails:
+            self._lock = until_it_fails.enter_context(lock_folder(self._out, "--out"))
+            self._about = claim(self._out, settings[0], commands)
+            self._journal = Journal(self._out / "journal.jsonl")
+            self._journal.mend()
+            self._damage = self._journal.damage()
+            until_it_fails.pop_all()
+        for sentence in self._damage:
+            print(f"warning: {printable(sentence)}; it is not counted", file=sys.stderr)
 
     def run(self) -> int:
-        """Run what has not ended yet; the tables are written however it ends."""
+        """Run what has not ended yet; the tables are written however it ends.
+
+        Raises:
+            ExecutiveError: if missions cannot be run, or journal or tables cannot be written.
+        """
         progress = Progress(len(self._keys), lambda: len(self._entries()))
         try:
             with on_stop_signals(self._interrupt):
@@ -79,9 +102,14 @@ class Campaign:
             print("\nstopped; the same command goes on from here", file=sys.stderr)
             return STOPPED
         finally:
-            self._write()
-        print(f"\n{self._out / 'report.md'}\n{self._out / 'report.html'}", file=sys.stderr)
-        return DONE
+            with self._lock:
+                self._write()
+        folder = printable(self._out)
+        print(f"\n{folder}/report.md\n{folder}/report.html", file=sys.stderr)
+        without_model = [e.row for e in self._entries() if e.row.model_failure]
+        if without_model:
+            print(printable(not_counted(without_model)), file=sys.stderr)
+        return NOT_DONE if without_model else DONE
 
     def _engine_for(self, options: argparse.Namespace) -> Engine:
         if options.cluster:
@@ -99,8 +127,24 @@ class Campaign:
         return [entry for entry in self._journal.entries() if entry.row.key in self._keys]
 
     def _write(self) -> None:
+        """The tables and the report of what is in the journal.
+
+        Raises:
+            InputError: if they cannot be written.
+        """
+        try:
+            self._write_tables()
+        except OSError as error:
+            raise InputError(
+                f"--out {self._out}",
+                f"the tables cannot be written: {error.strerror or error}",
+                "make room; the same command writes them",
+            ) from None
+
+    def _write_tables(self) -> None:
         rows = in_order((entry.row for entry in self._entries()), self._policies)
         models = sorted({row.model for row in rows if row.model})
+        results = [row for row in rows if not row.model_failure]
         wall_s = sum(row.wall_time_s for row in rows)
         about = {
             **self._about,
@@ -108,12 +152,14 @@ class Campaign:
             "homes": ", ".join(dict.fromkeys(row.home for row in rows)),
             "models": ", ".join(models) or "none",
             "seeds": ", ".join(str(seed) for seed in sorted({row.seed for row in rows})),
-            "missions": f"{len(rows)} of {len(self._keys)}",
+            "missions": f"{len(results)} of {len(self._keys)}",
             "crashed": str(sum(row.status == CRASHED for row in rows)),
+            "without a working model": str(len(rows) - len(results)),
+            "damaged lines of the journal": str(len(self._damage)),
             "sum of the missions' wall time": f"{wall_s:.0f} s",
         }
-        write_tables(rows, self._out)
-        write_report(rows, about, self._out)
+        write_tables(results, self._out)
+        write_report(rows, about, self._out, self._as_in_paper)
 
 
 class Progress:
@@ -198,22 +244,45 @@ def cluster(address: str) -> Engine:
     return Cluster(address)
 
 
-def claim(out: Path, settings: Settings, commands: Sequence[str]) -> dict[str, str]:
-    """Make the folder and note in `campaign.json` what it is for; return what a report says of it.
+def as_in_paper(settings: Sequence[Settings], commands: Sequence[str]) -> tuple[str, ...]:
+    """The homes in which the paper's figures may stand beside ours: its own, if its commands."""
+    homes = {one.home for one in settings}
+    return tuple(homes & {paper.HOME}) if tuple(commands) == paper.COMMANDS else ()
+
+
+def make_folder(out: Path) -> None:
+    """Make the campaign's folder if there is none.
 
     Raises:
-        InputError: if it cannot be made, or holds a campaign with other settings.
+        InputError: if it cannot be made.
+    """
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else error
+        raise InputError("--out", f"cannot make {out}: {why}") from None
+
+
+def claim(out: Path, settings: Settings, commands: Sequence[str]) -> dict[str, str]:
+    """Note in the folder's `campaign.json` what it is for; return what a report says of it.
+
+    Raises:
+        InputError: if it cannot be written, or holds a campaign with other settings.
     """
     grid = settings.model_dump(mode="json", exclude=OF_A_MISSION)
     mine = {"settings": grid, "commands": list(commands)}
     file = out / "campaign.json"
     try:
-        out.mkdir(parents=True, exist_ok=True)
         if not file.exists():
-            file.write_text(json.dumps(mine, indent=2) + "\n", encoding="utf-8")
-        theirs = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError("--out", f"cannot use {out}: {error}") from None
+            new = out / "campaign.json.new"  # so that a full disk leaves all of it, or nothing
+            new.write_text(json.dumps(mine, indent=2) + "\n", encoding="utf-8")
+            new.replace(file)
+        theirs = json.loads(read_text(file))
+    except OSError as error:
+        raise InputError("--out", f"cannot use {out}: {error.strerror}") from None
+    except (ValueError, RecursionError):
+        right = "delete it if it is yours, or name another folder"
+        raise InputError("--out", f"{file} is damaged", right) from None
     if theirs != mine:
         raise InputError(
             "--out", f"{out} holds a campaign with other settings", "name another folder"
@@ -234,15 +303,16 @@ def read_commands(file: Path) -> tuple[str, ...]:
     Raises:
         InputError: if the file cannot be read, has no command, or has one twice.
     """
-    try:
-        lines = [line.strip() for line in file.read_text(encoding="utf-8").splitlines()]
-    except OSError as error:
-        raise InputError(f"--commands {file}", f"cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"--commands {file}", f"cannot be read: {error}") from None
+    text = read_text(file, f"--commands {file}", "give a text file with one command a line")
+    lines = [line.strip() for line in text.splitlines()]
     commands = tuple(line for line in lines if line and not line.startswith("#"))
     if not commands or len(set(commands)) < len(commands):
         raise InputError(f"--commands {file}", "should have one command a line, none twice")
+    for command in commands:
+        if len(command) > LONGEST_COMMAND or printable(command) != command:
+            what = f"this is no command: {command[:60]}"
+            right = f"up to {LONGEST_COMMAND} characters, all of them visible"
+            raise InputError(f"--commands {file}", what, right)
     return commands
 
 
@@ -255,7 +325,8 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="policies:\n"
         + "".join(f"  {name:<17} {policy.description}\n" for name, policy in POLICIES.items())
-        + "\nexit: 0 all missions have ended, 2 bad usage or input, 130 stopped",
+        + "\nexit: 0 all missions have ended, 1 some had no working model, 2 bad usage or input, "
+        "130 stopped",
     )
     setting = p.add_mutually_exclusive_group()
     setting.add_argument(

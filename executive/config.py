@@ -1,6 +1,6 @@
 """Every setting in one model: from a TOML file, the environment, the command line; last wins."""
 
-import tomllib
+import re
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Literal
@@ -8,9 +8,14 @@ from urllib.parse import urlsplit
 
 import tomli_w
 from pydantic import Field, ValidationError, field_validator
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic_settings import BaseSettings, SettingsConfigDict, SettingsError
 
 from executive.errors import InputError
+from executive.toml_file import read_toml
+
+PREFIX = "EXECUTIVE_"
+"""How the environment's variables of settings begin."""
+JSON_EXAMPLES = """lists and tables are JSON there: '["a.owl"]', '{"mug": "desk"}'"""
 
 
 class KnowledgeSystem(StrEnum):
@@ -24,7 +29,9 @@ class KnowledgeSystem(StrEnum):
 class Settings(BaseSettings):
     """What a mission is run with. Environment variables are named EXECUTIVE_HOME and so on."""
 
-    model_config = SettingsConfigDict(env_prefix="EXECUTIVE_", extra="forbid", frozen=True)
+    model_config = SettingsConfigDict(
+        env_prefix=PREFIX, extra="forbid", frozen=True, allow_inf_nan=False
+    )
 
     home: str = Field("four_rooms", description="name of a packaged home, or a FILE.toml")
     knowledge: KnowledgeSystem = Field(
@@ -140,17 +147,18 @@ def load_settings(config: Path | None = None, **given: Any) -> Settings:
     Raises:
         InputError: names the setting, what is wrong with it, and what would be right.
     """
-    from_file = _read(config) if config else {}
+    from_file = read_toml(config) if config else {}
     given = {name: value for name, value in given.items() if value is not None}
+    from_environment = _environment()
     try:
-        from_environment = Settings().model_dump(exclude_unset=True)
         return Settings(**{**from_file, **from_environment, **given})
     except ValidationError as error:
         fault = error.errors()[0]
         name = ".".join(str(part) for part in fault["loc"])
         known = ", ".join(Settings.model_fields)
         right = f"known are {known}" if fault["type"] == "extra_forbidden" else ""
-        where = f"{config}: {name}" if name in from_file else f"setting '{name}'"
+        in_file = fault["loc"] and fault["loc"][0] in from_file
+        where = f"{config}: {name}" if in_file else f"setting '{name}'"
         raise InputError(where, fault["msg"], right) from None
 
 
@@ -174,10 +182,21 @@ def _address(url: str) -> str:
     return url
 
 
-def _read(config: Path) -> dict[str, Any]:
+def _environment() -> dict[str, Any]:
+    """The settings that the environment gives.
+
+    Raises:
+        InputError: names the variable and what is wrong with it.
+    """
     try:
-        return tomllib.loads(config.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(str(config), f"cannot be read: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(str(config), f"is not TOML: {error}") from None
+        return Settings().model_dump(exclude_unset=True)
+    except ValidationError as error:
+        fault = error.errors()[0]
+        first, *rest = map(str, fault["loc"] or ("settings",))
+        raise InputError(".".join([PREFIX + first.upper(), *rest]), fault["msg"]) from None
+    except SettingsError as error:
+        field = re.search(r'field "(\w+)"', str(error))
+        name = PREFIX + field[1].upper() if field else f"{PREFIX}..."
+        raise InputError(name, "is not JSON", JSON_EXAMPLES) from None
+    except RecursionError:
+        raise InputError(f"{PREFIX}...", "is nested too deep", JSON_EXAMPLES) from None

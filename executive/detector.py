@@ -1,4 +1,4 @@
-"""A learned detector: an ONNX file with the output of YOLOv5, v7 or v8, run by OpenCV."""
+"""A learned detector: an ONNX file with an output like those of YOLO, run by OpenCV."""
 
 import ast
 import logging
@@ -11,9 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from executive.errors import InputError
+from executive.files import read_text
 from executive.onnx_file import read_onnx
+from executive.onnx_trial import network, pictures, run, try_out
 from executive.segmentation import segment
+from executive.text import printable
 from executive.types import Box, Detection, Frame
+from executive.yolo import Boxes, Floats, check_probabilities, layout_of, read
 
 log = logging.getLogger(__name__)
 
@@ -28,8 +32,13 @@ OPEN_SIDE = 640
 GREY = 114
 """What letterboxing fills up with, as these networks were trained with."""
 _FEWEST_PIXELS = 2
-
-Floats = NDArray[np.float32]
+_MOST_BOXES = 2000
+"""So many of the surest boxes are looked at."""
+_MOST_CLASSES = 10_000
+_LONGEST_LIST = 1_000_000
+_LONGEST_WARNING = 2000
+_UNIT = 1.5
+"""Boxes that reach no farther are shares of the picture, not pixels."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,16 +75,16 @@ class OnnxDetector:
         about = read_onnx(path)
         self._path = path
         self._names = class_list(path, about.metadata)
-        _, _, height, width = about.input
-        self._height, self._width = height or OPEN_SIDE, width or OPEN_SIDE
-        try:
-            self._network = cv2.dnn.readNetFromONNX(str(path))
-        except cv2.error as error:
-            raise InputError(
-                str(path), f"OpenCV cannot run it: {error.err}", "export it with a lower opset"
-            ) from None
+        self._height, self._width = about.height or OPEN_SIDE, about.width or OPEN_SIDE
+        self._takes_bytes = about.takes_bytes
+        if path != LEARNED and (
+            fault := try_out(about.content, self._height, self._width, self._takes_bytes)
+        ):
+            right = "export it for one picture, in 32 bits, with another opset"
+            raise InputError(str(path), fault, right)
+        self._network = network(about.content)
         self._labels = _labels(path, self._names, objects_named)
-        self._run(np.zeros((self._height, self._width, 3), np.uint8))
+        self._learn_layout(about.metadata)
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
         """All things in the picture that the ontology knows, surest first, masked by depth."""
@@ -89,25 +98,35 @@ class OnnxDetector:
     def find(self, color: NDArray[np.uint8], least: float = LEAST_CONFIDENCE) -> Found:
         """Everything in a picture (h, w, 3; RGB) of at least this confidence, without masks."""
         picture, scale, (left, top) = letterbox(color, self._height, self._width)
-        found = suppress(*decode(self._run(picture), len(self._names), str(self._path)), least)
+        rows = self._layout.rows(self._run(picture), str(self._path))
+        boxes = surest(read(rows, self._layout, len(self._names)), least)
+        found = boxes if self._layout.kind == "ended" else suppress(boxes, least)
+        size = np.array([self._width, self._height] * 2, np.float32)
+        corners = found.corners * size if found.corners.max(initial=0) <= _UNIT else found.corners
         shift = np.array([left, top, left, top], np.float32)
-        return Found((found.boxes - shift) / scale, found.scores, found.classes)
+        return Found((corners - shift) / scale, found.scores, found.classes)
 
     @property
     def names(self) -> tuple[str, ...]:
         """The class list."""
         return self._names
 
-    def _run(self, picture: NDArray[np.uint8]) -> Floats:
-        """The output that is laid out as those of YOLO are."""
-        self._network.setInput(cv2.dnn.blobFromImage(picture, 1 / 255))
+    def _learn_layout(self, metadata: Mapping[str, str]) -> None:
+        """See by two pictures how the output is to be read."""
+        where, classes = str(self._path), len(self._names)
+        for picture in reversed(pictures(self._height, self._width)):
+            outputs = self._run(picture)
+            self._layout = layout_of(outputs, classes, metadata, where)
+            check_probabilities(self._layout.rows(outputs, where), self._layout, classes, where)
+
+    def _run(self, picture: NDArray[np.uint8]) -> list[Floats]:
+        """All outputs."""
         try:
-            outputs = self._network.forward(self._network.getUnconnectedOutLayersNames())
+            return run(self._network, picture, self._takes_bytes)
         except cv2.error as error:
             raise InputError(
                 str(self._path), f"OpenCV cannot run it: {error.err}", "export it for one picture"
             ) from None
-        return fitting([np.asarray(o) for o in outputs], len(self._names), str(self._path))
 
 
 def class_list(path: Path, metadata: Mapping[str, str]) -> tuple[str, ...]:
@@ -119,24 +138,21 @@ def class_list(path: Path, metadata: Mapping[str, str]) -> tuple[str, ...]:
     right = f"put a name a line into {path.with_suffix('.names')}"
     for beside in (path.with_suffix(".names"), path.with_suffix(".txt")):
         if beside.exists():
-            try:
-                lines = beside.read_text(encoding="utf-8").splitlines()
-            except (OSError, UnicodeDecodeError):
-                raise InputError(str(beside), "is not a text file", "write UTF-8") from None
+            lines = read_text(beside, right=right).splitlines()
             names = tuple(line.strip() for line in lines if line.strip())
-            if not names:
-                raise InputError(str(beside), "names no class", right)
+            if not 0 < len(names) <= _MOST_CLASSES:
+                raise InputError(str(beside), f"names {len(names)} classes", right)
             return names
     text = metadata.get("names")
     if text is None:
         raise InputError(str(path), "says nothing of its classes", right)
     try:
-        listed = ast.literal_eval(text)
+        listed = ast.literal_eval(text[:_LONGEST_LIST])
         if isinstance(listed, dict):
             listed = [listed[number] for number in sorted(listed, key=int)]
-        if not listed or not all(isinstance(name, str) for name in listed):
+        if not 0 < len(listed) <= _MOST_CLASSES or not all(isinstance(n, str) for n in listed):
             raise ValueError
-    except (ValueError, SyntaxError, TypeError):
+    except (ValueError, SyntaxError, TypeError, OverflowError, MemoryError, RecursionError):
         raise InputError(str(path), f"its metadata's names are {text[:80]!r}", right) from None
     return tuple(listed)
 
@@ -153,7 +169,8 @@ def _labels(
         right = "names should be objects of the ontology (python -m kb show)"
         raise InputError(str(path), f"the ontology knows none of its classes ({some}, ...)", right)
     if unknown:
-        log.warning("%s: not in the ontology, and ignored: %s", path, ", ".join(unknown))
+        told = printable(f"{path}: not in the ontology, and ignored: {', '.join(unknown)}")
+        log.warning("%s", told[:_LONGEST_WARNING])
     return labels
 
 
@@ -171,54 +188,26 @@ def letterbox(
     return filled, scale, (left, top)
 
 
-def fitting(outputs: Sequence[Floats], classes: int, where: str) -> Floats:
-    """The one of a network's outputs that has YOLO's layout for so many classes.
-
-    Raises:
-        InputError: if none has.
-    """
-    for output in outputs:
-        if output.ndim == 3 and output.shape[0] == 1:
-            _, rows, columns = output.shape
-            if rows == 4 + classes or columns == 5 + classes:
-                return output
-    shapes = ", ".join(str(output.shape) for output in outputs)
-    raise InputError(
-        where,
-        f"its output is {shapes} and its class list has {classes} names",
-        f"(1, {4 + classes}, n) or (1, n, {5 + classes}) goes with them; "
-        "export without suppression of overlaps",
-    )
+def surest(boxes: Boxes, least: float) -> Boxes:
+    """Those of at least this confidence, surest first, and not more than anyone can look at."""
+    order = np.argsort(-boxes.scores, kind="stable")[:_MOST_BOXES]
+    order = order[boxes.scores[order] >= least]
+    scores = boxes.scores[order].clip(0.0, 1.0)
+    return Boxes(boxes.corners[order], scores, boxes.classes[order])
 
 
-def decode(output: Floats, classes: int, where: str) -> tuple[Floats, Floats]:
-    """Boxes (n, 4: left, top, right, bottom) and scores (n, classes) of an output.
-
-    YOLOv8 and later: (1, 4 + classes, n). YOLOv5 and v7: (1, n, 5 + classes), the fifth being how
-    sure it is that anything is there.
-    """
-    [rows] = fitting([output], classes, where)
-    if len(rows) == 4 + classes:
-        rows = rows.T
-        scores = rows[:, 4:]
-    else:
-        scores = rows[:, 4:5] * rows[:, 5:]
-    half = rows[:, 2:4] / 2
-    return np.concatenate((rows[:, :2] - half, rows[:, :2] + half), axis=1), scores
-
-
-def suppress(boxes: Floats, scores: Floats, least: float) -> Found:
-    """Each cell's best class, without those that overlap a surer one of the same class."""
-    classes = scores.argmax(axis=1)
-    best = scores[np.arange(len(scores)), classes]
-    sure = best >= least
-    boxes, best, classes = boxes[sure], best[sure], classes[sure]
-    corners = np.concatenate((boxes[:, :2], boxes[:, 2:] - boxes[:, :2]), axis=1)
+def suppress(boxes: Boxes, least: float) -> Boxes:
+    """Without those that overlap a surer one of the same class."""
+    sides = boxes.corners[:, 2:] - boxes.corners[:, :2]
     kept = cv2.dnn.NMSBoxesBatched(
-        corners.tolist(), best.tolist(), classes.tolist(), least, MOST_OVERLAP
+        np.concatenate((boxes.corners[:, :2], sides), axis=1).tolist(),
+        boxes.scores.tolist(),
+        boxes.classes.tolist(),
+        least,
+        MOST_OVERLAP,
     )
-    order = np.array(sorted(kept, key=lambda index: -best[index]), np.int64)
-    return Found(boxes[order], best[order], classes[order].astype(np.int64))
+    order = np.array(sorted(kept, key=lambda index: -boxes.scores[index]), np.int64)
+    return Boxes(boxes.corners[order], boxes.scores[order], boxes.classes[order])
 
 
 def _whole_pixels(edges: Floats, frame: Frame) -> Box | None:

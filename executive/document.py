@@ -5,6 +5,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
+from urllib.parse import quote
+
+from executive.text import printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,6 +17,9 @@ class Link:
     text: str
     target: str
 
+
+SAFE = "/ "
+"""What a link keeps as it is: a colon would make a scheme of what is before it."""
 
 Cell = str | Sequence[Link]
 
@@ -102,12 +108,14 @@ def _markdown(part: Part, pictures: str) -> str:
 
 def _markdown_cell(cell: Cell) -> str:
     if isinstance(cell, str):
-        return _escaped(cell).replace("|", "\\|").replace("\n", " ")
-    return " ".join(f"[{link.text}](<{link.target}>)" for link in cell)
+        return _escaped(cell).replace("|", "\\|")
+    return " ".join(f"[{_escaped(link.text)}](<{quote(link.target, safe=SAFE)}>)" for link in cell)
 
 
 def _escaped(text: str) -> str:
-    return text.replace("*", "\\*").replace("<", "&lt;")
+    """As plain words: no emphasis, no tags, no links, nothing that a terminal would obey."""
+    plain = printable(text.replace("\n", " "))
+    return plain.replace("*", "\\*").replace("<", "&lt;").replace("](", "]\\(")
 
 
 def _html(part: Part) -> str:
@@ -129,5 +137,8 @@ def _html(part: Part) -> str:
 
 def _html_cell(cell: Cell) -> str:
     if isinstance(cell, str):
-        return escape(cell)
-    return " ".join(f'<a href="{escape(link.target)}">{escape(link.text)}</a>' for link in cell)
+        return escape(printable(cell.replace("\n", " ")))
+    return " ".join(
+        f'<a href="{quote(link.target, safe=SAFE)}">{escape(printable(link.text))}</a>'
+        for link in cell
+    )

@@ -32,9 +32,9 @@ class Engine(Protocol):
 
 
 def own(household: Household, entries: Sequence[Entry]) -> list[Entry]:
-    """The household's missions among these."""
+    """The household's missions among these that are results."""
     keys = set(household.keys)
-    return [entry for entry in entries if entry.row.key in keys]
+    return [e for e in entries if e.row.key in keys and not e.row.model_failure]
 
 
 class Here:
@@ -71,13 +71,13 @@ class Pool:
             ExecutiveError: if workers die without any mission ending in between.
         """
         while True:
-            ended = len(journal.entries())
+            written = journal.size
             try:
                 return self._run(campaign, journal, progress)
             except BrokenProcessPool:
                 if self._interrupted():  # it reached a worker that was still starting
                     raise KeyboardInterrupt from None
-                if len(journal.entries()) == ended:
+                if journal.size == written:
                     raise ExecutiveError(
                         "a worker process died, and the next one, too, before any mission ended; "
                         "try --workers 1, which shows why"

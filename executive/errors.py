@@ -7,6 +7,8 @@
 A mission that merely does not succeed is no error: it ends with an Outcome.
 """
 
+from executive.text import printable
+
 
 class ExecutiveError(Exception):
     """Root of all errors that are shown to the person as one sentence, without a traceback."""
@@ -20,9 +22,9 @@ class InputError(ExecutiveError):
         super().__init__(where, what, right)
 
     def __str__(self) -> str:
-        """The three in one sentence."""
+        """The three in one sentence, on one line that a terminal may have."""
         where, what, right = self.args
-        return f"{where}: {what}" + (f"; {right}" if right else "")
+        return printable(f"{where}: {what}" + (f"; {right}" if right else ""))
 
 
 class ModelError(ExecutiveError):

@@ -32,6 +32,7 @@ from executive.perception import locate
 from executive.segmentation import segment
 from executive.shell import DONE, entry_point
 from executive.terminal import show_over
+from executive.text import printable
 from executive.types import Box, Detection, Frame
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.scenes import Scene, SceneMaker
@@ -234,7 +235,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         judgements.append(judgement)
         show_over(f"{len(judgements)} of {options.scenes} scenes")
     print(file=sys.stderr)
-    print(report(judgements, milliseconds, path.name), end="")
+    print(report(judgements, milliseconds, printable(path.name)), end="")
     if options.picture:
         pictures = [one.picture for one in judgements]
         table = confusion(pictures, len(class_names()), LEAST_CONFIDENCE)

@@ -1,9 +1,10 @@
 """The report of a campaign: the paper's tables with ours beside its figures, tests and plots."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from executive import tables
+from executive import paper, tables
 from executive.document import Heading, Part, Table, Text, to_html, to_markdown, write_pictures
 from executive.journal import CRASHED, Row
 from executive.variants import Variant, variants
@@ -11,9 +12,12 @@ from executive.variants import Variant, variants
 PICTURES = "plots"
 """Folder of the plots, beside the report."""
 
+IN_BRACKETS = "In brackets: the paper's figures."
+NOT_COMPARED = (
+    "The paper's figures are not beside these: they are of its own commands in its own home."
+)
 READING = (
-    "In brackets: the paper's figures. Intervals (95 %, of the mean) are bootstrapped over the "
-    "commands.",
+    "Intervals (95 %, of the mean) are bootstrapped over the commands.",
     "Differences are tested with Wilcoxon's signed-rank test, two-sided, Holm-corrected over the "
     "pairs of systems of a situation; * p < 0.05, ** p < 0.01. By command: the mean of a command's "
     "seeds is one pair. By mission: a command with a seed is one pair, which takes repetitions of "
@@ -30,26 +34,43 @@ NO_PLOTS = (
 )
 
 
-def write_report(rows: Sequence[Row], about: Mapping[str, str], folder: Path) -> None:
+def write_report(
+    rows: Sequence[Row], about: Mapping[str, str], folder: Path, as_in_paper: Collection[str]
+) -> None:
     """Write `report.md` with its plots, and `report.html`, which holds them."""
-    parts = report(rows, about, folder)
+    parts = report(rows, about, folder, as_in_paper)
     write_pictures(parts, folder / PICTURES)
     (folder / "report.md").write_text(to_markdown(parts, PICTURES), encoding="utf-8")
     (folder / "report.html").write_text(to_html(parts), encoding="utf-8")
 
 
-def report(rows: Sequence[Row], about: Mapping[str, str], folder: Path = Path()) -> list[Part]:
+def report(
+    rows: Sequence[Row],
+    about: Mapping[str, str],
+    folder: Path = Path(),
+    as_in_paper: Collection[str] = (paper.HOME,),
+) -> list[Part]:
     """The whole report; crashed missions count as not completed and nowhere else.
+
+    Missions whose language model was of no help are counted, and count for nothing.
 
     Args:
         rows: missions that have ended, of any part of the campaign.
         about: settings, versions and the like, to be listed at the end.
         folder: where it will be; links to recordings are relative to it.
+        as_in_paper: homes in which the paper's commands were given, as the paper did it: only
+            there its figures stand beside ours.
     """
+    without_model = [row for row in rows if row.model_failure]
+    rows = [row for row in rows if not row.model_failure]
     ran = [row for row in rows if row.status != CRASHED]
-    found, all_found = variants(ran), variants(rows)
+    found, all_found = variants(ran, as_in_paper), variants(rows, as_in_paper)
     plots = dict(_plots(found))
-    parts: list[Part] = [Heading(f"Campaign: {len(rows)} missions", 1), *map(Text, READING)]
+    compared = any(variant.as_in_paper for variant in all_found)
+    reading = (IN_BRACKETS if compared else NOT_COMPARED, *READING)
+    parts: list[Part] = [Heading(f"Campaign: {len(rows)} missions", 1), *map(Text, reading)]
+    if without_model:
+        parts.append(Text(not_counted(without_model)))
     if not plots and ran:
         parts.append(Text(NO_PLOTS))
     parts += [Heading("Overview"), tables.overview(found)]
@@ -70,6 +91,17 @@ def report(rows: Sequence[Row], about: Mapping[str, str], folder: Path = Path())
     failed = tables.failures(rows, folder)
     parts += [Heading("Missions not completed"), failed if failed.rows else Text("None.")]
     return [*parts, Heading("Settings"), Table(["what", "value"], list(about.items()))]
+
+
+def not_counted(rows: Sequence[Row]) -> str:
+    """What is said of missions whose language model was of no help."""
+    why, number = Counter(row.model_failure for row in rows).most_common(1)[0]
+    whose = "1 mission" if len(rows) == 1 else f"{len(rows)} missions"
+    often = f", {number} times" if number < len(rows) else ""
+    return (
+        f"{whose} had no working language model ({why}{often}) and "
+        f"{'is' if len(rows) == 1 else 'are'} not counted; run again to try them."
+    )
 
 
 COMPARED = (

@@ -175,6 +175,7 @@ def _row(turn: int, key: Key, outcome: Outcome, session: Session, observed: Obse
         shortest_m=round(shortest_m(outcome, session.home, routes), 3),
         model=session.model.name if session.model else "",
         run_dir=outcome.run_dir or "",
+        model_failure=outcome.model_failure if key.llm != "none" else "",
     )
 
 

@@ -6,7 +6,6 @@ kills the campaign costs at most the missions under way. The tables are made fro
 
 import csv
 import json
-import os
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import get_type_hints
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from executive.appending import append_line, cut_half_line
 from executive.config import KnowledgeSystem
 from executive.errors import InputError
 
@@ -89,6 +89,8 @@ class Row:
     model: str = ""
     """The language model's own name."""
     run_dir: str = ""
+    model_failure: str = ""
+    """Why the language model was of no help; such a mission is no result, and is run again."""
 
     @property
     def key(self) -> Key:
@@ -105,6 +107,9 @@ class Row:
         """
         longer = max(self.path_m, self.shortest_m)
         return self.completed * (self.shortest_m / longer if longer else 1.0)
+
+
+_KINDS: dict[str, type] = get_type_hints(Row)
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,50 +129,79 @@ class Journal:
         self._file = file
 
     def mend(self) -> None:
-        """Cut off half a line that a power failure left; only while nobody appends.
+        """Cut off half a line that a power failure left.
 
         Raises:
             InputError: if the file cannot be written.
         """
         try:
-            self._file.touch()
-            with self._file.open("rb+") as stream:
-                stream.truncate(stream.read().rfind(b"\n") + 1)
+            cut_half_line(self._file)
         except OSError as error:
             raise InputError(
                 str(self._file), f"cannot be written: {error.strerror}", "choose another --out"
             ) from None
 
     def append(self, entry: Entry) -> None:
-        """Add a line, on the disk when this returns."""
-        line = json.dumps({**asdict(entry.row), "exchanges": entry.exchanges}) + "\n"
-        target = os.open(self._file, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o644)
-        try:
-            os.write(target, line.encode())
-            os.fsync(target)
-        finally:
-            os.close(target)
-
-    def entries(self) -> list[Entry]:
-        """All entries so far, in the order in which missions ended.
+        """Add a line, on the disk when this returns; a full disk is waited for.
 
         Raises:
-            InputError: names the line that is no entry.
+            InputError: if it cannot be written, and then nothing of it is there.
         """
-        lines = self._file.read_bytes().split(b"\n")[:-1] if self._file.exists() else []
-        return [self._entry(number, line) for number, line in enumerate(lines, 1)]
-
-    def _entry(self, number: int, line: bytes) -> Entry:
+        line = json.dumps({**asdict(entry.row), "exchanges": entry.exchanges}) + "\n"
         try:
-            values = json.loads(line)
-            exchanges = tuple((said, reply) for said, reply in values.pop("exchanges"))
-            return Entry(Row(**values), exchanges)
-        except (ValueError, TypeError, KeyError, AttributeError) as error:
-            raise InputError(
-                f"{self._file}:{number}",
-                f"is not a mission of this version: {error}",
-                "delete the line, or choose another --out",
-            ) from None
+            append_line(self._file, line.encode())
+        except OSError as error:
+            what = f"cannot be written: {error.strerror}"
+            right = "make room; the same command goes on from here"
+            raise InputError(str(self._file), what, right) from None
+
+    @property
+    def size(self) -> int:
+        """Bytes so far."""
+        return self._file.stat().st_size if self._file.exists() else 0
+
+    def entries(self) -> list[Entry]:
+        """One entry for each mission that has ended, in the order in which they first did.
+
+        Of several of one mission the last counts, but one without a working model never in the
+        place of a result. Damaged lines are left out.
+        """
+        found: dict[Key, Entry] = {}
+        for _, line in self._lines():
+            if isinstance(entry := read_entry(line), Entry):
+                before = found.get(entry.row.key)
+                if before is None or before.row.model_failure or not entry.row.model_failure:
+                    found[entry.row.key] = entry
+        return list(found.values())
+
+    def damage(self) -> list[str]:
+        """A sentence for each line that is no entry."""
+        return [
+            f"{self._file}:{number}: is not a mission: {entry}"
+            for number, line in self._lines()
+            if isinstance(entry := read_entry(line), str)
+        ]
+
+    def _lines(self) -> Iterable[tuple[int, bytes]]:
+        """Whole lines with their numbers."""
+        lines = self._file.read_bytes().split(b"\n")[:-1] if self._file.exists() else []
+        return enumerate(lines, 1)
+
+
+def read_entry(line: bytes) -> Entry | str:
+    """The entry of a line, or why it is none."""
+    try:
+        values = json.loads(line)
+        exchanges = tuple((str(said), str(reply)) for said, reply in values.pop("exchanges"))
+        row = Row(**values)
+        row.key  # noqa: B018  names a system that exists
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        return f"{type(error).__name__}: {error}"
+    for name, kind in _KINDS.items():
+        value = getattr(row, name)
+        if type(value) is not kind and not (kind is float and type(value) is int):
+            return f"{name} is {str(value)[:60]!r}"
+    return Entry(row, exchanges)
 
 
 def in_order(rows: Iterable[Row], policies: Sequence[str] = ()) -> list[Row]:
@@ -187,6 +221,11 @@ def in_order(rows: Iterable[Row], policies: Sequence[str] = ()) -> list[Row]:
     return sorted(rows, key=place)
 
 
+def _inert(value: object) -> object:
+    """What a spreadsheet does not take for a formula."""
+    return f"'{value}" if isinstance(value, str) and value[:1] in tuple("=+-@\t\r") else value
+
+
 def read_table(file: Path) -> list[Row]:
     """The rows of a `results.parquet`."""
     return [Row(**row) for row in pq.read_table(file).to_pylist()]
@@ -198,8 +237,9 @@ def write_tables(rows: Sequence[Row], folder: Path) -> None:
     with (folder / "results.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, names)
         writer.writeheader()
-        writer.writerows(asdict(row) for row in rows)
+        for row in rows:
+            writer.writerow({key: _inert(value) for key, value in asdict(row).items()})
     kinds = {str: pa.string(), bool: pa.bool_(), int: pa.int64(), float: pa.float64()}
-    schema = pa.schema([(name, kinds[kind]) for name, kind in get_type_hints(Row).items()])
+    schema = pa.schema([(name, kinds[kind]) for name, kind in _KINDS.items()])
     table = pa.Table.from_pylist([asdict(row) for row in rows], schema=schema)
     pq.write_table(table, folder / "results.parquet")

@@ -1,11 +1,12 @@
-"""What an ONNX file says about itself: the size of pictures it takes, and its metadata.
+"""What an ONNX file says about itself: the pictures that it takes, its metadata, what it refers to.
 
 Only the fields needed are declared, after onnx.proto; protobuf steps over all others.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import cache
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -13,18 +14,57 @@ from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 from google.protobuf.message import DecodeError
 
 from executive.errors import InputError
+from executive.files import read_bytes
+
+MOST_BYTES = 512 * 2**20
+"""The largest networks of this kind have half of that."""
+LONGEST_SIDE = 4096
+"""Of the pictures that a network takes."""
+MOST_WEIGHTS = 2**28
+"""Numbers in one tensor of a file."""
+_EXTERNAL = 1
+"""`data_location` of weights that are in another file."""
 
 _FIELDS: dict[str, tuple[tuple[str, int, str, bool], ...]] = {
-    "Model": (("graph", 7, "Graph", False), ("metadata_props", 14, "Entry", True)),
+    "Model": (
+        ("graph", 7, "Graph", False),
+        ("metadata_props", 14, "Entry", True),
+        ("functions", 25, "Function", True),
+    ),
     "Entry": (("key", 1, "string", False), ("value", 2, "string", False)),
-    "Graph": (("node", 1, "bytes", True), ("input", 11, "Value", True)),
+    "Graph": (
+        ("node", 1, "Node", True),
+        ("initializer", 5, "Weights", True),
+        ("input", 11, "Value", True),
+        ("sparse_initializer", 15, "Sparse", True),
+    ),
+    "Function": (("node", 7, "Node", True),),
+    "Node": (("attribute", 5, "Attribute", True),),
+    "Attribute": (
+        ("t", 5, "Weights", False),
+        ("g", 6, "Graph", False),
+        ("tensors", 10, "Weights", True),
+        ("graphs", 11, "Graph", True),
+        ("sparse_tensor", 22, "Sparse", False),
+        ("sparse_tensors", 23, "Sparse", True),
+    ),
+    "Sparse": (("values", 1, "Weights", False), ("indices", 2, "Weights", False)),
+    "Weights": (
+        ("dims", 1, "int64", True),
+        ("name", 8, "string", False),
+        ("external_data", 13, "Entry", True),
+        ("data_location", 14, "int64", False),
+    ),
     "Value": (("name", 1, "string", False), ("type", 2, "Type", False)),
     "Type": (("tensor_type", 1, "Tensor", False),),
-    "Tensor": (("shape", 2, "Shape", False),),
+    "Tensor": (("elem_type", 1, "int64", False), ("shape", 2, "Shape", False)),
     "Shape": (("dim", 1, "Dimension", True),),
     "Dimension": (("dim_value", 1, "int64", False),),
 }
 """Message -> its fields: name, number, type, and whether there may be several."""
+
+FLOAT, UINT8, FLOAT16 = 1, 2, 10
+_KINDS = {FLOAT: "float", UINT8: "uint8", FLOAT16: "float16"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,51 +72,116 @@ class OnnxFile:
     """What the file says.
 
     Attributes:
-        input: lengths of the first four-dimensional input (b, c, h, w); 0 where left open.
+        height: of the pictures that it takes; 0 where left open.
+        width: likewise.
+        takes_bytes: whether it takes colours from 0 to 255, not from 0 to 1.
         metadata: its own words, such as `names` of Ultralytics' exports.
+        content: the whole file.
     """
 
-    input: tuple[int, int, int, int]
+    height: int
+    width: int
+    takes_bytes: bool
     metadata: Mapping[str, str]
+    content: bytes = field(repr=False)
 
 
 def read_onnx(path: Path) -> OnnxFile:
     """Read what the file says about itself.
 
     Raises:
-        InputError: if it cannot be read, is no ONNX file, or takes no pictures.
+        InputError: if it cannot be read, is no ONNX file, takes no pictures, is of absurd size, or
+            refers to another file.
     """
+    where = str(path)
+    content = read_bytes(
+        path, MOST_BYTES, right="give a detector's FILE.onnx, learned or simulated"
+    )
     model = _message("Model")()
     try:
-        model.ParseFromString(path.read_bytes())
-    except OSError as error:
-        right = "give a detector's FILE.onnx, learned or simulated"
-        raise InputError(str(path), f"cannot be read: {error.strerror}", right) from None
+        model.ParseFromString(content)
     except DecodeError:
         model = _message("Model")()
     if not model.graph.node:
-        raise InputError(str(path), "is not an ONNX file", "export the detector's network to ONNX")
-    shapes = [[d.dim_value for d in i.type.tensor_type.shape.dim] for i in model.graph.input]
-    for shape in shapes:
-        if len(shape) == 4:
-            batch, channels, height, width = shape
-            metadata = {entry.key: entry.value for entry in model.metadata_props}
-            return OnnxFile((batch, channels, height, width), metadata)
-    raise InputError(str(path), f"has inputs {shapes}", "one of (1, 3, height, width) is needed")
+        raise InputError(where, "is not an ONNX file", "export the detector's network to ONNX")
+    for weights in _all_weights(model):
+        if weights.data_location == _EXTERNAL or weights.external_data:
+            right = "save it in one file (onnx.save with save_as_external_data=False)"
+            raise InputError(where, "has weights in another file, which is not read", right)
+        if min(weights.dims, default=1) < 0 or prod(weights.dims) > MOST_WEIGHTS:
+            raise InputError(where, f"has a tensor of {_times(weights.dims)} numbers")
+    picture = _picture(where, model.graph)
+    height, width = _size(where, [d.dim_value for d in picture.shape.dim])
+    if picture.elem_type not in _KINDS:
+        right = f"export it with inputs of type {' or '.join(_KINDS.values())}"
+        raise InputError(where, f"takes pictures of type {picture.elem_type} of ONNX", right)
+    metadata = {entry.key: entry.value for entry in model.metadata_props}
+    return OnnxFile(height, width, picture.elem_type == UINT8, metadata, content)
+
+
+def _picture(where: str, graph: Any) -> Any:
+    """The type of the first four-dimensional input that is no weight."""
+    weights = {tensor.name for tensor in graph.initializer}
+    inputs = [value.type.tensor_type for value in graph.input if value.name not in weights]
+    for one in inputs:
+        if len(one.shape.dim) == 4:
+            return one
+    shapes = [[d.dim_value for d in one.shape.dim] for one in inputs]
+    raise InputError(where, f"has inputs {shapes}", "one of (1, 3, height, width) is needed")
+
+
+def _size(where: str, shape: list[int]) -> tuple[int, int]:
+    """Height and width of pictures of this shape; 0 stands for any."""
+    batch, channels, height, width = shape
+    if batch not in (0, 1):
+        raise InputError(where, f"takes {batch} pictures at once", "export it for one picture")
+    if channels not in (0, 3):
+        right = "(1, 3, height, width) is needed: export it with channels first"
+        raise InputError(where, f"takes pictures of shape ({_times(shape, ', ')})", right)
+    if not 0 <= min(height, width) <= max(height, width) <= LONGEST_SIDE:
+        right = f"export it for sides of up to {LONGEST_SIDE}, such as 640"
+        raise InputError(where, f"takes pictures of {height} x {width}", right)
+    return height, width
+
+
+def _all_weights(model: Any) -> Iterator[Any]:
+    """Every tensor that the file holds or refers to, at whatever depth."""
+    nodes = [node for function in model.functions for node in function.node]
+    graphs = [model.graph]
+    while graphs or nodes:
+        if graphs:
+            graph = graphs.pop()
+            nodes += graph.node
+            yield from graph.initializer
+            yield from _of_sparse(graph.sparse_initializer)
+        else:
+            for attribute in nodes.pop().attribute:
+                yield from (attribute.t, *attribute.tensors)
+                yield from _of_sparse([attribute.sparse_tensor, *attribute.sparse_tensors])
+                graphs += [one for one in (attribute.g, *attribute.graphs) if one.node]
+
+
+def _of_sparse(tensors: Any) -> Iterator[Any]:
+    for tensor in tensors:
+        yield from (tensor.values, tensor.indices)
+
+
+def _times(lengths: Any, sign: str = " x ") -> str:
+    return sign.join(map(str, list(lengths)[:8]))
 
 
 @cache
 def _message(name: str) -> Any:
     """The class of one of our messages."""
     kinds = descriptor_pb2.FieldDescriptorProto
-    scalars = {"string": kinds.TYPE_STRING, "bytes": kinds.TYPE_BYTES, "int64": kinds.TYPE_INT64}
+    scalars = {"string": kinds.TYPE_STRING, "int64": kinds.TYPE_INT64}
     file = descriptor_pb2.FileDescriptorProto(name="onnx_part.proto", package="onnx_part")
     file.syntax = "proto3"
     for message, fields in _FIELDS.items():
         described = file.message_type.add(name=message)
-        for field, number, kind, several in fields:
+        for name_of_field, number, kind, several in fields:
             label = kinds.LABEL_REPEATED if several else kinds.LABEL_OPTIONAL
-            added = described.field.add(name=field, number=number, label=label)
+            added = described.field.add(name=name_of_field, number=number, label=label)
             if kind in scalars:
                 added.type = scalars[kind]
             else:

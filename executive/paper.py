@@ -10,6 +10,9 @@ OKB, LLM, MEM = KnowledgeSystem
 
 SYSTEMS: tuple[KnowledgeSystem, ...] = (OKB, LLM, MEM)
 
+HOME = "four_rooms"
+"""Our home that is made after its own."""
+
 COMMANDS = (
     "Find an apple.",
     "Find a power_drill.",

@@ -54,12 +54,14 @@ def figures(found: Sequence[Variant]) -> Iterator[tuple[str, Sequence[Figure]]]:
     """All figures by section; those of the paper's conditions show the first variant."""
     rows = found[0].rows
     whose = f" ({found[0].name})" if found[0].name else ""
+    diamonds = "Diamonds: the paper. " if found[0].as_in_paper else ""
     for title in MEASURES:
         caption = (
-            f"Mean {TITLES[title]}{whose}, with 95 % intervals over the commands. Diamonds: the "
-            "paper. Brackets: systems that differ, by command (* p < 0.05, ** p < 0.01)."
+            f"Mean {TITLES[title]}{whose}, with 95 % intervals over the commands. {diamonds}"
+            "Brackets: systems that differ, by command (* p < 0.05, ** p < 0.01)."
         )
-        yield title, [_figure(title, caption, (6.6, 3.0), partial(_means, rows=rows, title=title))]
+        draw = partial(_means, rows=rows, title=title, beside_paper=found[0].as_in_paper)
+        yield title, [_figure(title, caption, (6.6, 3.0), draw)]
     histograms = f"How many missions had so many inquiries and visits{whose}."
     boxes = f"Inquiries and visits of single missions{whose}. {FULL_BOX}"
     yield (
@@ -89,14 +91,15 @@ def _figure(
     return Figure(file, caption, out.getvalue())
 
 
-def _means(drawing: Drawing, rows: Sequence[Row], title: str) -> None:
+def _means(drawing: Drawing, rows: Sequence[Row], title: str, beside_paper: bool) -> None:
     column, figures = MEASURES[title]
     panels = drawing.subplots(1, 2, sharey=True)
     for defaults, axes in zip((False, True), panels, strict=True):
         tops: dict[KnowledgeSystem, float] = {}
         for x, system in enumerate(paper.SYSTEMS):
-            theirs = figures[system, defaults][0]
-            axes.plot(x, theirs, "D", color=BLACK, markersize=5, zorder=4)
+            theirs = figures[system, defaults][0] if beside_paper else 0.0
+            if beside_paper:
+                axes.plot(x, theirs, "D", color=BLACK, markersize=5, zorder=4)
             if summary := summary_of(of(rows, (system, defaults)), column):
                 color, hatch = OF_SYSTEM[system]
                 axes.bar(x, summary.mean, 0.62, color=color, hatch=hatch, edgecolor=BLACK)
@@ -217,6 +220,6 @@ def _policies(drawing: Drawing, found: Sequence[Variant]) -> None:
         axes.set_xlabel(TITLES[title])
         axes.set_xlim(left=-0.05)
         axes.grid(axis="x", color="#cccccc", linewidth=0.5)
-    panels[0].set_yticks(range(len(found)), [variant.name for variant in found])
+    panels[0].set_yticks(range(len(found)), [variant.name.replace("$", r"\$") for variant in found])
     panels[0].invert_yaxis()
     drawing.legend(loc="outside lower center", ncols=2, frameon=False)

@@ -54,7 +54,9 @@ def overview(found: Sequence[Variant]) -> Table:
             for defaults in (False, True):
                 cells = (
                     _mean_cell(
-                        of(variant.rows, (system, defaults)), column, figures[system, defaults][0]
+                        of(variant.rows, (system, defaults)),
+                        column,
+                        _theirs(variant, figures[system, defaults][0]),
                     )
                     for system in paper.SYSTEMS
                 )
@@ -65,7 +67,7 @@ def overview(found: Sequence[Variant]) -> Table:
                 _mean_cell(
                     asked(of(variant.rows, (system, defaults))),
                     lambda row: row.thinking_time_s,
-                    figures_s.get((system, defaults)),
+                    _theirs(variant, figures_s.get((system, defaults))),
                 )
                 for system in paper.SYSTEMS
             ]
@@ -89,7 +91,8 @@ def completion(found: Sequence[Variant]) -> Table:
                 table.append(
                     [
                         system,
-                        f"{done.mean:.1f} % ({100 * paper.COMPLETION[system]:.1f} %)",
+                        f"{done.mean:.1f} %"
+                        + _beside(variant, f"{100 * paper.COMPLETION[system]:.1f} %"),
                         interval(done, 1),
                         f"{said.mean:.1f} %",
                         f"{spl.mean:.2f}",
@@ -112,7 +115,12 @@ def times(found: Sequence[Variant]) -> Table:
             [
                 kind,
                 *(
-                    _mean_cell(of(done, condition, kind), lambda row: row.mission_time_s, t, 1)
+                    _mean_cell(
+                        of(done, condition, kind),
+                        lambda row: row.mission_time_s,
+                        _theirs(variant, t),
+                        1,
+                    )
                     for condition, t in figures.items()
                 ),
             ]
@@ -149,9 +157,9 @@ def measure(found: Sequence[Variant], title: str) -> Table:
                 table.append(
                     [
                         name(condition),
-                        f"{summary.mean:.2f} ({mean:.2f})",
+                        f"{summary.mean:.2f}" + _beside(variant, f"{mean:.2f}"),
                         interval(summary, 2),
-                        f"{summary.sd:.2f} ({sd:.2f})",
+                        f"{summary.sd:.2f}" + _beside(variant, f"{sd:.2f}"),
                         str(summary.n),
                     ]
                 )
@@ -246,7 +254,7 @@ def cost(found: Sequence[Variant]) -> Table:
             for condition, figure in figures.items():
                 mine = of(consulted, condition)
                 ours = f"{COST[title](mine):.2f}" if mine else "-"
-                cells.append(f"{ours} ({figure:.2f})")
+                cells.append(ours + _beside(variant, f"{figure:.2f}"))
             table.append([title, *cells])
         return table
 
@@ -310,6 +318,16 @@ def _mean_cell(rows: Sequence[Row], column: Column, theirs: float | None, digits
     """Our mean, and the paper's in brackets; empty if neither is known."""
     ours = f"{fmean(map(column, rows)):.{digits}f}" if rows else "" if theirs is None else "-"
     return ours + (f" ({theirs:.{digits}f})" if theirs is not None else "")
+
+
+def _theirs(variant: Variant, figure: float | None) -> float | None:
+    """The paper's figure, where it is of the same commands and home."""
+    return figure if variant.as_in_paper else None
+
+
+def _beside(variant: Variant, figure: str) -> str:
+    """The same, as it stands beside ours."""
+    return f" ({figure})" if variant.as_in_paper else ""
 
 
 def _against_first(rows: Mapping[str, Sequence[Row]], column: Column) -> dict[str, str]:

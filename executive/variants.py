@@ -1,6 +1,6 @@
 """The missions of a campaign, apart by policy, home and model, and by what they measure."""
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from statistics import fmean
 
@@ -22,14 +22,16 @@ class Variant:
         name: what it is called: in what it differs from the others; empty if it is the only one.
         rows: its missions, and those of okb in the same home.
         own: the same, less those of okb if an earlier variant has them.
+        as_in_paper: whether home and commands are those of the paper.
     """
 
     name: str
     rows: Sequence[Row]
     own: Sequence[Row]
+    as_in_paper: bool = True
 
 
-def variants(rows: Sequence[Row]) -> list[Variant]:
+def variants(rows: Sequence[Row], as_in_paper: Collection[str]) -> list[Variant]:
     """In the order of the rows; okb, which asks no model, belongs to every variant of its home."""
     asking = [row for row in rows if row.key.system != OKB] or rows
     which = list(dict.fromkeys((row.policy, row.home, row.llm) for row in asking))
@@ -39,7 +41,9 @@ def variants(rows: Sequence[Row]) -> list[Variant]:
         own = [row for row in asking if (row.policy, row.home, row.llm) == one]
         shared = [] if own[0].key.system == OKB else _of_okb(rows, home=one[1])
         name = ", ".join(part for part, shown in zip(one, differs, strict=True) if shown)
-        found.append(Variant(name, [*shared, *own], own if one[1] in homes else [*shared, *own]))
+        all_of_it = [*shared, *own]
+        mine = own if one[1] in homes else all_of_it
+        found.append(Variant(name, all_of_it, mine, one[1] in as_in_paper))
         homes.add(one[1])
     return found
 

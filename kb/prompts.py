@@ -2,7 +2,6 @@
 
 import json
 import re
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
 from executive.errors import InputError
+from executive.toml_file import read_toml
 from executive.types import SEARCHING, Kind, Message, Place
 from kb.names import unique
 from kb.verification import Reply
@@ -119,8 +119,8 @@ class Prompts(_Part):
         Raises:
             InputError: names the text and what is wrong with it.
         """
-        texts = _read(TEXTS)
-        own = _read(path) if path else {}
+        texts = read_toml(TEXTS)
+        own = read_toml(path) if path else {}
         for name, table in own.items():
             if isinstance(table, dict) and isinstance(texts.get(name), dict):
                 own[name] = {**texts[name], **table}
@@ -153,15 +153,6 @@ class Prompts(_Part):
         """The system prompt for a home with more furniture than a prompt has room for."""
         form = json.dumps(Reply.model_json_schema())
         return _fill(self.system_rooms, {"rooms": ", ".join(rooms), "format": form})
-
-
-def _read(path: Path) -> dict[str, Any]:
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(str(path), f"cannot be read: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(str(path), f"is not TOML: {error}") from None
 
 
 def _pattern(names: Iterable[str]) -> re.Pattern[str]:

@@ -22,6 +22,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.errors import InputError
 from executive.shell import DONE, entry_point
+from executive.text import printable
 from executive.types import Intrinsics, Pose
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
@@ -90,7 +91,7 @@ def _check(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps(faults, indent=2, ensure_ascii=False))
     else:
-        print("\n".join(faults or [f"{options.home}: no faults"]))
+        print("\n".join(faults or [f"{printable(options.home)}: no faults"]))
     return 1 if faults else 0
 
 
@@ -109,7 +110,7 @@ def _write(path: Path, content: bytes) -> None:
     except OSError as error:
         right = "give a file in a folder that exists"
         raise InputError(f"--out {path}", f"cannot write: {error.strerror}", right) from None
-    print(path)
+    print(printable(path))
 
 
 def draw(home: Home, models: Mapping[str, ObjectModel]) -> NDArray[np.uint8]:

@@ -2,13 +2,16 @@
 
 from collections.abc import Iterator
 from itertools import product
+from math import dist
 
 import numpy as np
 
 from executive.errors import InputError
+from sim.flaws import Flaw
+from sim.furniture import Furniture
 from sim.grasps import TILTS, Grasp, find_grasps
 from sim.hardware import FOLDED
-from sim.home import DELIVERY, PERSON, Fault, Home, inspect_home
+from sim.home import DELIVERY, PERSON, Home, inspect_home
 from sim.manipulation import APPROACH_M
 from sim.navigation import FOOTPRINT_M, OccupancyGrid, Unreachable, reachable
 from sim.objects import ObjectModel, load_objects
@@ -17,6 +20,8 @@ from sim.reaching import Approach, choose_approach, plan_stance, standing_poses
 
 GRASPS_TRIED = 4
 """Of a thing, for each way to hold the hand."""
+NEAR_M = 4.0
+"""From the furniture of an object: farther away nothing is in the way of the arm."""
 
 
 def check_home(name_or_path: str) -> tuple[InputError, ...]:
@@ -34,7 +39,7 @@ def check_home(name_or_path: str) -> tuple[InputError, ...]:
     return tuple(InputError(where, *fault) for fault in (*way_faults(home), *_reach_faults(home)))
 
 
-def way_faults(home: Home) -> Iterator[Fault]:
+def way_faults(home: Home) -> Iterator[Flaw]:
     """Where the robot does not fit or cannot get to."""
     grid = OccupancyGrid.from_home(home)
     needed = FOOTPRINT_M + grid.resolution
@@ -42,8 +47,6 @@ def way_faults(home: Home) -> Iterator[Fault]:
         if door.width < 2 * needed:
             right = f"make its width {2 * needed + grid.resolution:.2f} m or more"
             yield f"the door at {door.position} is too narrow for the robot", right
-    if not any(room.holds(*home.person[:2]) for room in home.rooms):
-        yield "person: they are outside of all rooms", "put them in a room"
     try:
         area = reachable(grid, home.robot_start[:2])
     except Unreachable:
@@ -62,15 +65,26 @@ def way_faults(home: Home) -> Iterator[Fault]:
             yield f"{key}: it cannot be reached from robot_start", right
 
 
-def _reach_faults(home: Home) -> Iterator[Fault]:
+def _reach_faults(home: Home) -> Iterator[Flaw]:
     """Objects that the arm would not get hold of, were each alone on its furniture."""
-    world = PlanningWorld(home)
+    world = PlanningWorld(_around_objects(home))
     models = load_objects()
     for name, spot in home.objects.items():
         if not _reaches(world, home, models[name]):
             right = "put it nearer to the front of its furniture, or on another board"
             yield f"{name}: it is out of the arm's reach on {spot.furniture}", right
     world.close()
+
+
+def _around_objects(home: Home) -> Home:
+    """The home with only the furniture that may be in the way of reaching for its objects."""
+    used = {home.furniture_named(place).pose[:2] for place in home.placement.values()}
+    near = tuple(f for f in home.furniture if any(_is_near(f, place) for place in used))
+    return home.model_copy(update={"furniture": near})
+
+
+def _is_near(piece: Furniture, place: tuple[float, float]) -> bool:
+    return dist(piece.pose[:2], place) < NEAR_M + max(piece.size[:2])
 
 
 def _reaches(world: PlanningWorld, home: Home, model: ObjectModel) -> bool:

@@ -1,11 +1,17 @@
 """Rooms and doors, and the walls that follow from them."""
 
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, PositiveFloat
+from pydantic import BaseModel, ConfigDict, Field
 
 Span = tuple[float, float]
+Coordinate = Annotated[float, Field(strict=True, ge=-1000.0, le=1000.0)]
+"""Of a point in `map` as a file gives it (metres)."""
+Length = Annotated[float, Field(strict=True, gt=0.0, le=100.0)]
+"""Of something in a home as a file gives it (metres)."""
 
 
 class Room(BaseModel):
@@ -16,7 +22,7 @@ class Room(BaseModel):
     name: str
     kind: str
     """Its class in the ontology."""
-    rectangle: tuple[float, float, float, float]
+    rectangle: tuple[Coordinate, Coordinate, Coordinate, Coordinate]
     """Left, lower, right and upper edge in `map` (metres)."""
 
     def holds(self, x: float, y: float) -> bool:
@@ -36,9 +42,9 @@ class Door(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    position: tuple[float, float]
+    position: tuple[Coordinate, Coordinate]
     """Its middle, on the line of a wall (metres, in `map`)."""
-    width: PositiveFloat
+    width: Length
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +61,7 @@ def walls(rooms: tuple[Room, ...], doors: tuple[Door, ...], thickness: float) ->
     Walls along y run through where they meet walls along x, so that corners are closed.
     """
     pieces = []
-    for (axis, offset), spans in _lines(rooms).items():
+    for (axis, offset), spans in wall_lines(rooms).items():
         gaps = [
             (door.position[1 - axis] - door.width / 2, door.position[1 - axis] + door.width / 2)
             for door in doors
@@ -67,11 +73,11 @@ def walls(rooms: tuple[Room, ...], doors: tuple[Door, ...], thickness: float) ->
     return tuple(pieces)
 
 
-def wall_axis(door: Door, rooms: tuple[Room, ...]) -> int | None:
+def wall_axis(door: Door, lines: "Lines") -> int | None:
     """Which coordinate is fixed along the wall that has the whole door: 0 (x), 1 (y), or None."""
     for axis in (0, 1):
         along, half = door.position[1 - axis], door.width / 2
-        for start, end in _joined(_lines(rooms)[axis, door.position[axis]]):
+        for start, end in _joined(lines.get((axis, door.position[axis]), ())):
             if start <= along - half and along + half <= end:
                 return axis
     return None
@@ -92,7 +98,10 @@ def _rooms_beside(door: Door, rooms: tuple[Room, ...]) -> list[str]:
     ]
 
 
-def _lines(rooms: tuple[Room, ...]) -> dict[tuple[int, float], list[Span]]:
+Lines = Mapping[tuple[int, float], Sequence[Span]]
+
+
+def wall_lines(rooms: tuple[Room, ...]) -> Lines:
     """Spans of wall on each line; axis 0 has x fixed, axis 1 has y fixed."""
     lines: dict[tuple[int, float], list[Span]] = defaultdict(list)
     for room in rooms:
@@ -104,7 +113,7 @@ def _lines(rooms: tuple[Room, ...]) -> dict[tuple[int, float], list[Span]]:
     return lines
 
 
-def _joined(spans: list[Span]) -> list[Span]:
+def _joined(spans: Sequence[Span]) -> list[Span]:
     joined: list[Span] = []
     for start, end in sorted(spans):
         if joined and start <= joined[-1][1]:
@@ -125,7 +134,7 @@ def _without(spans: list[Span], gaps: list[Span]) -> list[Span]:
     return spans
 
 
-def _grown(piece: Span, spans: list[Span], thickness: float) -> Span:
+def _grown(piece: Span, spans: Sequence[Span], thickness: float) -> Span:
     """A piece made longer by half a wall at its ends that are corners of a room."""
     corners = {end for span in spans for end in span}
     start, end = piece

@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PositiveFloat
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from executive.records import Shape
 from executive.types import Color, Pose, Vector3
+from sim.floorplan import Coordinate, Length
 
 PlanarPose = tuple[float, float, float]
 """x and y (metres) and yaw (radians) in `map`."""
@@ -90,7 +91,8 @@ def _yaw_in_radians(pose: PlanarPose) -> PlanarPose:
     return x, y, math.radians(degrees)
 
 
-PoseInDegrees = Annotated[PlanarPose, AfterValidator(_yaw_in_radians)]
+Degrees = Annotated[float, Field(strict=True, ge=-3600.0, le=3600.0)]
+PoseInDegrees = Annotated[tuple[Coordinate, Coordinate, Degrees], AfterValidator(_yaw_in_radians)]
 """A PlanarPose whose yaw a file gives in degrees."""
 
 
@@ -104,9 +106,9 @@ class Furniture(BaseModel):
     """Its class in the ontology."""
     room: str
     pose: PoseInDegrees
-    size: tuple[PositiveFloat, PositiveFloat, PositiveFloat]
+    size: tuple[Length, Length, Length]
     """Depth, width and height over all (metres)."""
-    boards: Annotated[tuple[PositiveFloat, ...], Field(max_length=8)] = ()
+    boards: Annotated[tuple[Length, ...], Field(max_length=8)] = ()
     """Heights of its boards below the top, or of a sofa's seat (metres)."""
     form: Form | None = None
     """How it is built, if not as its kind usually is."""
@@ -148,20 +150,6 @@ class Furniture(BaseModel):
         x, y = self.size[0] / 2, self.size[1] / 2
         points = ((x, y, 0.0), (-x, y, 0.0), (-x, -y, 0.0), (x, -y, 0.0))
         return tuple(self.to_map(point)[:2] for point in points)
-
-    def overlaps(self, other: "Furniture") -> bool:
-        """Whether the outlines overlap: no side of either has the other wholly before it."""
-        return not (self._is_apart(other) or other._is_apart(self))
-
-    def _is_apart(self, other: "Furniture") -> bool:
-        x, y, yaw = self.pose
-        cos, sin = math.cos(yaw), math.sin(yaw)
-        ahead = [(px - x) * cos + (py - y) * sin for px, py in other.corners()]
-        left = [(py - y) * cos - (px - x) * sin for px, py in other.corners()]
-        return any(
-            min(along) >= half or max(along) <= -half
-            for along, half in ((ahead, self.size[0] / 2), (left, self.size[1] / 2))
-        )
 
 
 @cache

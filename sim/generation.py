@@ -15,7 +15,8 @@ import tomli_w
 
 from executive.errors import InputError
 from sim.checking import way_faults
-from sim.home import DELIVERY, STAND_OFF_M, Home, home_faults
+from sim.flaws import home_flaws
+from sim.home import DELIVERY, STAND_OFF_M, Home
 from sim.navigation import FOOTPRINT_M
 from sim.objects import load_objects
 from sim.spots import NoRoomError, Spot, arrange
@@ -116,7 +117,7 @@ def generate_home(rooms: int, furniture: int, seed: int) -> str:
 
 def _is_sound(tables: Table) -> bool:
     home = Home.model_validate({"name": "home", **tables})
-    return not (any(home_faults(home)) or any(way_faults(home)))
+    return not (any(home_flaws(home)) or any(way_faults(home)))
 
 
 def _draw(rng: Random, rooms: int, furniture: int, side: float) -> Table | None:

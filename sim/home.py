@@ -4,38 +4,28 @@ A home is a TOML file; `homes/four_rooms.toml` shows every key. Its frame is `ma
 """
 
 import math
-import tomllib
-from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from importlib.resources import files
-from itertools import combinations
+from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    PositiveFloat,
-    ValidationError,
-)
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
-from executive.types import Place, Pose, Vector3
-from sim.floorplan import Door, Room, Wall, wall_axis, walls
-from sim.furniture import FORM_OF_KIND, Furniture, PlanarPose, PoseInDegrees, Surface
+from executive.files import decoded, read_bytes
+from executive.toml_file import MOST_BYTES, parse_toml
+from executive.types import DELIVERY, Place, Pose, Vector3
+from sim.flaws import home_flaws, object_flaws, spot_flaws
+from sim.floorplan import Door, Length, Room, Wall, walls
+from sim.furniture import Furniture, PlanarPose, PoseInDegrees, Surface
+from sim.naming import PERSON, usable
 from sim.objects import load_objects
-from sim.spots import NoRoomError, Spot, Standing, arrange
+from sim.spots import Spot, Standing, arrange
 
 __all__ = ["DELIVERY", "PERSON", "Furniture", "Home", "PlanarPose", "Surface", "load_home"]
 
-Fault = tuple[str, str]
-"""What is wrong, and what would be right."""
-
-PERSON = "person"
-DELIVERY = "delivery"
 STAND_OFF_M = 0.62
 """From the front edge of a piece of furniture to the middle of the robot that uses it."""
 TALKING_DISTANCE_M = 0.9
@@ -43,8 +33,10 @@ TALKING_DISTANCE_M = 0.9
 FLOOR_VIEWS = 5
 """How many looks it takes to see the floor all around the robot."""
 FACE_HEIGHT_M = 1.55
-LARGEST_M = 200.0
-"""A home that is longer was not meant in metres."""
+MOST_TOLD = 100
+"""So many things that are wrong are told of one file."""
+_SHOWN = 80
+"""So many characters of a value that is wrong are told."""
 VIEW_DEPTH_M = 0.17
 """Behind the front edge of a surface, where the camera looks."""
 VIEW_HEIGHT_M = 0.06
@@ -61,14 +53,14 @@ class Home(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str
-    wall_height: PositiveFloat = 2.4
-    wall_thickness: PositiveFloat = 0.1
+    wall_height: Length = 2.4
+    wall_thickness: Annotated[Length, Field(le=1.0)] = 0.1
     robot_start: PoseInDegrees
     person: PoseInDegrees
     """Where the person is, and where they look."""
-    rooms: Annotated[tuple[Room, ...], Field(min_length=1)]
-    doors: tuple[Door, ...] = ()
-    furniture: tuple[Furniture, ...]
+    rooms: Annotated[tuple[Room, ...], Field(min_length=1, max_length=200)]
+    doors: Annotated[tuple[Door, ...], Field(max_length=600)] = ()
+    furniture: Annotated[tuple[Furniture, ...], Field(max_length=5000)]
     delivery: Furniture
     """The table where brought things go; it is not searched."""
     objects: dict[str, Annotated[Spot, BeforeValidator(_as_spot)]] = Field(default_factory=dict)
@@ -98,11 +90,12 @@ class Home(BaseModel):
         Raises:
             InputError: if there is none of this name.
         """
-        pieces = {piece.name: piece for piece in (*self.furniture, self.delivery)}
-        if name not in pieces:
-            known = "it has " + ", ".join(pieces)
-            raise InputError(f"home {self.name}", f"there is no furniture {name!r}", known)
-        return pieces[name]
+        pieces = (*self.furniture, self.delivery)
+        for piece in pieces:
+            if piece.name == name:
+                return piece
+        known = "it has " + ", ".join(piece.name for piece in pieces)
+        raise InputError(f"home {self.name}", f"there is no furniture {name!r}", known)
 
     def stand(self, place: str) -> PlanarPose:
         """Where the robot stands to use a piece of furniture, or to talk to the `person`.
@@ -160,8 +153,8 @@ class Home(BaseModel):
         """
         spots = {name: Spot(furniture=where) for name, where in placement.items()}
         home = self.model_copy(update={"objects": {**self.objects, **spots}})
-        for fault in (*_object_faults(home), *_spot_faults(home)):
-            raise InputError("--place", *fault)
+        for flaw in (*object_flaws(home), *spot_flaws(home)):
+            raise InputError("--place", *flaw)
         return home
 
     def arrangement(self) -> dict[str, Standing]:
@@ -188,16 +181,15 @@ def inspect_home(name_or_path: str) -> tuple[Home | None, tuple[InputError, ...]
     Raises:
         InputError: if there is no such home or it is not TOML.
     """
-    text, where = _read(name_or_path)
-    try:
-        data = {"name": Path(where).stem, **tomllib.loads(text)}
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(where, f"this is not TOML: {error}") from None
+    content, where = _read(name_or_path)
+    data = {"name": usable(Path(where).stem), **parse_toml(content, where)}
     try:
         home = Home.model_validate(data)
     except ValidationError as error:
-        return None, tuple(_input_error(where, data, fault) for fault in error.errors())
-    return home, tuple(InputError(where, *fault) for fault in home_faults(home))
+        found = islice(error.errors(include_url=False), MOST_TOLD)
+        return None, tuple(_input_error(where, data, fault) for fault in found)
+    flaws = islice(home_flaws(home), MOST_TOLD)
+    return home, tuple(InputError(where, *flaw) for flaw in flaws)
 
 
 def home_text(name_or_path: str) -> str:
@@ -206,7 +198,7 @@ def home_text(name_or_path: str) -> str:
     Raises:
         InputError: if there is no such home.
     """
-    return _read(name_or_path)[0]
+    return decoded(*_read(name_or_path))
 
 
 def packaged_homes() -> tuple[str, ...]:
@@ -215,20 +207,16 @@ def packaged_homes() -> tuple[str, ...]:
     return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
 
 
-def _read(name_or_path: str) -> tuple[str, str]:
-    """The text of a home, and what to call its file in messages."""
-    if not name_or_path.endswith(".toml"):
-        if name_or_path in packaged_homes():
-            file = files("sim").joinpath("homes", f"{name_or_path}.toml")
-            return file.read_text(encoding="utf-8"), file.name
-        known = f"packaged are {', '.join(packaged_homes())}; or give the path of a .toml file"
-        raise InputError(f"home {name_or_path}", "there is no home of this name", known)
-    try:
-        return Path(name_or_path).read_text(encoding="utf-8"), name_or_path
-    except (OSError, UnicodeDecodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        known = f"packaged are {', '.join(packaged_homes())}"
-        raise InputError(name_or_path, f"cannot read this home: {why}", known) from None
+def _read(name_or_path: str) -> tuple[bytes, str]:
+    """The file of a home, and what to call it in messages."""
+    known = f"packaged are {', '.join(packaged_homes())}"
+    if name_or_path.endswith(".toml"):
+        return read_bytes(Path(name_or_path), MOST_BYTES, right=known), name_or_path
+    if name_or_path in packaged_homes():
+        file = files("sim").joinpath("homes", f"{name_or_path}.toml")
+        return file.read_bytes(), file.name
+    known += "; or give the path of a .toml file"
+    raise InputError(f"home {name_or_path[:_SHOWN]}", "there is no home of this name", known)
 
 
 def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
@@ -238,7 +226,7 @@ def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
         return InputError(where, f"there is no key {key}", "see sim/homes/four_rooms.toml")
     if fault["type"] == "missing":
         return InputError(where, f"{key} is missing", "see sim/homes/four_rooms.toml")
-    return InputError(where, f"{key} is {fault['input']!r}", fault["msg"].lower())
+    return InputError(where, f"{key} is {_shown(fault['input'])}", fault["msg"].lower())
 
 
 def _key(data: Any, path: tuple[str | int, ...]) -> str:
@@ -250,97 +238,10 @@ def _key(data: Any, path: tuple[str | int, ...]) -> str:
         except (KeyError, IndexError, TypeError):
             data = None
         name = data.get("name") if isinstance(part, int) and isinstance(data, dict) else None
-        words.append(str(part if name is None else name))
+        words.append(str(part if name is None else name)[:_SHOWN])
     return ".".join(words)
 
 
-def home_faults(home: Home) -> Iterator[Fault]:
-    """All that is wrong; what follows only from an earlier fault is left out."""
-    unbuildable = [*_room_faults(home), *_furniture_faults(home)]
-    yield from unbuildable
-    yield from _layout_faults(home)
-    yield from _object_faults(home)
-    if not unbuildable:
-        yield from _spot_faults(home)
-
-
-def _room_faults(home: Home) -> Iterator[Fault]:
-    for room in home.rooms:
-        left, lower, right, upper = room.rectangle
-        if left >= right or lower >= upper:
-            yield f"room {room.name} has no area", "give left, lower, right and upper edge"
-    left, lower, right, upper = home.extent()
-    if max(right - left, upper - lower) > LARGEST_M:
-        yield f"the rooms span more than {LARGEST_M:g} m", "give metres"
-    yield from _twice("room", [room.name for room in home.rooms])
-    for door in home.doors:
-        if wall_axis(door, home.rooms) is None:
-            on_edge = "put its middle on the edge of a room, away from the corners"
-            yield f"the door at {door.position} is not in a wall", on_edge
-
-
-def _furniture_faults(home: Home) -> Iterator[Fault]:
-    yield from _twice("furniture", [PERSON, DELIVERY, *(f.name for f in home.furniture)])
-    if home.delivery.name != DELIVERY:
-        yield f"the delivery table is named {home.delivery.name}", f"name it {DELIVERY}"
-    rooms = [room.name for room in home.rooms]
-    for piece in (*home.furniture, home.delivery):
-        of = f"furniture {piece.name}"
-        if piece.room not in rooms:
-            yield f"{of}: no room {piece.room!r}", f"rooms: {', '.join(rooms)}"
-        if piece.form is None and piece.kind not in FORM_OF_KIND:
-            known = f"known are {', '.join(FORM_OF_KIND)}; or give its form"
-            yield f"{of}: cannot build kind {piece.kind!r}", known
-        elif max(piece.boards, default=0.0) >= piece.size[2]:
-            yield f"{of}: a board is above its top", f"below {piece.size[2]} m"
-        elif min(length for shape in piece.shapes() for length in shape.size) <= 0:
-            yield f"{of}: too small or too low to be built", "make it larger"
-        elif not piece.surfaces():
-            yield f"{of}: nothing can stand on it", "give its boards"
-
-
-def _layout_faults(home: Home) -> Iterator[Fault]:
-    for room, neighbour in combinations(home.rooms, 2):
-        if room.overlaps(neighbour):
-            yield f"room {room.name} and {neighbour.name} overlap", "let them share an edge at most"
-    rooms = {room.name: room for room in home.rooms}
-    pieces = (*home.furniture, home.delivery)
-    for piece in pieces:
-        here = rooms.get(piece.room)
-        if here and not all(here.holds(x, y) for x, y in piece.corners()):
-            yield f"furniture {piece.name}: it sticks out of room {here.name}", "move it inside"
-    for one, other in combinations(pieces, 2):
-        if one.overlaps(other):
-            yield f"furniture {one.name} and {other.name} overlap", "move one of them"
-
-
-def _object_faults(home: Home) -> Iterator[Fault]:
-    models = load_objects()
-    furniture = [*(f.name for f in home.furniture), DELIVERY]
-    for name, spot in home.objects.items():
-        if name not in models:
-            yield f"there is no object {name!r}", f"objects: {', '.join(models)}"
-        if spot.furniture not in furniture:
-            where = f"furniture: {', '.join(furniture)}"
-            yield f"{name}: there is no furniture {spot.furniture!r}", where
-
-
-def _spot_faults(home: Home) -> Iterator[Fault]:
-    """Objects for which there is no room; those named otherwise are left out."""
-    furniture = [*(f.name for f in home.furniture), DELIVERY]
-    models = load_objects()
-    left = {n: s for n, s in home.objects.items() if n in models and s.furniture in furniture}
-    while True:
-        try:
-            home.model_copy(update={"objects": left}).arrangement()
-        except NoRoomError as error:
-            yield f"{error.name}: {error}", "choose another place for it"
-            del left[error.name]
-        else:
-            return
-
-
-def _twice(what: str, names: list[str]) -> Iterator[Fault]:
-    for name, count in Counter(names).items():
-        if count > 1:
-            yield f"{what} {name!r} is there twice", "give each its own name"
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."

@@ -8,8 +8,9 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
 from sim.home import Home
@@ -64,18 +65,18 @@ class OccupancyGrid:
         steps = [
             round((edges[:, axis + 2].max() - origin[axis]) / resolution) + 1 for axis in (0, 1)
         ]
-        columns, rows = np.indices(steps)
-        x, y = origin[0] + columns * resolution, origin[1] + rows * resolution
-        inside = np.any(
-            [(x >= a) & (x <= c) & (y >= b) & (y <= d) for a, b, c, d in edges.tolist()], axis=0
-        )
+        x = origin[0] + np.arange(steps[0])[:, None] * resolution
+        y = origin[1] + np.arange(steps[1])[None, :] * resolution
+        inside = np.zeros(steps, bool)
+        for a, b, c, d in edges.tolist():
+            inside |= ((x >= a) & (x <= c)) & ((y >= b) & (y <= d))
         person = np.hypot(x - home.person[0], y - home.person[1]) - PERSON_RADIUS_M
         clearance = np.where(inside, person.clip(0.0, FAR_M), 0.0)
         boxes = [(*wall.center, 0.0, *wall.size) for wall in home.walls()]
         boxes += [(*piece.pose, *piece.size[:2]) for piece in (*home.furniture, home.delivery)]
         for box in boxes:
             near = _window(origin, resolution, box)
-            found = _distance_to_box(x[near], y[near], box)
+            found = _distance_to_box(x[near[0]], y[:, near[1]], box)
             clearance[near] = np.minimum(clearance[near], found)
         return cls(origin, resolution, clearance)
 
@@ -177,8 +178,7 @@ def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
     """
     if not grid.is_free(grid.cell(start)):
         start = _nearest_free(grid, start)
-    _, numbers = connected_components(grid.graph, directed=False)
-    parts = np.reshape(numbers, grid.free.shape)
+    parts, _ = ndimage.label(grid.free, structure=np.ones((3, 3)))
     return np.asarray(parts == parts[grid.cell(start)])
 
 

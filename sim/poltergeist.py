@@ -12,7 +12,7 @@ from executive.types import Color, Pose
 from sim.bodies import create_body, frame_pose
 from sim.faults import Blocked, Crate, Moved
 from sim.faulty_hardware import FaultyHardware
-from sim.floorplan import Door, doors_between, wall_axis
+from sim.floorplan import Door, doors_between, wall_axis, wall_lines
 from sim.furniture import box
 from sim.home import Home
 from sim.mishaps import Mishaps
@@ -154,12 +154,12 @@ def _name(fault: Blocked | Crate) -> str:
 
 def _leaf_shape(home: Home, door: Door) -> tuple[Shape, Pose]:
     lengths = [door.width, door.width, DOOR_HEIGHT_M]
-    lengths[wall_axis(door, home.rooms) or 0] = DOOR_THICKNESS_M
+    lengths[wall_axis(door, wall_lines(home.rooms)) or 0] = DOOR_THICKNESS_M
     leaf = box((lengths[0], lengths[1], lengths[2]), (0.0, 0.0, DOOR_HEIGHT_M / 2), DOOR_COLOR)
     return leaf, _leaf_pose(home, door, door.width)
 
 
 def _leaf_pose(home: Home, door: Door, opened: float) -> Pose:
     x, y = door.position
-    along_y = wall_axis(door, home.rooms) == 0
+    along_y = wall_axis(door, wall_lines(home.rooms)) == 0
     return Pose((x + opened * (not along_y), y + opened * along_y, 0.0))

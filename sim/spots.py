@@ -8,7 +8,8 @@ from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, NonNegativeInt
 
-from sim.furniture import Surface
+from sim.floorplan import Coordinate
+from sim.furniture import Degrees, Surface
 from sim.objects import ObjectModel
 
 GAP_M = 0.12
@@ -31,9 +32,9 @@ class Spot(BaseModel):
     furniture: str
     surface: NonNegativeInt | None = None
     """Counts the furniture's surfaces, the handiest first; the first that fits if not given."""
-    at: tuple[float, float] | None = None
+    at: tuple[Coordinate, Coordinate] | None = None
     """From the middle of the surface to the front and to the left (metres)."""
-    yaw: Annotated[float, AfterValidator(math.radians)] = 0.0
+    yaw: Annotated[Degrees, AfterValidator(math.radians)] = 0.0
     """Turn of the object (degrees in the file, radians here)."""
 
 

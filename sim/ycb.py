@@ -12,10 +12,12 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
 from executive.errors import InputError
+from executive.files import read_bytes
 from executive.records import Shape
 from executive.types import Pose
 from sim.objects import WHITE, ObjectModel
@@ -25,6 +27,12 @@ Floats = NDArray[np.float64]
 MESH = Path("google_16k", "textured.obj")
 _NUMBER = re.compile(r"\d{3}(-[a-z])?_")
 """`013_apple`, `070-a_colored_wood_blocks`: without it, YCB's names are the ontology's."""
+MOST_BYTES = 64 * 2**20
+"""Of a mesh or a texture; the largest of YCB's for google_16k have a tenth of that."""
+LARGEST_PICTURE = 8192
+LONGEST_LINE = 1000
+_PICTURES = ("map_Kd", "map_Ka", "map_Ks", "map_Ns", "map_d", "map_bump", "map_Bump", "bump")
+"""What a material may name files with."""
 _POINTS = 300
 _RIGHT_ANGLES = Rotation.create_group("O")
 _COARSE, _FINE = np.arange(0.0, 90.0, 10.0), np.arange(-9.0, 10.0)
@@ -113,22 +121,54 @@ def _read(path: Path) -> Floats:
     except (QhullError, ValueError):
         raise InputError(str(path), "has points that enclose no volume") from None
     for material in _lines(text, "mtllib"):
-        described = path.parent / material.split(maxsplit=1)[1]
-        for texture in _lines(_text(described), "map_Kd"):
-            picture = described.parent / texture.split(maxsplit=1)[1]
-            if not picture.is_file():
-                raise InputError(
-                    str(described), f"names a texture that is not there: {picture.name}"
-                )
+        described = _beside(path, material)
+        for key in _PICTURES:
+            for texture in _lines(_text(described), key):
+                _check_picture(described, _beside(described, texture))
     return points
 
 
-def _text(path: Path) -> str:
+def _beside(file: Path, line: str) -> Path:
+    """The file that a line names, which has to be in the same folder.
+
+    Raises:
+        InputError: if it is elsewhere.
+    """
+    named = line.split(maxsplit=1)[1]
+    there = file.parent / named
+    if Path(named).name != named or there.resolve().parent != file.parent.resolve():
+        right = "put it into the same folder"
+        raise InputError(str(file), f"names a file that is elsewhere: {named[:80]}", right)
+    return there
+
+
+def _check_picture(described: Path, picture: Path) -> None:
+    """See whether a texture is a picture of a sane size, by its head.
+
+    Raises:
+        InputError: if it is not.
+    """
+    if not picture.is_file():
+        raise InputError(str(described), f"names a texture that is not there: {picture.name}")
+    read_bytes(picture, MOST_BYTES)
     try:
-        return path.read_text(encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise InputError(str(path), f"cannot be read: {error.strerror}") from None
+        with Image.open(picture) as opened:
+            largest = max(opened.size)
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        raise InputError(str(picture), "is not a picture", "give PNG or JPEG") from None
+    if largest > LARGEST_PICTURE:
+        right = f"give up to {LARGEST_PICTURE} pixels a side"
+        raise InputError(str(picture), f"is {largest} pixels long", right)
+
+
+def _text(path: Path) -> str:
+    """The text of a file of a model, whose lines are no longer than PyBullet can bear."""
+    text = read_bytes(path, MOST_BYTES).decode("utf-8", errors="replace")
+    if max(map(len, text.splitlines()), default=0) > LONGEST_LINE:
+        raise InputError(str(path), f"has a line of more than {LONGEST_LINE} characters")
+    return text
 
 
 def _lines(text: str, key: str) -> list[str]:
-    return [line.strip() for line in text.splitlines() if line.lstrip().startswith(f"{key} ")]
+    """Lines that begin with this word and say something about it."""
+    return [line.strip() for line in text.splitlines() if line.split(maxsplit=1)[:1] == [key]]

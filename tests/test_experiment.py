@@ -89,7 +89,7 @@ def test_only_those_who_asked_a_model_are_in_the_table_of_its_cost() -> None:
 
 def test_the_report_in_html_needs_no_other_file(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    write_report(grid_of_nine(), {"seeds": "<2>"}, tmp_path)
+    write_report(grid_of_nine(), {"seeds": "<2>"}, tmp_path, ())
     page = (tmp_path / "report.html").read_text()
     assert "&lt;2&gt;" in page
     assert page.count("<img") == page.count('src="data:') >= 5
@@ -98,7 +98,7 @@ def test_the_report_in_html_needs_no_other_file(tmp_path: Path) -> None:
 
 def test_the_plots_are_drawings_beside_the_report_in_markdown(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    write_report(grid_of_nine(), {}, tmp_path)
+    write_report(grid_of_nine(), {}, tmp_path, ())
     named = re.findall(r"!\[.*\]\((plots/.*\.svg)\)", (tmp_path / "report.md").read_text())
     assert len(named) >= 5
     for name in named:

@@ -199,7 +199,8 @@ FAULTS = {
         '[0, 0, 5, 5] }, { name = "loo", kind = "Bathroom", rectangle = [4, 4, 6, 6] }',
         "room den and loo overlap",
     ),
-    "millimetres": ("[0, 0, 5, 5]", "[0, 0, 5000, 5000]", "rooms span more than 200 m"),
+    "millimetres": ("[0, 0, 5, 5]", "[0, 0, 5000, 5000]", "rooms.den.rectangle.2 is 5000; .*1000"),
+    "feet": ("[0, 0, 5, 5]", "[0, 0, 500, 500]", "rooms span more than 200 m"),
     "door in no wall": ("[2, 0]", "[2, 1]", "door at .* is not in a wall"),
     "unknown room": (
         'room = "den"',
@@ -216,7 +217,7 @@ FAULTS = {
     ),
     "furniture outside": ("[3, 4, -90]", "[3, 5, -90]", "desk: it sticks out of room den"),
     "same name": ('"rack"', '"desk"', "furniture 'desk' is there twice"),
-    "reserved name": ('"rack"', '"person"', "furniture 'person' is there twice"),
+    "reserved name": ('"rack"', '"person"', "furniture 'person': this name has a meaning"),
     "overlap": ("[0.5, 3, 0]", "[2.5, 4, 0]", "desk and rack overlap"),
     "unknown object": ("mug =", "muk =", "there is no object 'muk'; objects: apple"),
     "unknown furniture": (

@@ -14,9 +14,10 @@ from executive.types import Place
 from kb.ontology import Ontology
 from sim.__main__ import main
 from sim.checking import check_home, way_faults
+from sim.flaws import home_flaws
 from sim.furniture import FORM_OF_KIND
 from sim.generation import FURNITURE_OF_ROOM, generate_home
-from sim.home import Home, home_faults, load_home
+from sim.home import Home, load_home
 from sim.objects import load_objects
 
 
@@ -102,7 +103,7 @@ def test_the_width_that_is_asked_for_is_enough(faults):
         ("[3, 4, -90]", "[3, 4.5, 90]", "furniture desk: there is no room for the robot to stand"),
         ("[4, 1, 90]", "[4, 0.4, -90]", "delivery: there is no room for the robot to stand"),
         ("[2, 2, 180]", "[0.6, 1.5, 180]", "person: there is no room for the robot to stand"),
-        ("[2, 2, 180]", "[7, 2, 180]", "person: they are outside of all rooms"),
+        ("[2, 2, 180]", "[7, 2, 180]", "person: (7, 2) is outside of all rooms"),
         ("[1, 1, 0]", "[3, 4, 0]", r"robot_start: the robot does not fit at (3.0, 4.0)"),
     ],
 )
@@ -123,7 +124,7 @@ def test_the_exit_status_says_fine_faulty_or_unreadable(tmp_path: Path, capsys):
     assert main(["check", str(file)]) == 0
     file.write_text(FLAT.replace('"desk"', '"person"', 1))
     assert main(["check", str(file)]) == 1
-    assert "furniture 'person' is there twice" in capsys.readouterr().out
+    assert "furniture 'person': this name has a meaning of its own" in capsys.readouterr().out
     file.write_text("robot_start = [")
     assert main(["check", str(file)]) == 2
     assert "not TOML" in capsys.readouterr().err
@@ -135,7 +136,10 @@ def test_json_lists_the_sentences(tmp_path: Path, capsys):
     file.write_text(FLAT.replace('"desk"', '"person"', 1).replace('"rack"', '"person"'))
     assert main(["check", str(file), "--json"]) == 1
     sentences = json.loads(capsys.readouterr().out)
-    assert f"{file}: furniture 'person' is there twice; give each its own name" in sentences
+    assert (
+        f"{file}: furniture 'person': this name has a meaning of its own; give another name"
+        in sentences
+    )
 
 
 SIZES = [(1, 8, 1), (3, 12, 2), (4, 40, 1), (30, 150, 1)]
@@ -157,7 +161,7 @@ def test_a_generated_home_has_what_was_asked_for_and_no_faults(
 @settings(max_examples=8)
 def test_every_seed_gives_a_sound_home(seed: int):
     home = Home.model_validate({"name": "home", **tomllib.loads(generate_home(5, 20, seed))})
-    assert not any(home_faults(home))
+    assert not any(home_flaws(home))
     assert not any(way_faults(home))
 
 

@@ -1,0 +1,82 @@
+"""Lines appended to a file by several processes of one machine, each whole and on the disk.
+
+A line that a full disk cuts short is completed when there is room again; one that the death of its
+writer cut short is cut off by the next one who writes. A lock that the system holds for a process,
+and drops with it, keeps them apart.
+"""
+
+import errno
+import fcntl
+import os
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+PATIENCE_S = 60.0
+"""How long a full disk is waited for."""
+_POLL_S = 0.2
+_FULL = {errno.ENOSPC, errno.EDQUOT}
+_TAIL = 1 << 16
+
+
+def append_line(file: Path, line: bytes) -> None:
+    """Append a line, on the disk when this returns; nothing of it is there if it raises.
+
+    Raises:
+        OSError: if the file cannot be written, or the disk stays full.
+    """
+    with _locked(file) as target:
+        start = _cut_to_whole_lines(target)
+        try:
+            _write(target, line)
+            os.fsync(target)
+        except BaseException:
+            os.ftruncate(target, start)
+            raise
+
+
+def cut_half_line(file: Path) -> None:
+    """Cut off half a line at the end; the file is made if there is none.
+
+    Raises:
+        OSError: if the file cannot be written.
+    """
+    with _locked(file) as target:
+        _cut_to_whole_lines(target)
+
+
+@contextmanager
+def _locked(file: Path) -> Iterator[int]:
+    target = os.open(file, os.O_RDWR | os.O_APPEND | os.O_CREAT, 0o644)
+    try:
+        fcntl.flock(target, fcntl.LOCK_EX)
+        yield target
+    finally:
+        os.close(target)
+
+
+def _cut_to_whole_lines(target: int) -> int:
+    """Where the next line begins."""
+    size = end = os.fstat(target).st_size
+    while end:
+        start = max(0, end - _TAIL)
+        found = os.pread(target, end - start, start).rfind(b"\n")
+        if found >= 0:
+            end = start + found + 1
+            break
+        end = start
+    if end < size:
+        os.ftruncate(target, end)
+    return end
+
+
+def _write(target: int, line: bytes) -> None:
+    latest = time.monotonic() + PATIENCE_S
+    while line:
+        try:
+            line = line[os.write(target, line) :]
+        except OSError as error:
+            if error.errno not in _FULL or time.monotonic() > latest:
+                raise
+            time.sleep(_POLL_S)

@@ -1,0 +1,72 @@
+"""Files from outside, read as far as they are what they say: plain files, not too large, text.
+
+A named pipe, a device or a folder is never opened: reading one could wait, or go on, for ever.
+"""
+
+import codecs
+import stat
+from pathlib import Path
+
+from executive.errors import InputError
+
+MOST_TEXT_BYTES = 4 * 2**20
+"""What a person writes by hand is smaller."""
+_WIDE = (codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE, codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+"""How files begin that some editors save as "Unicode"."""
+
+
+def read_bytes(path: Path, most: int, where: str = "", right: str = "") -> bytes:
+    """The content of a plain file of at most so many bytes.
+
+    Args:
+        path: the file.
+        most: bytes.
+        where: what to call the file in messages (default: its path).
+        right: what to give instead of a file that cannot be read.
+
+    Raises:
+        InputError: if it cannot be read, is no plain file, or is larger.
+    """
+    where = where or str(path)
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            kind = "a folder" if path.is_dir() else "a pipe or a device"
+            raise InputError(where, f"cannot be read: it is {kind}", right or "give a plain file")
+        with path.open("rb") as stream:
+            content = stream.read(most + 1)
+    except OSError as error:
+        raise InputError(where, f"cannot be read: {error.strerror}", right) from None
+    except ValueError:
+        raise InputError(where, "cannot be read: it is no name of a file", right) from None
+    if len(content) > most:
+        raise InputError(where, f"is larger than {_size(most)}", right or "give a smaller file")
+    return content
+
+
+def read_text(path: Path, where: str = "", right: str = "", most: int = MOST_TEXT_BYTES) -> str:
+    """The text of a plain file, without a byte order mark.
+
+    Raises:
+        InputError: as of `read_bytes`, or if it is not UTF-8 text.
+    """
+    return decoded(read_bytes(path, most, where, right), where or str(path))
+
+
+def decoded(content: bytes, where: str) -> str:
+    """UTF-8 text, without a byte order mark.
+
+    Raises:
+        InputError: if it is not.
+    """
+    if content.startswith(_WIDE):
+        raise InputError(where, "is not UTF-8 text: it is UTF-16 or UTF-32", "save it as UTF-8")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        what = f"is not UTF-8 text: line {line} has the byte 0x{content[error.start]:02x}"
+        raise InputError(where, what, "save it as UTF-8") from None
+
+
+def _size(count: int) -> str:
+    return f"{count >> 20} MB" if count >= 1 << 20 else f"{count >> 10} kB"

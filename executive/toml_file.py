@@ -1,0 +1,86 @@
+"""TOML from outside: one way to read it, whatever it is for.
+
+It is data only: nothing in it is run, opened or fetched. What would be costly or could not be told
+later is refused here: large files, deep nesting, numbers of more than 64 bits.
+"""
+
+import re
+import tomllib
+from datetime import date, time
+from pathlib import Path
+from typing import Any
+
+from executive.errors import InputError
+from executive.files import decoded, read_bytes
+
+MOST_BYTES = 2**20
+"""A home of 5,000 pieces of furniture; read in 2 s at most."""
+DEEPEST = 16
+"""Tables and arrays within one another."""
+_STRING_OR_COMMENT = re.compile(
+    r'"""(?:\\.|[^\\])*?(?:"""|\Z)|"(?:\\.|[^"\\\n])*+"?'
+    r"|'''.*?(?:'''|\Z)|'[^'\n]*+'?|#[^\n]*+",
+    re.DOTALL,
+)
+_LONG_KEY = re.compile(rf"(?:\.[ \t]*+[\w-]++[ \t]*+){{{DEEPEST},}}")
+"""`a.a.a. ...`: the reader takes time with the square of the parts of such a key."""
+_SHOWN = 60
+"""So many characters of a key that is wrong are told."""
+
+
+def read_toml(path: Path, right: str = "") -> dict[str, Any]:
+    """The tables of a TOML file.
+
+    Args:
+        path: the file.
+        right: what to give instead of a file that cannot be read.
+
+    Raises:
+        InputError: if it cannot be read or is not TOML, or holds what no file of ours does.
+    """
+    return parse_toml(read_bytes(path, MOST_BYTES, right=right), str(path))
+
+
+def parse_toml(content: bytes, where: str) -> dict[str, Any]:
+    """The tables of what a TOML file holds; `where` is what messages call it.
+
+    Raises:
+        InputError: as of `read_toml`.
+    """
+    if len(content) > MOST_BYTES:
+        raise InputError(where, f"is larger than {MOST_BYTES >> 20} MB", "give a smaller file")
+    text = decoded(content, where)
+    if _LONG_KEY.search(_STRING_OR_COMMENT.sub("s", text)):
+        raise _too_deep(where)
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(where, f"is not TOML: {error}") from None
+    except RecursionError:
+        raise _too_deep(where) from None
+    except ValueError:  # what Python itself refuses to read: a number of thousands of digits
+        raise InputError(where, "has a number or a date that cannot be", "see toml.io") from None
+    _check(tables, where)
+    return tables
+
+
+def _check(tables: dict[str, Any], where: str) -> None:
+    """Refuse what no file of ours has; without recursion, as it may be nested at will."""
+    left: list[tuple[str, Any, int]] = [("", tables, 0)]
+    while left:
+        key, value, depth = left.pop()
+        if depth > DEEPEST:
+            raise _too_deep(where)
+        if isinstance(value, dict):
+            left += [(f"{key}.{name}".lstrip("."), one, depth + 1) for name, one in value.items()]
+        elif isinstance(value, list):
+            left += [(f"{key}.{number}", one, depth + 1) for number, one in enumerate(value)]
+        elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+            raise InputError(where, f"{key[:_SHOWN]} is a number of more than 64 bits")
+        elif isinstance(value, date | time):
+            right = "put words into quotes"
+            raise InputError(where, f"{key[:_SHOWN]} is a date or a time", right)
+
+
+def _too_deep(where: str) -> InputError:
+    return InputError(where, f"is nested deeper than {DEEPEST} tables and arrays", "flatten it")

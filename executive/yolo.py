@@ -1,0 +1,169 @@
+"""The outputs of the YOLO family, told apart and brought to one form: boxes, scores, classes."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from executive.errors import InputError
+
+Floats = NDArray[np.float32]
+
+MASKS = 32
+"""Coefficients of a mask after the classes, in exports for segmentation."""
+MOST_ENDED = 5000
+"""Rows of an output whose overlaps are suppressed; grids have more."""
+_TOLERANCE = 0.01
+_OTHER_TASKS = ("pose", "obb", "classify")
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How an output is laid out.
+
+    Attributes:
+        output: which of the network's outputs it is.
+        kind: `grid`: a probability for each class after the box (YOLOv8 and later); `objectness`:
+            the same after how sure it is that anything is there (YOLOv5, v7); `ended`: corners,
+            score, class, with overlaps suppressed (YOLOv10, and exports with `nms=True`).
+        columns: how many numbers there are about a box.
+        turned: whether these are the rows of the output.
+    """
+
+    output: int
+    kind: Literal["grid", "objectness", "ended"]
+    columns: int
+    turned: bool = False
+
+    def rows(self, outputs: Sequence[Floats], where: str) -> Floats:
+        """The output as (n, columns).
+
+        Raises:
+            InputError: if it is not laid out like this.
+        """
+        output = outputs[self.output] if self.output < len(outputs) else np.zeros(0, np.float32)
+        if output.ndim == 3 and output.shape[2 - self.turned] == self.columns:
+            rows: Floats = output[0]
+            return rows.T if self.turned else rows
+        raise InputError(where, f"its output is now {output.shape}", "export it for one size")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Boxes:
+    """What an output says, unsorted.
+
+    Attributes:
+        corners: (n, 4): left, top, right, bottom.
+        scores: (n,).
+        classes: (n,), indices.
+    """
+
+    corners: Floats
+    scores: Floats
+    classes: NDArray[np.int64]
+
+
+def layout_of(
+    outputs: Sequence[Floats], classes: int, metadata: Mapping[str, str], where: str
+) -> Layout:
+    """Which output is to be read, and how; what fits several layouts is told by what it says.
+
+    Args:
+        outputs: for some picture.
+        classes: how many names its class list has.
+        metadata: the file's own words.
+        where: the file, for messages.
+
+    Raises:
+        InputError: if none fits, or the network is for another task or gives no probabilities.
+    """
+    if (task := metadata.get("task")) in _OTHER_TASKS:
+        raise InputError(where, f"is a network for the task {task}", "export one that detects")
+    if any(output.ndim == 3 and output.shape[0] > 1 for output in outputs):
+        raise InputError(where, "answers for several pictures at once", "export it for one picture")
+    found = list(_layouts(outputs, classes))
+    ended = [layout for layout in found if layout.kind == "ended"]
+    others = [layout for layout in found if layout.kind != "ended"]
+    says = metadata.get("end2end") == "True" or "'nms': True" in metadata.get("args", "")
+    if ended and (says or not others or _looks_ended(ended[0].rows(outputs, where))):
+        return ended[0]
+    if not others:
+        shapes = ", ".join(str(output.shape) for output in outputs)
+        raise InputError(
+            where,
+            f"its output is {shapes} and its class list has {classes} names",
+            f"(1, {4 + classes}, n), (1, n, {5 + classes}) or (1, n, 6) goes with them",
+        )
+    return others[0]
+
+
+def _layouts(outputs: Sequence[Floats], classes: int) -> Iterator[Layout]:
+    """All that fit by their numbers of columns."""
+    masks = any(o.ndim == 4 and MASKS in (o.shape[1], o.shape[3]) for o in outputs)
+    for number, output in enumerate(outputs):
+        if output.ndim != 3:
+            continue
+        _, first, second = output.shape
+        for more in (0, MASKS) if masks else (0,):
+            grid, objectness, ended = 4 + classes + more, 5 + classes + more, 6 + more
+            if first == grid and not (second == ended and first > second):
+                yield Layout(number, "grid", grid, turned=True)
+                continue
+            if second == ended and first <= MOST_ENDED:
+                yield Layout(number, "ended", ended)
+            if second == objectness:
+                yield Layout(number, "objectness", objectness)
+            if second == grid:
+                yield Layout(number, "grid", grid)
+
+
+def _looks_ended(rows: Floats) -> bool:
+    """Whether the rows can be corners, score and class: no class is a fraction."""
+    numbers, scores = rows[:, 5], rows[:, 4]
+    of_classes = (numbers == np.floor(numbers)) & (numbers >= 0)
+    ordered = (rows[:, 2] >= rows[:, 0]) & (rows[:, 3] >= rows[:, 1])
+    return bool((of_classes & ordered & (scores >= 0) & (scores <= 1 + _TOLERANCE)).all())
+
+
+@np.errstate(all="ignore")
+def read(rows: Floats, layout: Layout, classes: int) -> Boxes:
+    """Boxes with their best class; what are no numbers, have no area or no class is left out."""
+    if layout.kind == "ended":
+        corners, best, numbers = rows[:, :4], rows[:, 4], rows[:, 5]
+    else:
+        half = rows[:, 2:4] / 2
+        corners = np.concatenate((rows[:, :2] - half, rows[:, :2] + half), axis=1)
+        scores = probabilities(rows, layout, classes)
+        if layout.kind == "objectness":
+            scores = scores[:, :1] * scores[:, 1:]
+        numbers = scores.argmax(axis=1).astype(np.float32)
+        best = scores.max(axis=1)
+    good = np.isfinite(corners).all(axis=1) & np.isfinite(best) & np.isfinite(numbers)
+    good &= (corners[:, 2] > corners[:, 0]) & (corners[:, 3] > corners[:, 1])
+    good[good] &= (numbers[good] >= 0) & (numbers[good] < classes)
+    return Boxes(corners[good], best[good], numbers[good].astype(np.int64))
+
+
+def probabilities(rows: Floats, layout: Layout, classes: int) -> Floats:
+    """The columns that should be from 0 to 1."""
+    if layout.kind == "ended":
+        return rows[:, 4:5]
+    return rows[:, 4 : 4 + classes + (layout.kind == "objectness")]
+
+
+def check_probabilities(rows: Floats, layout: Layout, classes: int, where: str) -> None:
+    """See whether scores are probabilities.
+
+    Raises:
+        InputError: if they are not.
+    """
+    found = probabilities(rows, layout, classes)
+    known = found[np.isfinite(found)]
+    if found.size and not known.size:
+        raise InputError(where, "its scores are no numbers", "export it with 32 bits")
+    if known.size and not -_TOLERANCE <= known.min() <= known.max() <= 1 + _TOLERANCE:
+        low, high = known.min(), known.max()
+        right = "export it with its sigmoid, so that they are probabilities"
+        raise InputError(where, f"its scores go from {low:.3g} to {high:.3g}", right)

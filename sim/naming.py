@@ -1,0 +1,63 @@
+"""What rooms and furniture may be called: by these names they are spoken of, logged and found."""
+
+import re
+import unicodedata
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+
+from executive.types import DELIVERY, FLOOR
+
+LONGEST = 64
+"""Characters of a name."""
+PERSON = "person"
+TAKEN = frozenset(
+    {PERSON, DELIVERY, FLOOR, "hand", "gripper", "robot", "map", "base_link", "world", "home"}
+    | {"camera", "everywhere", "nowhere", "nothing", "none", "here", "there", "yes", "no", "stop"}
+    | {"quit", "exit", "unknown"}
+)
+"""What already means something, in answers or as a frame."""
+_BETWEEN = frozenset("_-' ")
+RULE = f"use up to {LONGEST} letters, digits, and single _ - ' or blanks between them"
+
+
+def name_fault(name: str) -> str | None:
+    """Why something cannot be called this; None if it can."""
+    if not name.strip():
+        return "is empty"
+    if len(name) > LONGEST:
+        return f"is longer than {LONGEST} characters"
+    wrong = next((c for c in name if not (_is_of_words(c) or c in _BETWEEN)), None)
+    if wrong is not None:
+        return f"has the character {ascii(wrong)}"
+    if name[0] in _BETWEEN or name[-1] in _BETWEEN or "  " in name:
+        return "does not begin and end with a letter or a digit, or has two blanks in a row"
+    return None
+
+
+def folded(name: str) -> str:
+    """The same for names that nobody would keep apart: `Side Table` is side_table."""
+    return re.sub(r"[\s_'-]+", "_", unicodedata.normalize("NFKC", name).casefold())
+
+
+def is_taken(name: str) -> bool:
+    """Whether the name already means something else."""
+    return folded(name) in TAKEN
+
+
+def alike(names: Iterable[str]) -> Iterator[tuple[str, ...]]:
+    """Names that are the same or would not be kept apart, each such set once."""
+    groups = defaultdict(list)
+    for name in names:
+        groups[folded(name)].append(name)
+    yield from (tuple(group) for group in groups.values() if len(group) > 1)
+
+
+def usable(text: str) -> str:
+    """The text with what no name may have left out; `home` if nothing remains."""
+    kept = "".join(c if _is_of_words(c) or c in "_-" else "_" for c in text)
+    return kept[:LONGEST].strip("_-") or "home"
+
+
+def _is_of_words(character: str) -> bool:
+    """Whether it is a letter, a digit, or a mark on one, of any script."""
+    return unicodedata.category(character)[0] in "LMN"
