@@ -77,7 +77,7 @@ class RecordedTime:
                     if number > self._inbox.last:
                         self._held_back = events[index:]
                         return
-                    self._inbox.end(number, result)
+                    self._inbox.post(Ended(number, result))
                 case DeadlinePassed():
                     pass  # the executive finds its inbox empty, as it did then
                 case StopRequested(by):
