@@ -9,19 +9,20 @@ import logging
 import sys
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from typing import TextIO
 
 from executive.clock import SimulatedClock
-from executive.command import EnglishInterpreter
+from executive.composition import OURS, Advise, Grounds, build_advisor, build_team
 from executive.config import Settings
 from executive.control import control
 from executive.errors import InputError
 from executive.events import THE_PERSON, Ended, Inbox, Started, StopRequested
+from executive.guards import GuardedModel, in_words
 from executive.interfaces import (
-    Advisor,
     Camera,
     Detector,
     Knowledge,
@@ -34,13 +35,11 @@ from executive.interfaces import (
 from executive.loop import Executive
 from executive.perception import Eyes
 from executive.records import Finished
-from executive.rules import rules
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
 from executive.text import one_line, too_long, writable
-from executive.types import Answered, Outcome, Status, Vector3
+from executive.types import Answered, Outcome, Status
 from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
-from kb.advisor import PlaceAdvisor
 from kb.facts import FactStore
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
@@ -56,13 +55,9 @@ from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
 from sim.objects import load_objects
 from sim.ycb import with_scans
 from trees.mission import mission
-from trees.team import Team
 from trees.tree import MissionTree
 
 log = logging.getLogger(__name__)
-
-ANYTHING = "thing"
-"""What the model prepares to be asked for."""
 
 PACKAGES = ("py-trees", "pybullet", "llama-cpp-python", "owlready2", "rerun-sdk", "mcap")
 
@@ -82,11 +77,14 @@ class Session:
         out: TextIO | None = None,
         recorded: bool = True,
         sinks: Sequence[Sink] = (),
+        policy: str = OURS,
+        advise: Advise = build_advisor,
     ) -> None:
         """Build everything; `user` and `model` replace what the settings name.
 
         The robot's words go to `out` (default: standard error). Missions that are not `recorded`
         leave no folder; `sinks` are told everything in either case, and closed after each mission.
+        `advise` makes the adviser; `policy` is what its recordings call it.
 
         Raises:
             ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
@@ -95,9 +93,12 @@ class Session:
         self._view = view
         self._recorded = recorded
         self._sinks = tuple(sinks)
+        self._policy = policy
         self.inbox = inbox or Inbox()
         self.home = load_home(settings.home).with_placement(settings.place)
         prompts = Prompts.load(settings.prompts)
+        self._used = files_used(settings)
+        self.recorder = FanOut(lambda: self.clock.now(), live=view)
         self.model = model or build_model(settings, self.inbox)
         self.knowledge = Ontology(
             self.home.places(),
@@ -106,8 +107,9 @@ class Session:
             person=settings.person,
         )
         self.facts = FactStore(settings.memory, learns=settings.learn)
-        self.advisor = build_advisor(settings, self.knowledge, self.model, prompts, self.facts)
-        self.recorder = FanOut(lambda: self.clock.now(), live=view)
+        guarded = GuardedModel(self.model, self.inbox, self.recorder) if self.model else None
+        self.grounds = Grounds(settings, self.home, self.knowledge, guarded, prompts, self.facts)
+        self.advisor = advise(self.grounds)
         self.mishaps = build_mishaps(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
             settings, self.home, self.inbox, self.recorder, self.knowledge, gui, self.mishaps
@@ -118,6 +120,7 @@ class Session:
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
         self._in_hand: str | None = None
+        self._restless = False
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
@@ -129,6 +132,12 @@ class Session:
         """One mission, from words to its outcome, with its own run folder if it is recorded.
 
         Words that are too long are refused at once; words that say stop are a mission that is over.
+        Whatever fails, there is an outcome, and the robot is told to halt. What came in before the
+        mission counts only if it was a stop; what comes after it does not count for the next one.
+
+        Raises:
+            InputError: if the run's folder cannot be made.
+            KeyboardInterrupt: if someone says stop by signal a second time.
         """
         began = time.monotonic()
         self.stopped_by = ""
@@ -138,32 +147,10 @@ class Session:
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
         self.folder = folder
-        self._in_hand = self._in_hand if self.robot.holding else None
-        self.clock.restart()
-        logs = self._logs(folder, started) if folder else []
-        self.recorder.open([*logs, *self._sinks], started)
-        if self.mishaps:
-            self.mishaps.begin()
-        self.world.describe()
-        situation = Situation(words=words, in_hand=self._in_hand)
-        tree = MissionTree(mission(self._team(situation)))
-        executive = Executive(
-            tree,
-            situation,
-            inbox=self.inbox,
-            clock=self.clock,
-            robot=self.robot,
-            recorder=self.recorder,
-        )
-        self.inbox.post(Started(words))
-        if control(words):
-            self.user.tell(NOTHING_TO_STOP)
-            self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
+        situation = Situation(words=words, in_hand=self._in_hand, restless=self._restless)
         try:
-            executive.run()
-            self.ticks = executive.ticks
-            self.stopped_by = situation.stopped_by
-            self._in_hand = situation.in_hand
+            self._begin(folder, started)
+            self._carry_out(situation)
             outcome = situation.outcome(
                 mission_time_s=self.clock.now(),
                 wall_time_s=time.monotonic() - began,
@@ -171,10 +158,58 @@ class Session:
             )
             self.recorder.record(Finished(outcome))
         finally:
+            self._in_hand, self._restless = situation.in_hand, situation.restless
+            self.stopped_by = situation.stopped_by
             self.recorder.close()
         if folder:
             write(folder / "outcome.json", to_json(outcome) + "\n")
         return outcome
+
+    def _begin(self, folder: Path | None, started: datetime) -> None:
+        """Open the logs, and tell them what is where."""
+        self.inbox.drop_all()
+        self.clock.restart()
+        logs: list[Sink] = []
+        try:
+            logs = self._logs(folder, started) if folder else []
+        except Exception as error:
+            log.warning("the mission goes on without logs: %s", in_words(error))
+        self.recorder.open([*logs, *self._sinks], started)
+        if self.mishaps:
+            self.mishaps.begin()
+        try:
+            self.world.describe()
+        except Exception as error:
+            log.warning("the world cannot be drawn in the log: %s", in_words(error))
+
+    def _carry_out(self, situation: Situation) -> None:
+        """Have the tree decide, from the words on."""
+        team = build_team(
+            self.grounds,
+            self.advisor,
+            situation,
+            inbox=self.inbox,
+            clock=self.clock,
+            recorder=self.recorder,
+            robot=self.robot,
+            eyes=self.eyes,
+            user=self.user,
+        )
+        executive = Executive(
+            MissionTree(mission(team)),
+            situation,
+            inbox=self.inbox,
+            clock=self.clock,
+            robot=self.robot,
+            recorder=self.recorder,
+        )
+        self.inbox.post(Started(situation.words))
+        if control(situation.words):
+            self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
+            with suppress(Exception):  # who cannot be told is at rest all the same
+                self.user.tell(NOTHING_TO_STOP)
+        executive.run()
+        self.ticks = executive.ticks
 
     def next_command(self, prompt: str = "") -> str | None:
         """Prompt, and wait for the person to type a command; None if the input or session ends.
@@ -209,42 +244,21 @@ class Session:
         self.facts.close()
         self.world.close()
 
-    def _team(self, situation: Situation) -> Team:
-        settings = self.settings
-        return Team(
-            situation=situation,
-            clock=self.clock,
-            recorder=self.recorder,
-            interpreter=EnglishInterpreter(),
-            knowledge=self.knowledge,
-            robot=self.robot,
-            eyes=self.eyes,
-            user=self.user,
-            model=self.model,
-            advisor=self.advisor,
-            rules=rules(settings),
-            facts=self.facts,
-            place_at=self._place_at,
-        )
-
-    def _place_at(self, point: Vector3) -> str | None:
-        """Where things are by the robot's map; in the instant world they have no true position."""
-        return None if self.settings.world == "fake" else furniture_at(self.home, point)
-
     def _logs(self, folder: Path, started: datetime) -> list[Sink]:
-        config = self.settings.to_toml()
-        write(folder / "config.toml", config)
+        write(folder / "config.toml", self._used["config.toml"].decode())
         attachments = {
-            "config.toml": config.encode(),
-            "home.toml": home_text(self.settings.home).encode(),
+            **self._used,
             **self.knowledge.files(),
             "facts.json": json.dumps(self.facts.beliefs()).encode(),
         }
         metadata = {
             "requests_before": str(self.inbox.last),
             "in_hand": self._in_hand or "",
+            "restless": str(self._restless),
             "seed": str(self.settings.seed),
-            "model": self.model.name if self.model else "none",
+            "model": self.grounds.model.name if self.grounds.model else "none",
+            "thinks": str(bool(self.grounds.model)),
+            "policy": self._policy,
             **{name: version(name) for name in PACKAGES},
         }
         from logs.rerun_sink import RerunSink
@@ -261,10 +275,14 @@ def refused(why: str) -> Outcome:
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
 
 
-def furniture_at(home: Home, point: Vector3) -> str | None:
-    """The furniture that has this point of `map` (metres) above its outline; None if none has."""
-    pieces = (*home.furniture, home.delivery)
-    return next((piece.name for piece in pieces if piece.is_below(point)), None)
+def files_used(settings: Settings) -> dict[str, bytes]:
+    """What a recording keeps of the settings, as it is now: by name, the files' contents."""
+    prompts = {"prompts.toml": settings.prompts.read_bytes()} if settings.prompts else {}
+    return {
+        "config.toml": settings.to_toml().encode(),
+        "home.toml": home_text(settings.home).encode(),
+        **prompts,
+    }
 
 
 def working(*makers: Callable[[], Sink]) -> list[Sink]:
@@ -273,8 +291,9 @@ def working(*makers: Callable[[], Sink]) -> list[Sink]:
     for make in makers:
         try:
             sinks.append(make())
-        except (OSError, RuntimeError) as error:
-            log.warning("a log cannot be opened, the mission goes on without it: %s", error)
+        except Exception as error:
+            why = in_words(error)
+            log.warning("a log cannot be opened, the mission goes on without it: %s", why)
     return sinks
 
 
@@ -367,29 +386,6 @@ def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         gpu_layers=settings.gpu_layers,
         grammar=settings.grammar,
     )
-
-
-def build_advisor(
-    settings: Settings,
-    knowledge: Ontology,
-    model: LanguageModel | None,
-    prompts: Prompts,
-    facts: FactStore,
-) -> Advisor | None:
-    """Who puts questions to the model, which begins to prepare for them; None without a model."""
-    if model is None:
-        return None
-    advisor = PlaceAdvisor(
-        knowledge,
-        model,
-        remembers=settings.remembers,
-        top=settings.top,
-        prompts=prompts,
-        facts=facts,
-    )
-    ask = advisor.ranking if settings.elicitation == "rank" else advisor.inquiry
-    model.prepare(ask(ANYTHING, ()))
-    return advisor
 
 
 def build_user(

@@ -6,10 +6,11 @@ elsewhere, and end as an `Ended` event. The Inbox is the only thing that threads
 
 import queue
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from executive.control import control
-from executive.types import Answered, Result
+from executive.text import writable
+from executive.types import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
 
 THE_PERSON = "the person"
 """Who says stop in words."""
@@ -44,7 +45,21 @@ class StopRequested:
     by: str
 
 
-Event = Started | Ended | DeadlinePassed | StopRequested
+@dataclass(frozen=True, slots=True)
+class HandFelt:
+    """What the fingers feel is not what they felt before: something, or nothing."""
+
+    holding: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Broke:
+    """The program itself failed, and why, as a clause: the mission cannot go on."""
+
+    reason: str
+
+
+Event = Started | Ended | DeadlinePassed | StopRequested | HandFelt | Broke
 
 
 class Inbox:
@@ -71,14 +86,28 @@ class Inbox:
         """Forget a cancelled request: its end, should it still come, is not delivered."""
         self._open.pop(request, None)
 
+    def drop_all(self) -> None:
+        """Forget every request that is under way: what was asked for is not wanted any more."""
+        for request in tuple(self._open):
+            self.drop(request)
+
+    def fail(self, request: int, reason: str) -> None:
+        """End a request as Failed for one who cannot: it counts, even if it was dropped."""
+        self._open[request] = False
+        self.end(request, Failed(reason))
+
     def post(self, event: Event) -> None:
         """Put an event in the box and wake whoever waits."""
         self._queue.put(event)
 
     def end(self, request: int, result: Result) -> None:
-        """Post the end of a request; an answer that says stop is one, whoever was asked."""
-        stops = isinstance(result, Answered) and control(result.text)
-        self.post(StopRequested(THE_PERSON) if stops else Ended(request, result))
+        """Post the end of a request; what is no result is Failed.
+
+        An answer that says stop is one, whoever was asked.
+        """
+        fit = _fit(result)
+        stops = isinstance(fit, Answered) and control(fit.text)
+        self.post(StopRequested(THE_PERSON) if stops else Ended(request, fit))
 
     @property
     def last(self) -> int:
@@ -141,3 +170,22 @@ class Inbox:
             e for e in self._taken if not isinstance(e, Ended) or e.request in self._open
         )
         return bool(self._taken)
+
+
+def _fit(result: Result) -> Result:
+    """The result with texts that can be written down, whoever made it."""
+    match result:
+        case Failed(reason, lost):
+            return Failed(_text(reason), lost)
+        case Answered(text):
+            return Answered(_text(text))
+        case Replied(text=text):
+            return replace(result, text=_text(text))
+        case Succeeded() | Saw() | Scored():
+            return result
+        case _:
+            return Failed(f"it ended with {type(result).__name__}, which is no result")
+
+
+def _text(text: object) -> str:
+    return writable(text if isinstance(text, str) else repr(text))

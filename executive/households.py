@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from executive.app import Session
+from executive.composition import Grounds
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
 from executive.interfaces import Advisor
@@ -90,6 +91,7 @@ class _Rest:
     def __init__(self, household: Household) -> None:
         self._recorded = household.recorded
         self._settings = household.settings_used
+        self._policy_name = household.policy
         self._policy = POLICIES[household.policy]
         self._inbox = Inbox()
         self._model = self._policy.model(self._settings, self._inbox)
@@ -108,8 +110,9 @@ class _Rest:
             out=io.StringIO(),
             recorded=self._recorded,
             sinks=[observed],
+            policy=self._policy_name,
+            advise=self._advise,
         )
-        session.advisor = self._advisor(session)
         try:
             row = _row(turn, key, session.run(key.command), session, observed)
         except Exception as error:
@@ -122,9 +125,9 @@ class _Rest:
         self.recall(entry)
         return entry
 
-    def _advisor(self, session: Session) -> Advisor | None:
+    def _advise(self, grounds: Grounds) -> Advisor | None:
         """The policy's, told the dialogue so far, which it keeps if the system has a memory."""
-        advisor = self._policy.advisor(session)
+        advisor = self._policy.advisor(grounds)
         if advisor:
             for said, reply in self._dialogue:
                 advisor.remember(ChatRequest("recalled", (Message("user", said),)), reply)

@@ -43,8 +43,11 @@ class Robot(Protocol):
         ...
 
     @property
-    def holding(self) -> bool:
-        """Whether both fingers touch a thing."""
+    def holding(self) -> bool | None:
+        """Whether both fingers touch a thing; None if the robot cannot tell.
+
+        It is asked when the robot has nothing to do, and is what the robot believes of its hand.
+        """
         ...
 
 

@@ -2,19 +2,22 @@
 
 import logging
 import time
-import traceback
 
 from executive.errors import ExecutiveError
-from executive.events import DeadlinePassed, Inbox
+from executive.events import Broke, DeadlinePassed, Ended, Event, HandFelt, Inbox
+from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
 from executive.interfaces import Clock, Recorder, Robot, Tree
-from executive.records import EventTaken, LlmCall, Note, Tick
+from executive.records import EventTaken, LlmCall, Note, Record, Tick
 from executive.situation import Situation
-from executive.types import Halt, Replied, Scored, Status
+from executive.text import printable
+from executive.types import Failed, Halt, Replied, Result, Scored, Succeeded
 
 log = logging.getLogger(__name__)
 
 REST_S = 5.0
 """How long the robot may take to come to rest (mission time, s)."""
+HALTS = 3
+"""How often it is told to, if it fails; and how many failures of the clock are borne meanwhile."""
 
 
 class Executive:
@@ -38,76 +41,157 @@ class Executive:
         self._situation = situation
         self._inbox = inbox
         self._clock = clock
-        self._robot = robot
-        self._recorder = recorder
+        self._robot = GuardedRobot(robot, inbox, recorder)
+        self._recorder = GuardedRecorder(recorder)
         self.ticks = 0
 
     def run(self) -> None:
         """Tick until the tree has decided or someone says stop; leave the robot at rest.
 
-        A behaviour that raises ends the mission as not done: what it raised goes to the log.
+        Whatever raises, ends the mission as not done: what it raised goes to the log. At the end
+        no request is open, and the situation says how the mission ended.
+
+        Raises:
+            KeyboardInterrupt: or what else is no Exception; the robot is told to halt even then.
         """
-        self._recorder.record(self._tree.shape())
-        finished = False
         try:
-            finished = self._run_until_decided()
-        except Exception as error:
-            self._give_up(error)
-        finally:
-            self._tree.stop()
-            if not finished:
+            decided = self._decide()
+            self._call_off()
+            if not decided or self._situation.restless:
                 self._come_to_rest()
+        except BaseException:
+            self._call_off()
+            self._robot.start(Halt())
+            raise
+        finally:
+            self._inbox.drop_all()
+            self._take_all()
+
+    # --- the mission ---
+
+    def _decide(self) -> bool:
+        """Whether the tree has decided; if not, the mission was cut short."""
+        try:
+            self._recorder.record(self._tree.shape())
+            self._feel()
+            return self._run_until_decided()
+        except Exception as error:
+            self._note(error)
+            known = isinstance(error, ExecutiveError)
+            reason = in_words(error) if known else f"internal error: {in_words(error)}"
+            self._take_in(Broke(reason))
+            return False
 
     def _run_until_decided(self) -> bool:
         while True:
             cause = self._take_events()
-            if self._situation.stopped_by:
+            if self._situation.is_cut_short:
                 return False
             self._tick(cause)
             if self._tree.status != "RUNNING":
+                self._situation.decided = True
                 return True
             self._clock.wait(self._situation.next_deadline)
 
     def _take_events(self) -> str:
         """Fold what happened into the situation; say what it was."""
-        events = self._inbox.take_all() or (DeadlinePassed(self._clock.now()),)
+        events = self._take_all()
+        if not events:
+            events = (DeadlinePassed(self._clock.now()),)
+            self._take_in(*events)
+        if any(_may_change_the_hand(event) for event in events):
+            self._feel()
+        woke = (event for event in events if not isinstance(event, HandFelt))
+        return ", ".join(type(getattr(e, "result", e)).__name__ for e in woke)
+
+    def _take_all(self) -> tuple[Event, ...]:
+        events = self._inbox.take_all()
         for event in events:
-            self._situation.fold(event)
-            self._recorder.record(EventTaken(event))
-            result = getattr(event, "result", None)
-            if isinstance(result, Replied | Scored):
-                self._recorder.record(LlmCall(result))
-        return ", ".join(type(getattr(e, "result", e)).__name__ for e in events)
+            self._take_in(event)
+        return events
+
+    def _take_in(self, event: Event) -> None:
+        self._situation.fold(event)
+        self._recorder.record(EventTaken(event))
+        result = getattr(event, "result", None)
+        if isinstance(result, Replied | Scored):
+            self._recorder.record(LlmCall(result))
+
+    def _feel(self) -> None:
+        """Ask the fingers, unless the robot is at something; what they feel anew is an event."""
+        if self._inbox.awaits_anything:
+            return
+        holding = self._robot.holding
+        if holding is not None and holding != self._situation.felt:
+            self._take_in(HandFelt(holding))
 
     def _tick(self, cause: str) -> None:
-        began = time.perf_counter()
-        self._tree.tick()
-        self._recorder.record(
-            Tick(
-                number=self.ticks,
-                cause=cause,
-                tip=self._tree.tip,
-                nodes=self._tree.states(),
-                situation=self._situation.snapshot(),
-                duration_s=time.perf_counter() - began,
-            )
-        )
+        """Let the tree decide; what it does before it raises, counts for nothing.
+
+        So what is known is what the record of the mission tells, and its replay knows the same.
+        """
+        before = self._situation.saved()
+        try:
+            record = self._ticked(cause)
+        except BaseException:
+            self._situation.restore(before)
+            raise
+        self._recorder.record(record)
         self.ticks += 1
 
-    def _give_up(self, error: Exception) -> None:
-        self._situation.status = Status.NOT_DONE
-        if isinstance(error, ExecutiveError):
-            self._situation.reason = str(error)
-            return
-        self._situation.reason = f"internal error: {type(error).__name__}: {error}"
-        log.debug("a behaviour raised", exc_info=error)
-        self._recorder.record(Note("error", "".join(traceback.format_exception(error))))
+    def _ticked(self, cause: str) -> Record:
+        began = time.perf_counter()
+        self._tree.tick()
+        return Tick(
+            number=self.ticks,
+            cause=cause,
+            tip=self._tree.tip,
+            nodes=self._tree.states(),
+            situation=self._situation.snapshot(),
+            duration_s=time.perf_counter() - began,
+        )
+
+    # --- its end ---
+
+    def _call_off(self) -> None:
+        """Have every behaviour cancel what it started."""
+        try:
+            self._tree.stop()
+        except Exception as error:
+            self._note(error)
 
     def _come_to_rest(self) -> None:
-        """Stop the robot and let time pass until it stands still."""
+        """Stop the robot and let time pass until it stands still; say so if it may not."""
+        result: Result | None = None
+        for _ in range(HALTS):
+            result = self._halt()
+            if not isinstance(result, Failed):
+                break
+        self._situation.restless = not isinstance(result, Succeeded)
+        if self._situation.restless:
+            why = printable(result.reason)[:LONGEST] if isinstance(result, Failed) else ""
+            self._situation.reason += "; I may not be at rest" + (f": {why}" if why.strip() else "")
+        self._inbox.drop_all()
+        self._feel()
+
+    def _halt(self) -> Result | None:
+        """Tell the robot to halt, and wait; how that ended (None: not in time)."""
         request = self._robot.start(Halt())
-        latest = self._clock.now() + REST_S
-        while self._inbox.is_open(request) and self._clock.now() < latest:
-            self._clock.wait(latest)
-            for event in self._inbox.take_all():
-                self._recorder.record(EventTaken(event))
+        latest, failures = self._clock.now() + REST_S, 0
+        while self._inbox.is_open(request) and self._clock.now() < latest and failures < HALTS:
+            try:
+                self._clock.wait(latest)
+            except Exception as error:
+                self._note(error)
+                failures += 1
+            self._take_all()
+        return self._situation.results.pop(request, None)
+
+    def _note(self, error: Exception) -> None:
+        log.debug("the mission is cut short", exc_info=error)
+        self._recorder.record(Note("error", traceback_of(error)))
+
+
+def _may_change_the_hand(event: Event) -> bool:
+    """Whether it may be the end of something that the robot did."""
+    return isinstance(event, Ended) and isinstance(event.result, Succeeded | Failed)

@@ -13,11 +13,12 @@ from itertools import chain
 from types import MappingProxyType
 from typing import Any
 
-from executive.app import Session, build_model
+from executive.app import build_model
+from executive.composition import Advise, Grounds, build_advisor
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
 from executive.interfaces import Advisor, LanguageModel
-from executive.routes import routes_in
+from executive.routes import routes_of
 from executive.types import (
     ChatRequest,
     Failed,
@@ -30,7 +31,6 @@ from executive.types import (
 from kb.advisor import PlaceAdvisor
 from kb.names import unique
 from kb.ontology import Ontology
-from kb.prompts import Prompts
 from kb.verification import Reply
 
 Order = Callable[[str, Sequence[str]], Sequence[str]]
@@ -53,13 +53,13 @@ class Policy:
         description: for the person who chooses.
         settings: what it sets, whatever else was set.
         model: makes the language model, or what stands in for one.
-        advisor: makes the adviser for a session with that model.
+        advisor: makes the adviser for a mission with that model.
     """
 
     description: str
     settings: Mapping[str, Any] = field(default_factory=dict)
     model: Callable[[Settings, Inbox], LanguageModel | None] = build_model
-    advisor: Callable[[Session], Advisor | None] = lambda session: session.advisor
+    advisor: Advise = build_advisor
 
 
 # --- baselines: an order of places without a language model ---
@@ -106,9 +106,9 @@ class Indifferent:
 class Ordered(PlaceAdvisor):
     """Names the places in a given order, for a model to which they are all alike."""
 
-    def __init__(self, session: Session, model: LanguageModel, order: Order) -> None:
-        """Order the places of the session's home."""
-        super().__init__(session.knowledge, model, remembers=False)
+    def __init__(self, grounds: Grounds, model: LanguageModel, order: Order) -> None:
+        """Order the places of the mission's home."""
+        super().__init__(grounds.knowledge, model, remembers=False)
         self._order = order
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
@@ -119,12 +119,12 @@ class Ordered(PlaceAdvisor):
         return replace(request, places=places, options=tuple(words[place] for place in places))
 
 
-def nearest(session: Session) -> Order:
+def nearest(grounds: Grounds) -> Order:
     """Always go to the place that is nearest to where the robot is, by the map."""
-    routes = routes_in(session.settings.home)
+    routes = routes_of(grounds.home)
 
     def order(name: str, places: Sequence[str]) -> list[str]:
-        here, left, tour = session.home.robot_start[:2], list(places), list[str]()
+        here, left, tour = grounds.home.robot_start[:2], list(places), list[str]()
         while left:
             tour.append(min(left, key=lambda place: routes.length(here, routes.stand(place))))
             left.remove(tour[-1])
@@ -134,11 +134,11 @@ def nearest(session: Session) -> Order:
     return order
 
 
-def by_chance(session: Session) -> Order:
+def by_chance(grounds: Grounds) -> Order:
     """Any order; the same for the same seed and object."""
 
     def order(name: str, places: Sequence[str]) -> list[str]:
-        chance = random.Random(f"{session.settings.seed} {name}")
+        chance = random.Random(f"{grounds.settings.seed} {name}")
         return chance.sample(list(places), len(places))
 
     return order
@@ -150,7 +150,7 @@ def the_survey() -> Ontology:
     return Ontology(defaults=True)
 
 
-def popular(session: Session | None = None) -> Order:
+def popular(grounds: Grounds | None = None) -> Order:
     """Where other things usually are, by the survey; equals in the home's order.
 
     The record that the asked object takes its own default locations from is left out, and with it
@@ -168,24 +168,24 @@ def popular(session: Session | None = None) -> Order:
     return order
 
 
-def true_first(session: Session) -> Order:
+def true_first(grounds: Grounds) -> Order:
     """The place where the thing truly is, then the others: knows the truth, as no robot does."""
 
     def order(name: str, places: Sequence[str]) -> list[str]:
-        truth = session.home.placement.get(name)
+        truth = grounds.home.placement.get(name)
         return sorted(places, key=lambda place: place != truth)
 
     return order
 
 
-def baseline(description: str, rule: Callable[[Session], Order]) -> Policy:
+def baseline(description: str, rule: Callable[[Grounds], Order]) -> Policy:
     """A policy that goes by a rule instead of a language model."""
 
     def model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         return None if settings.knowledge == KnowledgeSystem.OKB else Indifferent(inbox)
 
-    def advisor(session: Session) -> Advisor | None:
-        return Ordered(session, session.model, rule(session)) if session.model else None
+    def advisor(grounds: Grounds) -> Advisor | None:
+        return Ordered(grounds, grounds.model, rule(grounds)) if grounds.model else None
 
     return Policy(description, {"llm": "none", "elicit": "rank"}, model, advisor)
 
@@ -264,17 +264,17 @@ def reworded(
     return model
 
 
-def unverified(session: Session) -> Advisor | None:
+def unverified(grounds: Grounds) -> Advisor | None:
     """Makes an adviser without the existence check."""
-    if session.model is None:
+    if grounds.model is None:
         return None
-    settings = session.settings
+    settings = grounds.settings
     return Unverified(
-        session.knowledge,
-        session.model,
+        grounds.knowledge,
+        grounds.model,
         remembers=settings.remembers,
         top=settings.top,
-        prompts=Prompts.load(settings.prompts),
+        prompts=grounds.prompts,
     )
 
 

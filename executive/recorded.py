@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from executive.events import DeadlinePassed, Ended, Inbox, StopRequested
+from executive.events import DeadlinePassed, Ended, Event, Inbox, StopRequested
 from executive.records import Tick
-from executive.types import FLOOR, ChatRequest, Goal, Question, RankRequest
+from executive.types import FLOOR, ChatRequest, Goal, Halt, Question, RankRequest, Succeeded
 from logs.reader import Turn
 from sim.home import FLOOR_VIEWS, Home
 
@@ -19,6 +19,7 @@ class RecordedTime:
         self._requests_before = requests_before
         self._now = 0.0
         self._stopped = False
+        self._held_back: tuple[Event, ...] = ()
         self.turn: Turn | None = None
         """The turn of the recording that is played; None at its end."""
         self.missed: Turn | None = None
@@ -36,9 +37,11 @@ class RecordedTime:
         """Post what was recorded next; at the end say stop, then let the deadline pass."""
         if self._inbox.has_events:
             return
-        turn = self.next_turn()
-        if turn is not None:
-            self._play(turn)
+        if self._held_back:
+            self._post(self._held_back)
+        elif (turn := self.next_turn()) is not None:
+            self._now = turn.time_s
+            self._post(turn.events)
         elif self._stopped and deadline is not None:
             self._now = deadline
         else:
@@ -61,12 +64,20 @@ class RecordedTime:
         self._stopped = True
         self._inbox.post(StopRequested(by))
 
-    def _play(self, turn: Turn) -> None:
-        self._now = turn.time_s
-        for event in turn.events:
+    def _post(self, events: tuple[Event, ...]) -> None:
+        """Post these events up to the end of what is yet to be started: that, when it was.
+
+        Where the mission was cut short, the end of `Halt` is in the same turn as what cut it short.
+        """
+        self._held_back = ()
+        for index, event in enumerate(events):
             match event:
                 case Ended(request, result):
-                    self._inbox.post(Ended(request - self._requests_before, result))
+                    number = request - self._requests_before
+                    if number > self._inbox.last:
+                        self._held_back = events[index:]
+                        return
+                    self._inbox.post(Ended(number, result))
                 case DeadlinePassed():
                     pass  # the executive finds its inbox empty, as it did then
                 case StopRequested(by):
@@ -81,17 +92,23 @@ class Absent:
     name = "absent"
     context_tokens = 4096
     can_rank = True
-    holding = False
+    holding = None
+    """What the fingers felt is among the recorded events."""
 
     def __init__(self, inbox: Inbox) -> None:
         """Open requests in this inbox."""
         self._inbox = inbox
         self.home: Home | None = None
         """Whose furniture takes several views; None: one is enough."""
+        self.rests = False
+        """Whether it halts at once, whatever was recorded: that was not judged in earlier days."""
 
     def start(self, goal: Goal) -> int:
         """Pursue nothing."""
-        return self._inbox.open()
+        request = self._inbox.open()
+        if self.rests and isinstance(goal, Halt):
+            self._inbox.end(request, Succeeded())
+        return request
 
     def see(self) -> int:
         """Look at nothing."""

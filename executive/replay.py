@@ -19,7 +19,7 @@ from typing import TypeVar
 
 from pydantic import ValidationError
 
-from executive.command import EnglishInterpreter
+from executive.composition import OURS, Advise, Grounds, build_advisor, build_team
 from executive.config import Settings
 from executive.errors import InputError
 from executive.events import Inbox
@@ -27,12 +27,11 @@ from executive.interfaces import Tree
 from executive.loop import Executive
 from executive.recorded import Absent, RecordedTime
 from executive.records import Record, Tick, TreeShape
-from executive.rules import rules
 from executive.situation import Situation
 from executive.types import Place
-from kb.advisor import PlaceAdvisor
 from kb.facts import FactStore
 from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
+from kb.prompts import Prompts
 from logs.difference import (
     ENDED,
     Aspect,
@@ -93,11 +92,23 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     """
     began = perf_counter()
     run = Run(folder)
-    inbox, situation = Inbox(), Situation(in_hand=run.metadata.get("in_hand") or None)
+    inbox, situation = Inbox(), _situation(run)
     clock = RecordedTime(run.turns(), inbox, int(_kept(run, run.metadata, "requests_before")))
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox)
-    team = _team(run, situation, clock, judge, absent)
+    absent.rests = "policy" not in run.metadata
+    grounds = _grounds(run, absent)
+    team = build_team(
+        grounds,
+        _advise(run)(grounds),
+        situation,
+        inbox=inbox,
+        clock=clock,
+        recorder=judge,
+        robot=absent,
+        eyes=absent,
+        user=absent,
+    )
     executive = Executive(
         build(team), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
     )
@@ -160,33 +171,43 @@ class Judge:
         self.time_s = self._clock.now()
 
 
-def _team(
-    run: Run, situation: Situation, clock: RecordedTime, judge: Judge, absent: Absent
-) -> Team:
-    """The team of the recorded mission, which knows what was known then."""
+def _situation(run: Run) -> Situation:
+    """What was known of the robot before the recorded mission."""
+    restless = run.metadata.get("restless") == str(True)
+    return Situation(in_hand=run.metadata.get("in_hand") or None, restless=restless)
+
+
+def _grounds(run: Run, absent: Absent) -> Grounds:
+    """What the recorded mission went by; what was known then."""
     settings = _settings(run)
-    home = _home(_kept(run, run.attachments, "home.toml"))
+    home = _home(_kept(run, run.attachments, "home.toml")).with_placement(settings.place)
     names = (HOUSEHOLD.name, DEFAULTS.name, *(file.name for file in settings.kb))
     files = tuple((name, run.attachments[name]) for name in names if name in run.attachments)
-    knowledge = _ontology(home.places(), settings.defaults, files, settings.person)
     if settings.world == "physics":
         absent.home = home
-    thinks = _kept(run, run.metadata, "model") != "none"
-    advisor = PlaceAdvisor(knowledge, absent, remembers=settings.remembers) if thinks else None
-    return Team(
-        situation=situation,
-        clock=clock,
-        recorder=judge,
-        interpreter=EnglishInterpreter(),
-        knowledge=knowledge,
-        robot=absent,
-        eyes=absent,
-        user=absent,
-        model=absent if thinks else None,
-        advisor=advisor,
-        rules=rules(settings),
-        facts=FactStore.believing(json.loads(_kept(run, run.attachments, "facts.json"))),
+    thinks = run.metadata.get("thinks") or str(_kept(run, run.metadata, "model") != "none")
+    return Grounds(
+        settings=settings,
+        home=home,
+        knowledge=_ontology(home.places(), settings.defaults, files, settings.person),
+        model=absent if thinks == str(True) else None,
+        prompts=_prompts(run.attachments.get("prompts.toml")),
+        facts=FactStore.believing(
+            json.loads(_kept(run, run.attachments, "facts.json")), learns=settings.learn
+        ),
     )
+
+
+def _advise(run: Run) -> Advise:
+    """The way in which the recorded mission was given an adviser."""
+    name = run.metadata.get("policy", OURS)
+    if name == OURS:
+        return build_advisor
+    from executive.policies import POLICIES  # whose packages a replay of ours does not need
+
+    if name not in POLICIES:
+        raise InputError(str(run.path), f"was made with the policy {name!r}, unknown here")
+    return POLICIES[name].advisor
 
 
 def _settings(run: Run) -> Settings:
@@ -213,6 +234,17 @@ def _home(text: bytes) -> Home:
         file = Path(folder) / "home.toml"
         file.write_bytes(text)
         return load_home(str(file))
+
+
+@cache
+def _prompts(text: bytes | None) -> Prompts:
+    """The recorded texts; ours of today, if none replaced ours."""
+    if text is None:
+        return Prompts.load()
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "prompts.toml"
+        file.write_bytes(text)
+        return Prompts.load(file)
 
 
 @cache

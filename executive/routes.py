@@ -55,3 +55,14 @@ class Routes:
 def routes_in(home: str) -> Routes:
     """The routes of a home, by its name or file; drawn up once in a process."""
     return Routes(load_home(home))
+
+
+def routes_of(home: Home) -> Routes:
+    """The routes of this home, wherever its things are; drawn up once in a process."""
+    key = home.model_dump_json(exclude={"objects"})
+    if key not in _drawn_up:
+        _drawn_up[key] = Routes(home)
+    return _drawn_up[key]
+
+
+_drawn_up: dict[str, Routes] = {}

@@ -1,12 +1,22 @@
 """What this mission knows so far: the one place that behaviours read from and write to."""
 
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field
+from copy import copy
+from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import Any
 
-from executive.events import DeadlinePassed, Ended, Event, Started, StopRequested
+from executive.events import (
+    Broke,
+    DeadlinePassed,
+    Ended,
+    Event,
+    HandFelt,
+    Started,
+    StopRequested,
+)
 from executive.types import (
     DELIVERY,
+    SOMETHING,
     Candidate,
     Command,
     Detection,
@@ -74,6 +84,10 @@ class Situation:
     """Where the thing was seen."""
     in_hand: str | None = None
     """The thing that the robot holds, from this mission or one before it."""
+    felt: bool | None = None
+    """Whether the fingers felt a thing when they were asked last; None: they cannot tell."""
+    reached_for: str = ""
+    """The thing that the robot tried to pick up last."""
     gone: bool = False
     """Whether the thing was seen, and then was there no more."""
     lost: str = ""
@@ -93,6 +107,12 @@ class Situation:
     reason: str = ""
     """What is told at the end: what was done, or why it was not."""
     stopped_by: str = ""
+    broke: str = ""
+    """Why the program itself failed; empty if it did not."""
+    decided: bool = False
+    """Whether the tree has decided how the mission ends."""
+    restless: bool = False
+    """Whether the robot did not do what it was told last, so that it may not stand still."""
     results: dict[int, Result] = field(default_factory=dict)
     """Ends of requests that no behaviour has read yet."""
     deadlines: dict[str, float] = field(default_factory=dict)
@@ -107,12 +127,37 @@ class Situation:
                 self.results[request] = result
                 if isinstance(result, Replied | Scored):
                     self.llm_calls += 1
-            case StopRequested(by):
+            case StopRequested(by) if not self.is_over:
                 self.stopped_by = by
-                self.status = Status.STOPPED
-                self.reason = f"stopped by {by}"
-            case DeadlinePassed():
+                self.status, self.reason = Status.STOPPED, f"stopped by {by}"
+            case Broke(reason) if not self.is_over:
+                self.broke = reason
+                self.status, self.reason = Status.NOT_DONE, reason
+            case HandFelt(holding):
+                self._feel(holding)
+            case DeadlinePassed() | StopRequested() | Broke():
                 pass
+
+    def _feel(self, holding: bool) -> None:
+        """What is in the hand is what the fingers feel; its name is that of what they reached for.
+
+        What was in it before stays in it as long as something does.
+        """
+        self.felt = holding
+        if not holding:
+            self.in_hand = None
+        elif self.in_hand is None:
+            self.in_hand = self.reached_for or SOMETHING
+
+    @property
+    def is_cut_short(self) -> bool:
+        """Whether the mission ends without a decision: stopped, or the program failed."""
+        return bool(self.stopped_by or self.broke)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it is settled how the mission ends: what comes later does not change that."""
+        return self.decided or self.is_cut_short
 
     def asks_to(self, kind: Kind) -> bool:
         """Whether this kind of deed was asked for."""
@@ -146,6 +191,16 @@ class Situation:
         clauses += [f"I could not look at {place}: {why}" for place, why in self.unseen.items()]
         clauses += [f"I could not get to {place}: {why}" for place, why in self.unreached.items()]
         return "; ".join(clauses)
+
+    def saved(self) -> "Situation":
+        """A copy, for `restore`."""
+        twin: Situation = _copied(self)
+        return twin
+
+    def restore(self, saved: "Situation") -> None:
+        """Know again what was known then, and nothing else."""
+        for each in fields(self):
+            setattr(self, each.name, getattr(saved, each.name))
 
     def snapshot(self) -> dict[str, Any]:
         """Everything that fits in a log line: plain values, no pictures."""
@@ -194,6 +249,20 @@ class Situation:
             run_dir=run_dir,
             model_failure=self.model_failure,
         )
+
+
+def _copied(value: Any) -> Any:
+    """A copy of what may be changed in place; the rest as it is."""
+    if isinstance(value, list | set):
+        return type(value)(_copied(item) for item in value)
+    if isinstance(value, dict):
+        return {name: _copied(item) for name, item in value.items()}
+    if is_dataclass(value) and not type(value).__dataclass_params__.frozen:  # type: ignore[union-attr]
+        twin = copy(value)
+        for each in fields(value):
+            setattr(twin, each.name, _copied(getattr(value, each.name)))
+        return twin
+    return value
 
 
 def candidates_from(places: Iterable[str], source: Source) -> tuple[Candidate, ...]:

@@ -122,6 +122,8 @@ class Place:
 
 DELIVERY = "delivery"
 """The place by the person where brought things are put down; it is no furniture to search."""
+SOMETHING = "something"
+"""In the hand, as far as the fingers feel, but nobody knows what."""
 FLOOR = "floor"
 """The floor around the robot, wherever it is: a place to look at, for what fell from the hand."""
 

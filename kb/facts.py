@@ -102,11 +102,12 @@ class FactStore:
         self._database = _open(file)
 
     @classmethod
-    def believing(cls, beliefs: Mapping[str, Sequence[str]]) -> Self:
+    def believing(cls, beliefs: Mapping[str, Sequence[str]], *, learns: bool = True) -> Self:
         """A store that lasts as long as the process and believes what another one did."""
         store = cls()
         for name, places in beliefs.items():
             store.heard(name, places)
+        store._learns = learns
         return store
 
     # --- the Facts protocol ---

@@ -5,7 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from executive.events import DeadlinePassed, Ended, Event, Started, StopRequested
+from executive.events import (
+    Broke,
+    DeadlinePassed,
+    Ended,
+    Event,
+    HandFelt,
+    Started,
+    StopRequested,
+)
 from executive.records import LlmCall
 from executive.types import (
     Answered,
@@ -35,6 +43,8 @@ def event_to_message(event: Event, mission_time_s: float) -> Any:
     match event:
         case DeadlinePassed(time):
             message.deadline_s = time
+        case HandFelt(holding):
+            message.holding = holding
         case Ended(request, result):
             message.request = request
             message.result = type(result).__name__
@@ -61,6 +71,10 @@ def event_from_message(message: Any) -> Event:
             return DeadlinePassed(message.deadline_s)
         case "StopRequested":
             return StopRequested(message.text)
+        case "HandFelt":
+            return HandFelt(message.holding)
+        case "Broke":
+            return Broke(message.text)
     raise ValueError(f"unknown event {message.name!r}")
 
 
@@ -121,6 +135,10 @@ def gist(event: Event) -> str:
             return f"{time:.3f} s"
         case StopRequested(by):
             return by
+        case HandFelt(holding):
+            return "something" if holding else "nothing"
+        case Broke(reason):
+            return reason
 
 
 def _gist_of_result(result: Result) -> str:

@@ -109,6 +109,7 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "detections": "repeated Detection",
         "llm_call": "LlmCall",
         "lost": "bool",
+        "holding": "bool",
     },
     "Mishap": {**_STAMPED, "fault": "string", "text": "string"},
     "Candidate": {"place": "string", "source": "string", "probability": "optional double"},

@@ -95,6 +95,11 @@ class Action(Step):
         """Say that it took too long."""
         return self.fail(f"{self.name} took longer than {self._patience_s:g} s")
 
+    @property
+    def is_under_way(self) -> bool:
+        """Whether what it started was neither ended nor cancelled, whatever its status says."""
+        return self._request is not None
+
     def initialise(self) -> None:
         """Start."""
         self.start_again()
@@ -123,12 +128,13 @@ class Action(Step):
     def terminate(self, new_status: Status) -> None:
         """Cancel what is still under way."""
         if self._request is not None:
-            self.cancel(self._request)
+            request = self._request
             self._wait_no_more()
+            self.cancel(request)
 
     def _wait_no_more(self) -> None:
         self._request = None
-        del self.situation.deadlines[self.name]
+        self.situation.deadlines.pop(self.name, None)
 
     def failed(self, result: Result) -> Status:
         """Fail for the reason in a result that is no success."""

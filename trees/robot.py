@@ -37,10 +37,12 @@ class RobotAction(Action):
         """Hand the goal to the robot."""
         goal = self.goal()
         self.feedback_message = _in_words(goal)
+        self.situation.restless = True
         return self.team.robot.start(goal)
 
     def ended(self, result: Result) -> Status:
         """Succeed as the robot did; note if it lost what it held."""
+        self.situation.restless = not isinstance(result, Succeeded)
         if isinstance(result, Failed) and result.lost:
             self.situation.lost, self.situation.in_hand = result.reason, None
         return Status.SUCCESS if isinstance(result, Succeeded) else self.failed(result)
@@ -123,20 +125,42 @@ class LookForLost(RobotAction):
 
 
 class PickUp(RobotAction):
-    """Grasps the thing where it was seen, and lifts it."""
+    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides."""
+
+    def __init__(self, name: str, team: Team) -> None:
+        """Reach for it."""
+        super().__init__(name, team)
+        self._finished = False
+
+    def initialise(self) -> None:
+        """Begin."""
+        self._finished = False
+        super().initialise()
 
     def goal(self) -> Goal:
         """Pick what was detected."""
         assert self.situation.detection
+        self.situation.reached_for = self.situation.detection.label
         return Pick(self.situation.detection)
 
     def ended(self, result: Result) -> Status:
-        """Remember that it is no longer there."""
+        """Remember that it is no longer there.
+
+        If the robot failed with the thing in its hand, it is given one chance to finish.
+        """
+        assert self.situation.detection
+        name, felt = self.situation.detection.label, self.situation.felt
+        if isinstance(result, Succeeded) and felt is False:
+            result = Failed(f"the {name} slipped from my fingers")
+        if isinstance(result, Failed) and felt and self.situation.in_hand == name:
+            if not self._finished:
+                self._finished = True
+                return self.start_again()
+            result = Succeeded()
         if isinstance(result, Succeeded):
-            assert self.situation.detection
             assert self.situation.found
-            self.situation.in_hand = self.situation.detection.label
-            self.team.facts.took(self.situation.in_hand, self.situation.found.place)
+            self.situation.in_hand = name
+            self.team.facts.took(name, self.situation.found.place)
             self.situation.lost = ""
         return super().ended(result)
 

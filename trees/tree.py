@@ -9,6 +9,7 @@ from py_trees.decorators import Decorator
 from py_trees.trees import BehaviourTree
 
 from executive.records import NodeShape, NodeState, TreeShape
+from trees.nodes import Action
 
 
 class MissionTree:
@@ -66,9 +67,21 @@ class MissionTree:
         )
 
     def stop(self) -> None:
-        """Interrupt what is running: every running behaviour cancels what it started."""
-        if self._tree.root.status == Status.RUNNING:
-            self._tree.root.stop(Status.INVALID)
+        """Interrupt what is running: every behaviour that started something cancels it.
+
+        Raises:
+            Exception: the first that a behaviour raised; the others were interrupted all the same.
+        """
+        raised: list[Exception] = []
+        for node in reversed(self._nodes.values()):  # children before parents
+            if node.status == Status.RUNNING or (isinstance(node, Action) and node.is_under_way):
+                try:
+                    node.stop(Status.INVALID)
+                except Exception as error:
+                    node.status = Status.INVALID
+                    raised.append(error)
+        if raised:
+            raise raised[0]
 
 
 def _walk(node: Behaviour, path: str) -> Iterator[tuple[str, Behaviour]]:

@@ -1,0 +1,105 @@
+"""How a mission is put together: by the session that runs it, and by its replay."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from executive.command import EnglishInterpreter
+from executive.config import Settings
+from executive.events import Inbox
+from executive.guards import GuardedEyes, GuardedRecorder, GuardedRobot, GuardedUser
+from executive.interfaces import Advisor, Clock, Eyes, LanguageModel, Recorder, Robot, User
+from executive.rules import rules
+from executive.situation import Situation
+from executive.types import Vector3
+from kb.advisor import PlaceAdvisor
+from kb.facts import FactStore
+from kb.ontology import Ontology
+from kb.prompts import Prompts
+from sim.home import Home
+from trees.team import Team
+
+OURS = "ours"
+"""The policy of those who did not choose another."""
+ANYTHING = "thing"
+"""What the model prepares to be asked for."""
+
+
+@dataclass(frozen=True)
+class Grounds:
+    """What a mission goes by, whoever runs it: the same when it is replayed."""
+
+    settings: Settings
+    home: Home
+    """With everything where it was at the start."""
+    knowledge: Ontology
+    model: LanguageModel | None
+    prompts: Prompts
+    facts: FactStore
+
+
+Advise = Callable[[Grounds], Advisor | None]
+"""Makes the adviser of a mission; None without a model."""
+
+
+def build_advisor(grounds: Grounds) -> Advisor | None:
+    """Who puts questions to the model, which begins to prepare for them; None without a model."""
+    if grounds.model is None:
+        return None
+    settings = grounds.settings
+    advisor = PlaceAdvisor(
+        grounds.knowledge,
+        grounds.model,
+        remembers=settings.remembers,
+        top=settings.top,
+        prompts=grounds.prompts,
+        facts=grounds.facts,
+    )
+    ask = advisor.ranking if settings.elicitation == "rank" else advisor.inquiry
+    grounds.model.prepare(ask(ANYTHING, ()))
+    return advisor
+
+
+def build_team(
+    grounds: Grounds,
+    advisor: Advisor | None,
+    situation: Situation,
+    *,
+    inbox: Inbox,
+    clock: Clock,
+    recorder: Recorder,
+    robot: Robot,
+    eyes: Eyes,
+    user: User,
+) -> Team:
+    """The collaborators of one mission; those that may be anybody's code, under guard.
+
+    The model of the `grounds` is under guard already: its adviser asks it, too.
+    """
+    return Team(
+        situation=situation,
+        clock=clock,
+        recorder=GuardedRecorder(recorder),
+        interpreter=EnglishInterpreter(),
+        knowledge=grounds.knowledge,
+        robot=GuardedRobot(robot, inbox, recorder),
+        eyes=GuardedEyes(eyes, inbox, recorder),
+        user=GuardedUser(user, inbox, recorder),
+        model=grounds.model,
+        advisor=advisor,
+        rules=rules(grounds.settings),
+        facts=grounds.facts,
+        place_at=place_at(grounds),
+    )
+
+
+def place_at(grounds: Grounds) -> Callable[[Vector3], str | None]:
+    """Where things are by the robot's map; in the instant world they have no true position."""
+    if grounds.settings.world == "fake":
+        return lambda point: None
+    return lambda point: furniture_at(grounds.home, point)
+
+
+def furniture_at(home: Home, point: Vector3) -> str | None:
+    """The furniture that has this point of `map` (metres) above its outline; None if none has."""
+    pieces = (*home.furniture, home.delivery)
+    return next((piece.name for piece in pieces if piece.is_below(point)), None)

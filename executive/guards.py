@@ -1,0 +1,234 @@
+"""What stands between the executive and the code of others: nothing that they raise gets through.
+
+Robot, eyes, person and model may be anybody's code. What raises when it is asked to start something
+is a request that failed, in words, and so an event like any other: it is recorded, and a replay is
+the same. What raises otherwise is noted in the log, and the mission goes on.
+"""
+
+import logging
+import traceback
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import TypeVar
+
+from executive.errors import ExecutiveError
+from executive.events import Inbox
+from executive.interfaces import Eyes, LanguageModel, Recorder, Robot, User
+from executive.records import Note, Record
+from executive.text import printable, writable
+from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, RankRequest
+
+T = TypeVar("T")
+
+LONGEST = 120
+"""What an exception says is cut to so many characters."""
+
+log = logging.getLogger(__name__)
+
+
+def in_words(error: BaseException) -> str:
+    """An exception as a clause: "ConnectionError: driver gone"; that of our own, what it says."""
+    name = type(error).__name__
+    try:
+        said = printable(error)
+    except Exception:
+        said = ""
+    if isinstance(error, ExecutiveError) and said:
+        return said[:LONGEST]
+    return f"{name}: {said}"[:LONGEST] if said else name
+
+
+class GuardedRecorder:
+    """Implements `Recorder` around one that may raise: then that record is lost."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        """Keep what happened in this one."""
+        self._recorder = recorder
+
+    def record(self, record: Record) -> None:
+        """Pass it on."""
+        try:
+            self._recorder.record(record)
+        except Exception as error:
+            log.warning("a record was lost: %s", in_words(error))
+
+
+class _Guard(ABC):
+    """Catches, words and notes what others raise."""
+
+    def __init__(self, inbox: Inbox, recorder: Recorder) -> None:
+        self._inbox = inbox
+        self._recorder = GuardedRecorder(recorder)
+
+    @abstractmethod
+    def _cancel(self, request: int) -> None:
+        """Have the other one cancel it."""
+
+    def cancel(self, request: int) -> None:
+        """Call it off; its end is not delivered, whatever comes of that."""
+        self._try(lambda: self._cancel(request), None)
+        self._inbox.drop(request)
+
+    def _start(self, clause: str, start: Callable[[], int]) -> int:
+        """The request that was started; one that failed with this clause, if it could not be.
+
+        What was half started is called off. The failed request has the number that it was given, if
+        it came so far: in a replay, where nothing raises, those after it have the same numbers.
+        """
+        before = self._inbox.last
+        try:
+            request = start()
+            if self._inbox.is_open(request):
+                return request
+            raise TypeError(f"{request!r} is not the number of a new request")
+        except Exception as error:
+            self._note(error)
+            for opened in range(before + 1, self._inbox.last + 1):
+                self.cancel(opened)
+            request = before + 1 if self._inbox.last > before else self._inbox.open()
+            self._inbox.fail(request, f"{clause}: {in_words(error)}")
+            return request
+
+    def _try(self, do: Callable[[], T], otherwise: T) -> T:
+        try:
+            return do()
+        except Exception as error:
+            self._note(error)
+            return otherwise
+
+    def _note(self, error: Exception) -> None:
+        log.debug("raised by a part of the robot", exc_info=error)
+        self._recorder.record(Note("error", traceback_of(error)))
+
+
+def traceback_of(error: BaseException) -> str:
+    """Where it was raised, as Python tells it."""
+    try:
+        return writable("".join(traceback.format_exception(error)))
+    except Exception:  # an exception that cannot even be printed
+        return type(error).__name__
+
+
+class GuardedRobot(_Guard):
+    """Implements `Robot` around one that may raise."""
+
+    def __init__(self, robot: Robot, inbox: Inbox, recorder: Recorder) -> None:
+        """Guard this robot."""
+        super().__init__(inbox, recorder)
+        self._robot = robot
+
+    def start(self, goal: Goal) -> int:
+        """Pursue a goal."""
+        return self._start(f"my {_part(goal)} failed", lambda: self._robot.start(goal))
+
+    def _cancel(self, request: int) -> None:
+        self._robot.cancel(request)
+
+    def views(self, place: str) -> int:
+        """How many head poses it takes to see all of a place; one, if the robot cannot tell."""
+        return self._try(lambda: self._robot.views(place), 1)
+
+    @property
+    def holding(self) -> bool | None:
+        """What the fingers feel; None if the robot cannot tell."""
+        return self._try(self._holding, None)
+
+    def _holding(self) -> bool | None:
+        holding = self._robot.holding
+        return None if holding is None else bool(holding)
+
+
+def _part(goal: Goal) -> str:
+    """The part of the robot that a goal needs."""
+    match goal:
+        case DriveTo():
+            return "base"
+        case LookAt():
+            return "head"
+        case Halt():
+            return "brake"
+        case _:
+            return "arm"
+
+
+class GuardedEyes(_Guard):
+    """Implements `Eyes` around some that may raise."""
+
+    def __init__(self, eyes: Eyes, inbox: Inbox, recorder: Recorder) -> None:
+        """Guard these eyes."""
+        super().__init__(inbox, recorder)
+        self._eyes = eyes
+
+    def see(self) -> int:
+        """Take a picture and recognise."""
+        return self._start("my camera failed", lambda: self._eyes.see())
+
+    def _cancel(self, request: int) -> None:
+        self._eyes.cancel(request)
+
+
+class GuardedUser(_Guard):
+    """Implements `User` around one that may raise."""
+
+    def __init__(self, user: User, inbox: Inbox, recorder: Recorder) -> None:
+        """Guard the way to this person."""
+        super().__init__(inbox, recorder)
+        self._user = user
+
+    def ask(self, question: Question) -> int:
+        """Put a question."""
+        return self._start("I cannot ask you", lambda: self._user.ask(question))
+
+    def _cancel(self, request: int) -> None:
+        self._user.cancel(request)
+
+    def tell(self, text: str) -> None:
+        """Say something, if that can be."""
+        self._try(lambda: self._user.tell(text), None)
+
+
+class GuardedModel(_Guard):
+    """Implements `LanguageModel` around one that may raise."""
+
+    def __init__(self, model: LanguageModel, inbox: Inbox, recorder: Recorder) -> None:
+        """Guard this model."""
+        super().__init__(inbox, recorder)
+        self._model = model
+
+    @property
+    def name(self) -> str:
+        """What to call it in logs."""
+        return self._try(lambda: self._model.name, "a model without a name")
+
+    @property
+    def context_tokens(self) -> int:
+        """Size of its context window (tokens)."""
+        return self._try(lambda: self._model.context_tokens, 0)
+
+    @property
+    def can_rank(self) -> bool:
+        """Whether `rank` is available."""
+        return self._try(lambda: self._model.can_rank, False)
+
+    def chat(self, request: ChatRequest) -> int:
+        """Write a reply."""
+        return self._start("my language model failed", lambda: self._model.chat(request))
+
+    def rank(self, request: RankRequest) -> int:
+        """Score the options."""
+        return self._start("my language model failed", lambda: self._model.rank(request))
+
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Get ready, if that can be."""
+        self._try(lambda: self._model.prepare(request), None)
+
+    def _cancel(self, request: int) -> None:
+        self._model.cancel(request)
+
+    def count_tokens(self, text: str) -> int:
+        """How many tokens the text takes; one for each byte, if the model cannot tell."""
+        return self._try(lambda: self._model.count_tokens(text), len(text.encode()))
+
+    def close(self) -> None:
+        """Free the model."""
+        self._try(lambda: self._model.close(), None)
