@@ -4,7 +4,7 @@ import logging
 import time
 
 from executive.errors import ExecutiveError
-from executive.events import Broke, DeadlinePassed, Ended, Event, HandFelt, Inbox
+from executive.events import Broke, DeadlinePassed, Ended, Event, HandFelt, Inbox, StopRequested
 from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
 from executive.interfaces import Clock, Recorder, Robot, Tree
 from executive.records import EventTaken, LlmCall, Note, Record, Tick
@@ -44,6 +44,8 @@ class Executive:
         self._robot = GuardedRobot(robot, inbox, recorder)
         self._recorder = GuardedRecorder(recorder)
         self.ticks = 0
+        self.stops: list[str] = []
+        """Who said stop, in this order; also those who said so when all was decided."""
 
     def run(self) -> None:
         """Tick until the tree has decided or someone says stop; leave the robot at rest.
@@ -113,6 +115,8 @@ class Executive:
     def _take_in(self, event: Event) -> None:
         self._situation.fold(event)
         self._recorder.record(EventTaken(event))
+        if isinstance(event, StopRequested):
+            self.stops.append(event.by)
         result = getattr(event, "result", None)
         if isinstance(result, Replied | Scored):
             self._recorder.record(LlmCall(result))
