@@ -153,7 +153,6 @@ class Session:
         try:
             self._begin(folder, started)
             self._carry_out(situation)
-            self.stopped_by = situation.stopped_by
             outcome = situation.outcome(
                 mission_time_s=self.clock.now(),
                 wall_time_s=time.monotonic() - began,
@@ -162,6 +161,7 @@ class Session:
             self.recorder.record(Finished(outcome))
         finally:
             self._in_hand, self._restless = situation.in_hand, situation.restless
+            self.stopped_by = situation.stopped_by
             self.recorder.close()
         if folder:
             write(folder / "outcome.json", to_json(outcome) + "\n")
@@ -207,8 +207,8 @@ class Session:
         )
         self.inbox.post(Started(situation.words))
         if control(situation.words):
-            team.user.tell(NOTHING_TO_STOP)
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
+            team.user.tell(NOTHING_TO_STOP)
         executive.run()
         self.ticks = executive.ticks
 
