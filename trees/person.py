@@ -325,9 +325,9 @@ def the(held: str) -> str:
 
 def _places(team: Team, answer: str) -> tuple[str, ...]:
     """The places that an answer names; the table by the person is one, too."""
-    if places := team.knowledge.places_named(answer):
-        return places
-    return (DELIVERY,) if DELIVERY in re.findall(r"[a-z]+", answer.lower()) else ()
+    if DELIVERY in re.findall(r"[a-z]+", answer.lower()):
+        return (DELIVERY,)
+    return team.knowledge.places_named(answer)
 
 
 def _either(names: tuple[str, ...]) -> str:
