@@ -16,7 +16,7 @@ from executive.__main__ import main
 
 QUICK = ["--world", "fake", "--llm", "none", "--user", "oracle", "--json"]
 FIELDS = "command, kind, target, object, status, reason, source, location, inquiries, visited, \
-llm_calls, candidates, mission_time_s, thinking_time_s, wall_time_s, run_dir"
+llm_calls, candidates, mission_time_s, thinking_time_s, wall_time_s, run_dir, model_failure"
 
 
 @pytest.fixture(autouse=True)
@@ -73,7 +73,7 @@ def test_the_kept_config_runs_the_same_mission_again(capsys: pytest.CaptureFixtu
     [
         (["--user", "none", "Find an apple"], 1, "there is nobody to ask"),
         (["--user", "none", "Find a zebra"], 1, "I know no 'zebra'"),
-        ([""], 2, "I do not understand ''"),
+        ([""], 2, "I do not understand what you said"),
         (["Fnord fnord"], 2, "I do not understand 'Fnord fnord'"),
     ],
 )

@@ -333,6 +333,15 @@ CASES = [
         inquiries=2,
     ),
     Case(
+        "a thing is on the delivery table, and the person says so",
+        "Find a peach.",
+        OKB | {"answers": ["On the delivery table!"], "place": {"peach": "delivery"}},
+        location="delivery",
+        source=Source.USER,
+        visited=("delivery",),
+        inquiries=1,
+    ),
+    Case(
         "a wrong answer is followed by the question again",
         "Find a peach.",
         OKB | {"answers": ["desk", "high table"]},

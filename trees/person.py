@@ -1,5 +1,6 @@
 """Leaves that talk with the person."""
 
+import re
 from abc import abstractmethod
 from dataclasses import replace
 
@@ -203,7 +204,7 @@ class AskWhere(Ask):
 
     def understood(self, answer: str) -> bool:
         """Any places that exist become the candidates."""
-        places = self.team.knowledge.places_named(answer)
+        places = _places(self.team, answer)
         if places:
             assert self.situation.object
             self.team.facts.heard(self.situation.object, places)
@@ -229,7 +230,7 @@ class AskWhereToPut(Ask):
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
-        self.situation.surfaces = self.team.knowledge.places_named(answer)
+        self.situation.surfaces = _places(self.team, answer)
         return bool(self.situation.surfaces)
 
     def unresolved(self) -> str:
@@ -321,6 +322,13 @@ def full_hand(held: str) -> str:
 def the(held: str) -> str:
     """What is held, in a sentence: its name, or that it is not known."""
     return held if held == SOMETHING else f"the {held}"
+
+
+def _places(team: Team, answer: str) -> tuple[str, ...]:
+    """The places that an answer names; the table by the person is one, too."""
+    if DELIVERY in re.findall(r"[a-z]+", answer.lower()):
+        return (DELIVERY,)
+    return team.knowledge.places_named(answer)
 
 
 def _either(names: tuple[str, ...]) -> str:
