@@ -1,7 +1,8 @@
 """What every skill of the robot is made of.
 
 A skill is a generator that commands the motors and yields once per control period; the world lets
-physics pass in between. It ends by returning, or raises CannotError.
+physics pass in between. It ends by returning, or raises CannotError. What takes long it hands to a
+Thinker: until that is computed it yields, too, but no time passes.
 """
 
 from collections.abc import Callable, Generator
