@@ -202,6 +202,19 @@ PYDANTIC = {"type": "extra_forbidden", "loc": ["body", "seed"], "msg": "not perm
         ("system", 500, {"error": {"code": 500, "message": "Jinja: System role not supported"}}),
         ("system", 400, {"detail": "Conversation roles must alternate user/assistant/user/..."}),
         ("system", 400, {"error": {"message": "Developer instruction is not enabled"}}),
+        (
+            "system",
+            422,
+            {
+                "detail": [
+                    {
+                        "loc": ["body", "messages", 0, "role"],
+                        "msg": "Input should be 'user' or 'assistant'",
+                    }
+                ]
+            },
+        ),
+        ("system", 400, "Only user, assistant and tool roles are supported, got system."),
         ("max_tokens", 400, {"error": {"message": "Unsupported parameter", "param": "max_tokens"}}),
         ("max_tokens", 400, "'max_tokens' is not supported. Use 'max_completion_tokens' instead."),
         ("temperature", 400, {"error": {"message": "'temperature' does not support 0.6 here."}}),
@@ -336,6 +349,8 @@ def test_a_model_that_does_not_chat_is_not_taken(models: object) -> None:
         (400, "Model does not support chat completion"),
         (404, {"error": {"message": "This is not a chat model and thus not supported here."}}),
         (400, {"error": '"granite" does not support chat'}),
+        (400, {"error": '"granite" does not support generate'}),
+        (400, "The model `a` does not exist or you do not have access to it."),
         (501, {"error": {"message": "This server does not support chat completions."}}),
     ],
 )
