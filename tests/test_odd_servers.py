@@ -18,6 +18,7 @@ from odd_server import (
     Handler,
     answer,
     dislikes,
+    end_of,
     refuses,
     says,
     send,
@@ -471,6 +472,23 @@ def test_an_address_with_a_secret_in_it_is_refused_and_not_shown(url: str) -> No
     with pytest.raises(InputError, match="setting 'llm': ") as refused:
         load_settings(llm=url)
     assert "secret" not in str(refused.value)
+
+
+def test_an_address_with_a_password_is_never_used() -> None:
+    with pytest.raises(InputError, match="^http://host/v1: is given with user") as refused:
+        Server("http://me:secret@host/v1", Inbox())
+    assert "secret" not in str(refused.value)
+
+
+def test_a_proxy_that_cannot_be_one_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("HTTP_PROXY", "http_proxy"):
+        monkeypatch.setenv(name, "nonsense://[")
+    monkeypatch.delenv("NO_PROXY", raising=False)
+    model = Server("http://host.invalid/v1", inbox := Inbox())
+    model.prepare(HELLO)
+    result = end_of(inbox, model.chat(HELLO))
+    model.close()
+    assert isinstance(result, Failed)
 
 
 # --- trouble ---
