@@ -4,6 +4,9 @@ import ipaddress
 import re
 from urllib.parse import SplitResult, urlsplit
 
+from executive.errors import InputError
+from kb.key import VARIABLE
+
 ENDPOINT = re.compile(r"/(?:chat/)?completions/*$|/models/*$")
 _VERSION = re.compile(r"/v\d[^/]*(?:/openai)?$")
 
@@ -26,6 +29,17 @@ def is_this_machine(url: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return host == "localhost" or host.endswith(".localhost")
+
+
+def refuse_secrets(url: str) -> None:
+    """See that an address can be shown and written down.
+
+    Raises:
+        InputError: if it has a user or a password in it, which is not said.
+    """
+    if "@" in url:
+        right = f"put the key into {VARIABLE}"
+        raise InputError(without_secrets(url), "is given with user and password", right)
 
 
 def without_secrets(url: str) -> str:

@@ -17,7 +17,7 @@ SCHEMAS = ("json_schema", "json_object", None)
 
 _NO_SYSTEM = re.compile(
     r"system.{0,40}(?:role|message|prompt|instruction|turn)"
-    r"|roles?\b.{0,60}(?:system|alternate)"
+    r"|roles?\b.{0,60}(?:system|alternate|\buser\b)"
     r"|only (?:the )?user and (?:assistant|model)"
     r"|(?:system|developer) instruction",
     re.IGNORECASE | re.DOTALL,

@@ -8,8 +8,8 @@ from executive.types import Place, Scored
 
 BYTES_PER_TOKEN = 3
 """A careful estimate; counting would wait for the model to be loaded."""
-SHARE_FOR_THE_HOME = 0.75
-"""Of the context window; the rest is for the question and the reply."""
+SHARE_FOR_THE_HOME = 0.5
+"""Of the context window: the other half is left to the reply (paper, section "Memory")."""
 SHARE_FOR_A_LIST = 0.3
 MOST_OPTIONS = 200
 """Places that are scored one by one; more would take minutes."""

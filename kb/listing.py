@@ -16,7 +16,7 @@ _NO_CHAT = re.compile(
     re.IGNORECASE,
 )
 _IS_NO_CHAT = re.compile(
-    r"(?:not|n't) (?:an? )?(?:supported? |available )?(?:for |in |with |the )*(?:\w+ )?"
+    r"(?:not|n't) (?:an? )?(?:support(?:ed)? |available )?(?:for |in |with |the )*(?:\w+ )?"
     r"(?:chat|generat|text generation)"
     r"|chat.{0,40}(?:not|un)\s?supported|embedding|rerank"
     r"|model\b.{0,80}(?:not found|does(?: not|n't) exist|not (?:available|loaded|installed))"

@@ -5,7 +5,9 @@ import logging
 import threading
 
 from executive.events import Inbox
+from executive.text import printable
 from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, Usage
+from kb.address import refuse_secrets
 from kb.asking import Asked, Asking
 from kb.dialect import Dialect
 from kb.key import Key
@@ -57,7 +59,11 @@ class Server:
             seed: for servers that heed it.
             timeout_s: how long a reply may take, all tries together (seconds).
             grammar: ask the server to hold replies to the request's JSON schema.
+
+        Raises:
+            InputError: if the address has a user or a password in it.
         """
+        refuse_secrets(url)
         self._inbox = inbox
         self._n_ctx = n_ctx
         self._max_tokens = max_tokens
@@ -150,7 +156,10 @@ class Server:
 
     async def _serve(self, number: int, request: ChatRequest) -> None:
         asked = await self._asking.ask(request)
-        result = asked if isinstance(asked, Failed) else self._result(request, asked)
+        try:
+            result = asked if isinstance(asked, Failed) else self._result(request, asked)
+        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+            result = Failed(f"its reply cannot be taken in: {printable(type(error).__name__)}")
         self._inbox.end(number, result)
 
     def _result(self, request: ChatRequest, asked: Asked) -> Result:

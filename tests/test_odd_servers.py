@@ -18,6 +18,7 @@ from odd_server import (
     Handler,
     answer,
     dislikes,
+    end_of,
     refuses,
     says,
     send,
@@ -202,6 +203,19 @@ PYDANTIC = {"type": "extra_forbidden", "loc": ["body", "seed"], "msg": "not perm
         ("system", 500, {"error": {"code": 500, "message": "Jinja: System role not supported"}}),
         ("system", 400, {"detail": "Conversation roles must alternate user/assistant/user/..."}),
         ("system", 400, {"error": {"message": "Developer instruction is not enabled"}}),
+        (
+            "system",
+            422,
+            {
+                "detail": [
+                    {
+                        "loc": ["body", "messages", 0, "role"],
+                        "msg": "Input should be 'user' or 'assistant'",
+                    }
+                ]
+            },
+        ),
+        ("system", 400, "Only user, assistant and tool roles are supported, got system."),
         ("max_tokens", 400, {"error": {"message": "Unsupported parameter", "param": "max_tokens"}}),
         ("max_tokens", 400, "'max_tokens' is not supported. Use 'max_completion_tokens' instead."),
         ("temperature", 400, {"error": {"message": "'temperature' does not support 0.6 here."}}),
@@ -336,6 +350,8 @@ def test_a_model_that_does_not_chat_is_not_taken(models: object) -> None:
         (400, "Model does not support chat completion"),
         (404, {"error": {"message": "This is not a chat model and thus not supported here."}}),
         (400, {"error": '"granite" does not support chat'}),
+        (400, {"error": '"granite" does not support generate'}),
+        (400, "The model `a` does not exist or you do not have access to it."),
         (501, {"error": {"message": "This server does not support chat completions."}}),
     ],
 )
@@ -456,6 +472,23 @@ def test_an_address_with_a_secret_in_it_is_refused_and_not_shown(url: str) -> No
     with pytest.raises(InputError, match="setting 'llm': ") as refused:
         load_settings(llm=url)
     assert "secret" not in str(refused.value)
+
+
+def test_an_address_with_a_password_is_never_used() -> None:
+    with pytest.raises(InputError, match="^http://host/v1: is given with user") as refused:
+        Server("http://me:secret@host/v1", Inbox())
+    assert "secret" not in str(refused.value)
+
+
+def test_a_proxy_that_cannot_be_one_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("HTTP_PROXY", "http_proxy"):
+        monkeypatch.setenv(name, "nonsense://[")
+    monkeypatch.delenv("NO_PROXY", raising=False)
+    model = Server("http://host.invalid/v1", inbox := Inbox())
+    model.prepare(HELLO)
+    result = end_of(inbox, model.chat(HELLO))
+    model.close()
+    assert isinstance(result, Failed)
 
 
 # --- trouble ---
