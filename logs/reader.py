@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from google.protobuf.message import DecodeError
+from google.protobuf.message import Message as ProtobufMessage
 from mcap.records import Attachment, Channel, McapRecord, Message, Metadata, Schema
 from pydantic import ValidationError
 
@@ -25,8 +26,8 @@ from logs.times import nanoseconds
 from logs.topics import TOPICS, is_own, most_in
 
 FILE_NAME = "mission.mcap"
-MOST_READ, OVERHEAD = 128 * MiB, 256
-"""Of all messages that one question reads, and what each one costs beside its bytes (bytes)."""
+MOST_READ = 1024 * MiB
+"""Memory that the messages of our own which one question reads may take, by a generous estimate."""
 LONGEST_S = 30 * 86_400.0
 """No mission takes longer: a time beyond it is wrong."""
 _MISFITS = (
@@ -277,12 +278,14 @@ class _Reading:
     def _parsed(self, channel: Channel, message: Message) -> tuple[str, float, Any]:
         self.topic = channel.topic
         time_s = in_mission((message.log_time - self._origin_ns) / 1e9)
-        size = len(message.data)
+        if len(message.data) > most_in(channel.topic):
+            raise ValueError(f"a message of {len(message.data)} bytes is more than is read")
+        parsed = self._class(channel).FromString(message.data)
         if is_own(channel.topic):
-            self._room -= size + OVERHEAD
-        if size > most_in(channel.topic) or self._room < 0:
-            raise ValueError(f"a message of {size} bytes, or all before it, are more than is read")
-        return channel.topic, time_s, self._class(channel).FromString(message.data)
+            self._room -= _estimate(message.data, parsed)
+            if self._room < 0:
+                raise ValueError("all messages up to here are more than is read")
+        return channel.topic, time_s, parsed
 
     def _class(self, channel: Channel) -> Any:
         """What the topic's messages are, with the numbers of the fields that the file has."""
@@ -294,6 +297,21 @@ class _Reading:
         if not is_own(channel.topic):
             return kind
         return recorded_class(kind.DESCRIPTOR.name, schema.data)
+
+
+def _estimate(data: bytes, parsed: Any) -> int:
+    """Memory that a message takes as a record (bytes): of its text, its parts, and JSON in it."""
+    values = data.count(b",") + data.count(b"[") + data.count(b"{")
+    return 256 * (1 + _parts(parsed)) + 2 * len(data) + 100 * values
+
+
+def _parts(message: Any) -> int:
+    """How many things its lists hold, and those of the messages in it."""
+    return sum(
+        _parts(value) if isinstance(value, ProtobufMessage) else len(value)
+        for _, value in message.ListFields()
+        if not isinstance(value, str | bytes | int | float)
+    )
 
 
 class _Exact(NamedTuple):
