@@ -31,7 +31,7 @@ from executive.records import (
     TreeShape,
 )
 from executive.types import Outcome, Saw
-from logs import export, mcap_file, reader
+from logs import export, mcap_file, parsing
 from logs.__main__ import main
 from logs.mcap_file import MiB
 from logs.reader import Run
@@ -238,7 +238,7 @@ def test_what_no_mission_records_is_said_with_its_place(
 def test_no_more_is_read_than_memory_has_room_for(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lists: object
 ) -> None:
-    monkeypatch.setattr(reader, "MOST_READ", 100_000)
+    monkeypatch.setattr(parsing, "MOST_READ", 100_000)
     run = record(tmp_path, with_tick(situation={"among": None, "view": lists}))
     with pytest.raises(InputError, match="all messages up to here are more than is read"):
         list(Run(run).ticks())
