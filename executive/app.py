@@ -35,6 +35,7 @@ from executive.perception import Eyes
 from executive.records import Finished
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
+from executive.text import writable
 from executive.types import Answered, Outcome
 from executive.user import Console, Nobody, Oracle
 from kb.facts import FactStore
@@ -117,6 +118,7 @@ class Session:
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
         self._in_hand: str | None = None
+        self._restless = False
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
@@ -132,11 +134,12 @@ class Session:
             InputError: if the run's folder cannot be made.
             KeyboardInterrupt: if someone says stop by signal a second time.
         """
+        words = writable(words)
         began = time.monotonic()
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
         self.folder = folder
-        situation = Situation(words=words, in_hand=self._in_hand)
+        situation = Situation(words=words, in_hand=self._in_hand, restless=self._restless)
         try:
             self._begin(folder, started)
             self._carry_out(situation)
@@ -147,7 +150,7 @@ class Session:
             )
             self.recorder.record(Finished(outcome))
         finally:
-            self._in_hand = situation.in_hand
+            self._in_hand, self._restless = situation.in_hand, situation.restless
             self.recorder.close()
         if folder:
             write(folder / "outcome.json", to_json(outcome) + "\n")
@@ -230,6 +233,7 @@ class Session:
         metadata = {
             "requests_before": str(self.inbox.last),
             "in_hand": self._in_hand or "",
+            "restless": str(self._restless),
             "seed": str(self.settings.seed),
             "model": self.grounds.model.name if self.grounds.model else "none",
             "thinks": str(bool(self.grounds.model)),

@@ -7,6 +7,7 @@ the same. What raises otherwise is noted in the log, and the mission goes on.
 
 import logging
 import traceback
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -19,7 +20,7 @@ from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, 
 
 T = TypeVar("T")
 
-LONGEST = 300
+LONGEST = 120
 """What an exception says is cut to so many characters."""
 
 log = logging.getLogger(__name__)
@@ -52,14 +53,23 @@ class GuardedRecorder:
             log.warning("a record was lost: %s", in_words(error))
 
 
-class _Guard:
+class _Guard(ABC):
     """Catches, words and notes what others raise."""
 
     def __init__(self, inbox: Inbox, recorder: Recorder) -> None:
         self._inbox = inbox
         self._recorder = GuardedRecorder(recorder)
 
-    def _start(self, clause: str, start: Callable[[], int], cancel: Callable[[int], None]) -> int:
+    @abstractmethod
+    def _cancel(self, request: int) -> None:
+        """Have the other one cancel it."""
+
+    def cancel(self, request: int) -> None:
+        """Call it off; its end is not delivered, whatever comes of that."""
+        self._try(lambda: self._cancel(request), None)
+        self._inbox.drop(request)
+
+    def _start(self, clause: str, start: Callable[[], int]) -> int:
         """The request that was started; one that failed with this clause, if it could not be.
 
         What was half started is called off. The failed request has the number that it was given, if
@@ -74,15 +84,10 @@ class _Guard:
         except Exception as error:
             self._note(error)
             for opened in range(before + 1, self._inbox.last + 1):
-                self._cancel(opened, cancel)
+                self.cancel(opened)
             request = before + 1 if self._inbox.last > before else self._inbox.open()
             self._inbox.fail(request, f"{clause}: {in_words(error)}")
             return request
-
-    def _cancel(self, request: int, cancel: Callable[[int], None]) -> None:
-        """Call it off; its end is not delivered, whatever comes of that."""
-        self._try(lambda: cancel(request), None)
-        self._inbox.drop(request)
 
     def _try(self, do: Callable[[], T], otherwise: T) -> T:
         try:
@@ -114,13 +119,10 @@ class GuardedRobot(_Guard):
 
     def start(self, goal: Goal) -> int:
         """Pursue a goal."""
-        return self._start(
-            f"my {_part(goal)} failed", lambda: self._robot.start(goal), self._robot.cancel
-        )
+        return self._start(f"my {_part(goal)} failed", lambda: self._robot.start(goal))
 
-    def cancel(self, request: int) -> None:
-        """Give up the goal."""
-        self._cancel(request, self._robot.cancel)
+    def _cancel(self, request: int) -> None:
+        self._robot.cancel(request)
 
     def views(self, place: str) -> int:
         """How many head poses it takes to see all of a place; one, if the robot cannot tell."""
@@ -159,11 +161,10 @@ class GuardedEyes(_Guard):
 
     def see(self) -> int:
         """Take a picture and recognise."""
-        return self._start("my camera failed", lambda: self._eyes.see(), self._eyes.cancel)
+        return self._start("my camera failed", lambda: self._eyes.see())
 
-    def cancel(self, request: int) -> None:
-        """Forget the picture."""
-        self._cancel(request, self._eyes.cancel)
+    def _cancel(self, request: int) -> None:
+        self._eyes.cancel(request)
 
 
 class GuardedUser(_Guard):
@@ -176,11 +177,10 @@ class GuardedUser(_Guard):
 
     def ask(self, question: Question) -> int:
         """Put a question."""
-        return self._start("I cannot ask you", lambda: self._user.ask(question), self._user.cancel)
+        return self._start("I cannot ask you", lambda: self._user.ask(question))
 
-    def cancel(self, request: int) -> None:
-        """Withdraw the question."""
-        self._cancel(request, self._user.cancel)
+    def _cancel(self, request: int) -> None:
+        self._user.cancel(request)
 
     def tell(self, text: str) -> None:
         """Say something, if that can be."""
@@ -212,23 +212,18 @@ class GuardedModel(_Guard):
 
     def chat(self, request: ChatRequest) -> int:
         """Write a reply."""
-        return self._start(
-            "my language model failed", lambda: self._model.chat(request), self._model.cancel
-        )
+        return self._start("my language model failed", lambda: self._model.chat(request))
 
     def rank(self, request: RankRequest) -> int:
         """Score the options."""
-        return self._start(
-            "my language model failed", lambda: self._model.rank(request), self._model.cancel
-        )
+        return self._start("my language model failed", lambda: self._model.rank(request))
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
         """Get ready, if that can be."""
         self._try(lambda: self._model.prepare(request), None)
 
-    def cancel(self, request: int) -> None:
-        """Stop generating."""
-        self._cancel(request, self._model.cancel)
+    def _cancel(self, request: int) -> None:
+        self._model.cancel(request)
 
     def count_tokens(self, text: str) -> int:
         """How many tokens the text takes; one for each byte, if the model cannot tell."""

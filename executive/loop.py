@@ -5,10 +5,11 @@ import time
 
 from executive.errors import ExecutiveError
 from executive.events import Broke, DeadlinePassed, Ended, Event, HandFelt, Inbox
-from executive.guards import GuardedRecorder, GuardedRobot, in_words, traceback_of
+from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
 from executive.interfaces import Clock, Recorder, Robot, Tree
 from executive.records import EventTaken, LlmCall, Note, Record, Tick
 from executive.situation import Situation
+from executive.text import printable
 from executive.types import Failed, Halt, Replied, Result, Scored, Succeeded
 
 log = logging.getLogger(__name__)
@@ -56,7 +57,7 @@ class Executive:
         try:
             decided = self._decide()
             self._call_off()
-            if not decided or self._situation.called_off:
+            if not decided or self._situation.restless:
                 self._come_to_rest()
         except BaseException:
             self._call_off()
@@ -161,13 +162,15 @@ class Executive:
 
     def _come_to_rest(self) -> None:
         """Stop the robot and let time pass until it stands still; say so if it may not."""
+        result: Result | None = None
         for _ in range(HALTS):
             result = self._halt()
             if not isinstance(result, Failed):
                 break
-        if not isinstance(result, Succeeded):
-            why = f": {result.reason}" if isinstance(result, Failed) else ""
-            self._situation.reason += f"; I may not be at rest{why}"
+        self._situation.restless = not isinstance(result, Succeeded)
+        if self._situation.restless:
+            why = printable(result.reason)[:LONGEST] if isinstance(result, Failed) else ""
+            self._situation.reason += "; I may not be at rest" + (f": {why}" if why.strip() else "")
         self._inbox.drop_all()
         self._feel()
 

@@ -93,7 +93,7 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     """
     began = perf_counter()
     run = Run(folder)
-    inbox, situation = Inbox(), Situation(in_hand=run.metadata.get("in_hand") or None)
+    inbox, situation = Inbox(), _situation(run)
     clock = RecordedTime(tuple(run.turns()), inbox, _requests_before(run))
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox)
@@ -172,6 +172,12 @@ class Judge:
         self.time_s = self._clock.now()
 
 
+def _situation(run: Run) -> Situation:
+    """What was known of the robot before the recorded mission."""
+    restless = run.metadata.get("restless") == str(True)
+    return Situation(in_hand=run.metadata.get("in_hand") or None, restless=restless)
+
+
 def _grounds(run: Run, absent: Absent) -> Grounds:
     """What the recorded mission went by; what was known then."""
     settings = _settings(run)
@@ -187,7 +193,7 @@ def _grounds(run: Run, absent: Absent) -> Grounds:
         knowledge=_ontology(home.places(), settings.defaults, files, settings.person),
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
-        facts=FactStore.believing(_beliefs(run)),
+        facts=FactStore.believing(_beliefs(run), learns=settings.learn),
     )
 
 

@@ -111,8 +111,8 @@ class Situation:
     """Why the program itself failed; empty if it did not."""
     decided: bool = False
     """Whether the tree has decided how the mission ends."""
-    called_off: bool = False
-    """Whether the robot's last goal was called off, so that it may still be braking."""
+    restless: bool = False
+    """Whether the robot did not do what it was told last, so that it may not stand still."""
     results: dict[int, Result] = field(default_factory=dict)
     """Ends of requests that no behaviour has read yet."""
     deadlines: dict[str, float] = field(default_factory=dict)

@@ -81,7 +81,7 @@ class FactStore:
         """Whether the person knows that it does not work."""
 
     @classmethod
-    def believing(cls, beliefs: Mapping[str, Sequence[str]]) -> Self:
+    def believing(cls, beliefs: Mapping[str, Sequence[str]], *, learns: bool = True) -> Self:
         """A store that lasts as long as the process and believes what another one did."""
         store = cls()
         store.load(
@@ -89,6 +89,7 @@ class FactStore:
             for name, places in beliefs.items()
             for place in reversed(places)
         )
+        store._learns = learns
         return store
 
     # --- the Facts protocol ---

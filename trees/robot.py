@@ -37,18 +37,18 @@ class RobotAction(Action):
         """Hand the goal to the robot."""
         goal = self.goal()
         self.feedback_message = _in_words(goal)
-        self.situation.called_off = False
+        self.situation.restless = True
         return self.team.robot.start(goal)
 
     def ended(self, result: Result) -> Status:
         """Succeed as the robot did; note if it lost what it held."""
+        self.situation.restless = not isinstance(result, Succeeded)
         if isinstance(result, Failed) and result.lost:
             self.situation.lost, self.situation.in_hand = result.reason, None
         return Status.SUCCESS if isinstance(result, Succeeded) else self.failed(result)
 
     def cancel(self, request: int) -> None:
         """Brake."""
-        self.situation.called_off = True
         self.team.robot.cancel(request)
 
 

@@ -72,16 +72,16 @@ class MissionTree:
         Raises:
             Exception: the first that a behaviour raised; the others were interrupted all the same.
         """
-        errors = []
+        raised: list[Exception] = []
         for node in reversed(self._nodes.values()):  # children before parents
             if node.status == Status.RUNNING or (isinstance(node, Action) and node.is_under_way):
                 try:
                     node.stop(Status.INVALID)
                 except Exception as error:
                     node.status = Status.INVALID
-                    errors.append(error)
-        for error in errors:
-            raise error
+                    raised.append(error)
+        if raised:
+            raise raised[0]
 
 
 def _walk(node: Behaviour, path: str) -> Iterator[tuple[str, Behaviour]]:

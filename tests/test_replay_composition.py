@@ -1,0 +1,139 @@
+"""A replay puts the mission together as it was, from what the recording keeps."""
+
+import io
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from executive import households
+from executive.app import Session
+from executive.config import KnowledgeSystem, Settings, load_settings
+from executive.events import Inbox
+from executive.policies import POLICIES
+from executive.replay import replay
+from executive.types import Box, Detection, Goal, LookAt, Pick, Saw, Status
+from kb.prompts import TEXTS
+from kb.scripted import Scripted as ScriptedModel
+from logs.reader import Run
+from sim.fake import FakeWorld
+
+OKB = {"world": "fake", "llm": "none", "knowledge": KnowledgeSystem.OKB, "user": "oracle"}
+
+
+class FarSighted:
+    """Eyes that see the mug on the desk: once from the bed, then from the desk itself."""
+
+    def __init__(self, session: Session) -> None:
+        self._inbox = session.inbox
+        self._world = session.world
+        self._looks = 0
+        x, y, _ = session.home.furniture_named("desk").pose
+        on_desk = np.array([[x, y, 0.8]], np.float32)
+        self._mug = Detection("mug", 1.0, Box(0, 0, 1, 1), np.ones((1, 1), np.bool_), on_desk)
+
+    def see(self) -> int:
+        assert isinstance(self._world, FakeWorld)
+        self._looks += 1
+        seen = (self._mug,) if self._looks == 1 or self._world.at == "desk" else ()
+        self._inbox.end(request := self._inbox.open(), Saw(self._looks, seen))
+        return request
+
+    def cancel(self, request: int) -> None:
+        self._inbox.drop(request)
+
+
+def with_true_positions(session: Session) -> Session:
+    """As in the physical world, where the robot's map tells on what a thing is that it sees."""
+    physical = session.settings.model_copy(update={"world": "physics"})
+    session.grounds = replace(session.grounds, settings=physical)
+    session._used["config.toml"] = physical.to_toml().encode()
+    views = session.home.view_targets
+    session.robot.views = lambda place: len(views(place))  # type: ignore[method-assign]
+    session.eyes = FarSighted(session)  # type: ignore[assignment]
+    return session
+
+
+def test_what_was_seen_on_furniture_behind_a_place_is_remembered_there(tmp_path: Path) -> None:
+    settings = Settings(**OKB, place={"mug": "bed"}, runs=tmp_path)  # type: ignore[arg-type]
+    session = with_true_positions(Session(settings, out=io.StringIO()))
+    world = session.world
+    assert isinstance(world, FakeWorld)
+
+    def someone_takes_it(goal: Goal) -> str | None:
+        if isinstance(goal, Pick) and world.things["mug"] == "bed":
+            world.things["mug"] = "desk"
+            return "the mug slipped from my fingers"
+        return None
+
+    world.fault = someone_takes_it
+    outcome = session.run("Take the mug")
+    assert (outcome.status, outcome.source) == (Status.DONE, "memory")
+    assert replay(Path(outcome.run_dir or "")).parting is None
+
+
+@pytest.mark.parametrize("policy", ["nearest", "random", "true-first", "always-asks"])
+def test_a_mission_of_any_policy_replays(policy: str, tmp_path: Path) -> None:
+    given = {**OKB, "knowledge": KnowledgeSystem.OKB_LLM, "defaults": False, "runs": tmp_path}
+    household = households.Household(
+        load_settings(**given), ("Take a mug.", "Find the hammer"), policy, recorded=True
+    )
+    for entry in households.run(household):
+        run = Path(entry.row.run_dir)
+        assert Run(run).metadata["policy"] == policy
+        assert replay(run).parting is None
+
+
+def test_a_mission_without_verification_replays_without(tmp_path: Path) -> None:
+    inbox = Inbox()
+    settings = load_settings(**{**OKB, "knowledge": KnowledgeSystem.OKB_LLM, "runs": tmp_path})
+    session = Session(
+        settings.model_copy(update={**POLICIES["unverified"].settings, "llm": "embedded"}),
+        inbox=inbox,
+        model=ScriptedModel(['{"places": ["the moon", "desk"]}'], inbox),
+        policy="unverified",
+        advise=POLICIES["unverified"].advisor,
+        out=io.StringIO(),
+    )
+    outcome = session.run("Find an apple")
+    run = Path(outcome.run_dir or "")
+    assert "the moon" in next(Run(run).verifications()).value.accepted
+    assert replay(run).parting is None
+
+
+def test_a_robot_that_does_not_learn_does_not_in_the_replay(tmp_path: Path) -> None:
+    settings = Settings(**OKB, learn=False, runs=tmp_path)  # type: ignore[arg-type]
+    session = Session(settings, out=io.StringIO())
+    assert isinstance(session.world, FakeWorld)
+    to_fail: list[type] = [Pick, LookAt]
+
+    def fault(goal: Goal) -> str | None:
+        """The pick fails, and the look after it: the thing counts as gone, and is searched anew."""
+        if to_fail and isinstance(goal, to_fail[0]):
+            to_fail.pop(0)
+            return "it does not work"
+        return None
+
+    session.world.fault = fault
+    outcome = session.run("Take an apple")
+    assert replay(Path(outcome.run_dir or "")).parting is None
+
+
+def test_a_recording_keeps_the_texts_that_replaced_ours(tmp_path: Path) -> None:
+    file = tmp_path / "prompts.toml"
+    file.write_text(TEXTS.read_text().replace("home", "castle"))
+    inbox = Inbox()
+    given: dict[str, Any] = {**OKB, "knowledge": KnowledgeSystem.OKB_LLM, "llm": "embedded"}
+    session = Session(
+        Settings(**given, prompts=file, runs=tmp_path / "runs"),
+        inbox=inbox,
+        model=ScriptedModel([], inbox),
+        out=io.StringIO(),
+    )
+    outcome = session.run("Find a power_drill")
+    file.unlink()
+    run = Run(Path(outcome.run_dir or ""))
+    assert "castle" in run.attachments["prompts.toml"].decode()
+    assert replay(run.path).parting is None
