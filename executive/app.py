@@ -104,6 +104,8 @@ class Session:
             files=settings.kb,
             person=settings.person,
         )
+        for warning in self.knowledge.warnings():
+            log.warning("%s", warning)
         self.facts = FactStore(settings.memory, learns=settings.learn)
         guarded = GuardedModel(self.model, self.inbox, self.recorder) if self.model else None
         self.grounds = Grounds(settings, self.home, self.knowledge, guarded, prompts, self.facts)

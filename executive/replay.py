@@ -30,6 +30,7 @@ from executive.text import printable
 from executive.types import Place
 from kb.facts import FactStore
 from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
+from kb.owl import parsed
 from kb.prompts import Prompts
 from logs.difference import (
     ENDED,
@@ -270,11 +271,8 @@ def _ontology(
     person: str | None,
 ) -> Ontology:
     """The recorded files, which take the place of those of today."""
-    with TemporaryDirectory() as folder:
-        paths = [Path(folder) / name for name, _ in files]
-        for path, (_, data) in zip(paths, files, strict=True):
-            path.write_bytes(data)
-        return Ontology(places, defaults=defaults, files=paths, person=person)
+    read = [parsed(Path(name), data) for name, data in files]
+    return Ontology(places, defaults=defaults, files=read, person=person)
 
 
 def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Parting | None:

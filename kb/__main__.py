@@ -22,26 +22,28 @@ def show(ontology: Ontology, words: str) -> int:
     names = ontology.objects_named(words)
     if not names:
         nearest = " or ".join(ontology.nearest_names(words)) or ", ".join(ontology.objects())
-        print(f"nothing is called {words!r}: did you mean {nearest}?", file=sys.stderr)
+        said = f"nothing is called {printable(words)!r}: did you mean {nearest}?"
+        print(printable(said), file=sys.stderr)
         return NOT_DONE
     for name in names:
-        print(name)
+        print(printable(name))
         for title, known in (
             ("also called", ontology.synonyms(name)),
             ("is a", ontology.classes_of(name)),
             ("usually at", ontology.default_locations(name)),
             ("preferred by", ontology.preferred_by(name)),
         ):
-            print(f"  {title:12} {', '.join(known) or '-'}")
+            print(printable(f"  {title:12} {', '.join(known) or '-'}"))
     return DONE
 
 
 def check(ontology: Ontology) -> int:
-    """Print every fault."""
-    faults = list(ontology.faults())
-    for fault in faults:
-        print(fault)
-    print(f"{len(ontology.objects())} objects, {len(faults)} faults", file=sys.stderr)
+    """Print every fault, and what is not used; only a fault is one."""
+    faults, notes = list(ontology.faults()), [*ontology.unmet_imports(), *ontology.unused()]
+    for line in (*faults, *(f"note: {note}" for note in notes)):
+        print(printable(line))
+    counts = f"{len(ontology.objects())} objects, {len(faults)} faults"
+    print(counts + (f", {len(notes)} notes" if notes else ""), file=sys.stderr)
     return 1 if faults else 0
 
 
@@ -51,7 +53,7 @@ def query(ontology: Ontology, sparql: str, as_json: bool) -> int:
     if as_json:
         print(json.dumps([dict(zip(table.columns, row, strict=True)) for row in table.rows]))
     else:
-        lines = [table.columns, *(tuple(map(str, row)) for row in table.rows)]
+        lines = [tuple(map(printable, row)) for row in (table.columns, *table.rows)]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         for line in lines:
             padded = (cell.ljust(width) for cell, width in zip(line, widths, strict=True))
@@ -68,8 +70,8 @@ def facts(file: Path, as_json: bool) -> int:
         return DONE
     now = time.time()
     for fact in known:
-        what = f"{printable(fact.object):20} {fact.kind:6} {printable(fact.place):20}"
-        print(f"{what} {age(now - fact.time_s)} ago")
+        thing, place = printable(fact.object), printable(fact.place)
+        print(f"{thing:20} {fact.kind:6} {place:20} {age(now - fact.time_s)} ago")
     print(f"{len(known)} facts", file=sys.stderr)
     return DONE
 
@@ -93,7 +95,11 @@ def age(seconds: float) -> str:
 def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> Ontology:
     """What a mission with the same options would know."""
     places = load_home(given.home).places()
-    return Ontology(places, defaults=given.defaults, files=[*given.kb, *files])
+    ontology = Ontology(places, defaults=given.defaults, files=[*given.kb, *files])
+    if given.command != "check":
+        for warning in ontology.warnings():
+            print(printable(f"warning: {warning}"), file=sys.stderr)
+    return ontology
 
 
 def _memory(file: Path, *, learns: bool = True) -> FactStore:
@@ -126,7 +132,9 @@ def parser() -> argparse.ArgumentParser:
     shown = commands.add_parser("show", help="what is known about a thing")
     shown.add_argument("words", nargs="+", help="an object or a class: sugar box, fruit")
     checked = commands.add_parser("check", help="load the files and name their faults")
-    checked.add_argument("files", nargs="*", type=Path, help="further OWL files (RDF/XML)")
+    checked.add_argument(
+        "files", nargs="*", type=Path, help="further OWL files (RDF/XML or Turtle)"
+    )
     asked = commands.add_parser("query", help="ask the ontology in SPARQL")
     asked.add_argument("sparql", help='"SELECT ?x WHERE { ?x rdfs:subClassOf household:Fruit }"')
     for command in (shown, checked, asked):

@@ -1,19 +1,23 @@
 """The ontology: which things there are, what they are called, and where they usually are."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from io import BytesIO
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
-import owlready2
 from rapidfuzz import fuzz, process
+from rdflib import RDF, URIRef
+from rdflib.term import Identifier
 
 from executive.errors import InputError
+from executive.text import printable
 from executive.types import Place
-from kb.faults import faults
+from kb.faults import ROOTS, faults
+from kb.graph import Graph
+from kb.home_file import home_file
+from kb.library import Library
 from kb.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
-from kb.owl import downwards, label, leaves, load, read, upwards, values
-from kb.sparql import Table, select
+from kb.owl import OwlFile, ending, read
+from kb.table import Table
+from kb.unused import unused
 
 HOUSEHOLD = Path(__file__).with_name("household.owl")
 DEFAULTS = Path(__file__).with_name("defaults.owl")
@@ -32,6 +36,7 @@ PREFIXES = {
 }
 """Names that a query may use without declaring them."""
 
+PREPOSITIONS = ("in", "on")
 MOST_NAMES = 3
 LEAST_SIMILARITY = 60.0
 """Of 100, as rapidfuzz counts; below it two names share little but a few letters."""
@@ -51,7 +56,7 @@ class Ontology:
         places: Sequence[Place] = (),
         *,
         defaults: bool = True,
-        files: Sequence[Path] = (),
+        files: Sequence[Path | OwlFile] = (),
         person: str | None = None,
     ) -> None:
         """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
@@ -61,46 +66,36 @@ class Ontology:
         Args:
             places: the furniture of the home.
             defaults: whether to load defaults.owl.
-            files: a person's own OWL files, which add to ours or replace them.
+            files: a person's own OWL files, or what was read of them, which add to ours or
+                replace them.
             person: the name of who is at home, as the files have it.
 
         Raises:
-            InputError: if a file is no ontology, imports one that is not loaded or is called like
-                another; if what replaces household.owl lacks a name that every home needs, a place
-                is of a class that the ontology does not have, or nobody knows the person.
+            InputError: if a file is no ontology or is called like another; if what replaces
+                household.owl lacks a name that every home needs, a place is of a class that the
+                ontology does not have, or nobody knows the person.
         """
-        self._world = owlready2.World()
-        self._files: dict[str, bytes] = {}
-        read_files = map(read, (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files))
-        for file in {file.iri: file for file in read_files}.values():
-            if file.path.name in self._files:
-                raise InputError(str(file.path), "another file has the same name", "rename one")
-            load(self._world, file)
-            self._files[file.path.name] = file.content
+        paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
+        read_files = (file if isinstance(file, OwlFile) else read(file) for file in paths)
+        self._library = Library(read_files, replaceable=(HOUSEHOLD.name, DEFAULTS.name))
+        self._graph = Graph(t for file in self._library.files for t in file.triples)
         self._expect_vocabulary()
+        self._graph.expect_bounded([_class(root) for root in ROOTS])
         self._places = {place.name: place for place in places}
         self._order = {name: number for number, name in enumerate(self._places)}
-        self._home = self._world.get_ontology(INDIVIDUALS)
         self._kinds = {
-            root: {kind.name: kind for kind in downwards(self._class(root))}
-            for root in ("Furniture", "Room")
+            root: _by_name(self._graph.downwards(_class(root))) for root in ("Furniture", "Room")
         }
-        with self._home:
-            for place in places:
-                self._add(place)
-        self._things = tuple(downwards(self._class("Object")))
+        for place in places:
+            self._add(place)
+        label, names = self._graph.label, self._graph.names
+        self._things = tuple(self._graph.downwards(_class("Object")))
         self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
-        self._objects = leaves(self._class("Object"))
+        self._objects = self._graph.leaves(_class("Object"))
         self._objects_by_words = self._index()
         self._names_by_words = index_by_words(
-            *(
-                [
-                    (words_of(name), label(thing))
-                    for thing in self._things
-                    for name in names_of(thing)
-                ]
-                for names_of in (lambda thing: (label(thing),), _names)
-            )
+            [(words_of(label(thing)), label(thing)) for thing in self._things],
+            [(words_of(name), label(thing)) for thing in self._things for name in names(thing)],
         )
         self._person = self._person_named(person) if person else None
         self.place_names = PlaceNames(self.places(), self._called())
@@ -165,7 +160,7 @@ class Ontology:
 
     def objects(self) -> tuple[str, ...]:
         """Names of all objects, in the files' order."""
-        return tuple(label(thing) for thing in self._objects)
+        return tuple(map(self._graph.label, self._objects))
 
     def classes_of(self, name: str) -> tuple[str, ...]:
         """What the classes above an object or a class are called, nearest first, less `Object`.
@@ -173,68 +168,87 @@ class Ontology:
         Raises:
             InputError: if there is no such thing, here and below.
         """
-        _, *above = upwards(self._thing(name))
-        return tuple(label(c) for c in above if c is not self._class("Object"))
+        _, *above = self._graph.upwards(self._thing(name))
+        return tuple(self._graph.label(c) for c in above if c != _class("Object"))
 
     def synonyms(self, name: str) -> tuple[str, ...]:
-        """Other names of an object or a class."""
-        return tuple(self._thing(name).altLabel)
+        """Other names of an object or a class, in any language."""
+        return self._graph.called(self._thing(name)).synonyms
 
     def default_locations(self, name: str) -> tuple[str, ...]:
         """Default locations of an object or its nearest class, in this home or not."""
-        for thing in upwards(self._thing(name)):
-            if usual := values(thing, self._class("hasDefaultLocation")):
-                return tuple(place.name for place in usual if place is not None)
+        for thing in self._graph.upwards(self._thing(name)):
+            if self._graph.values(thing, _class("hasDefaultLocation")):
+                return self._locations(thing)
         return ()
 
     def recorded_locations(self) -> dict[str, tuple[str, ...]]:
         """Default locations of each object and class for which a file has some of its own."""
-        usual = self._class("hasDefaultLocation")
-        recorded = {
-            label(thing): tuple(place.name for place in values(thing, usual) if place is not None)
-            for thing in self._things
-        }
+        recorded = {self._graph.label(thing): self._locations(thing) for thing in self._things}
         return {name: places for name, places in recorded.items() if places}
 
     def preferred_by(self, name: str) -> tuple[str, ...]:
         """The people who prefer an object or a class, of others like it."""
-        return tuple(label(person) for person in self._preferring(self._thing(name)))
+        return tuple(map(self._graph.label, self._preferring(self._thing(name))))
 
     def preposition(self, place: Place) -> str:
         """How things are with this piece of furniture: "in" or "on"."""
-        given = (p for kind in upwards(self._class(place.kind)) for p in kind.preposition)
-        return next(given, "on")
+        kinds = self._graph.upwards(self._kinds["Furniture"][place.kind])
+        given = (str(p) for kind in kinds for p in self._graph.objects(kind, _class("preposition")))
+        return next(filter(PREPOSITIONS.__contains__, given), "on")
 
     def files(self) -> Mapping[str, bytes]:
         """The loaded files by name, and what the home adds to them, to be kept with the log."""
-        home = BytesIO()
-        self._home.save(home, format="rdfxml")
-        return {**self._files, "home.owl": home.getvalue()}
+        kinds, rooms = self._kinds["Furniture"], self._kinds["Room"]
+        home = home_file(INDIVIDUALS, _class("isIn"), self.places(), kinds, rooms)
+        return {**self._library.contents(), "home.owl": home}
 
     def faults(self) -> Iterator[str]:
         """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
-        return faults(self._world, CLASSES)
+        return faults(self._graph, CLASSES, imports_met=not self.unmet_imports())
+
+    def unused(self) -> Iterator[str]:
+        """What the files say that the robot makes nothing of, a sentence each."""
+        return unused(self._graph, CLASSES)
+
+    def unmet_imports(self) -> tuple[str, ...]:
+        """What files import that was not loaded, a sentence each: nothing is fetched."""
+        return tuple(self._library.unmet_imports())
+
+    def warnings(self) -> tuple[str, ...]:
+        """What the files do not give although one may think so, a sentence each."""
+        graph, roots = self._graph, list(map(_class, ROOTS))
+        kinds = {kind for root in roots for kind in graph.downwards(root)}
+        individuals = {one for root in roots for one in graph.instances(root)}
+        return tuple(self._library.warnings(kinds | individuals))
 
     def query(self, sparql: str) -> Table:
         """Answer a SELECT in SPARQL.
 
         Raises:
-            InputError: if it cannot be read.
+            InputError: if it cannot be read, or takes too long.
         """
-        return select(self._world, sparql, PREFIXES)
+        from kb.sparql import select  # the engine loads slowly, and missions ask nothing
+
+        return select(self._graph, sparql, PREFIXES)
 
     # --- inside ---
 
     def _expect_vocabulary(self) -> None:
         """Refuse an ontology without the names that this class is about."""
-        for iri in (*(CLASSES + name for name in VOCABULARY), ALSO_CALLED):
-            if self._world[iri] is None:
+        for iri in (*map(_class, VOCABULARY), URIRef(ALSO_CALLED)):
+            if not self._graph.is_declared(iri):
                 right = f"keep {iri} as household.owl has it"
-                raise InputError("ontology", f"declares no {iri.rpartition('#')[2]}", right)
+                raise InputError("ontology", f"declares no {ending(iri)}", right)
 
     def _similar(self, words: str) -> dict[str, float]:
         """Names that look like the words, most similar first, and how similar (of 100)."""
-        names = [(spoken(name), label(thing)) for thing in self._things for name in _names(thing)]
+        graph = self._graph
+        names = [
+            (spoken(name), graph.label(thing))
+            for thing in self._things
+            for name in graph.names(thing)
+        ]
         found = process.extract(
             spoken(words),
             [name for name, _ in names],
@@ -247,66 +261,82 @@ class Ontology:
             similar.setdefault(names[index][1], similarity)
         return similar
 
-    def _class(self, name: str) -> Any:
-        return self._world[CLASSES + name]
-
-    def _thing(self, name: str) -> Any:
+    def _thing(self, name: str) -> Identifier:
         if name in self._things_by_name:
             return self._things_by_name[name]
-        right = f"known are {', '.join(label(thing) for thing in self._things)}"
-        raise InputError("ontology", f"there is no {name!r}", right)
+        right = f"known are {', '.join(map(self._graph.label, self._things))}"
+        raise InputError("ontology", f"there is no {printable(name)!r}", right)
 
-    def _preferring(self, thing: Any) -> list[Any]:
-        return [person for person in values(thing, self._class("preferredBy")) if person]
+    def _locations(self, thing: Identifier) -> tuple[str, ...]:
+        """The default locations that are said of this thing itself, and that a file declares."""
+        usual = self._graph.values(thing, _class("hasDefaultLocation"))
+        return tuple(ending(place) for place in usual if self._graph.is_declared(place))
 
-    def _person_named(self, name: str) -> Any:
-        people = {words_of(label(person)): person for person in self._class("Person").instances()}
+    def _preferring(self, thing: Identifier) -> list[Identifier]:
+        people = self._graph.values(thing, _class("preferredBy"))
+        return [person for person in people if self._graph.is_declared(person)]
+
+    def _person_named(self, name: str) -> Identifier:
+        label = self._graph.label
+        everyone = self._graph.instances(_class("Person"))
+        people = {words_of(label(person)): person for person in everyone}
         if words_of(name) in people:
             return people[words_of(name)]
-        known = ", ".join(label(person) for person in people.values())
+        known = ", ".join(map(label, people.values()))
         right = f"known are {known}" if known else "declare them in an OWL file and give it as --kb"
-        raise InputError(f"person {name}", "the ontology knows nobody of this name", right)
+        where = f"person {printable(name)}"
+        raise InputError(where, "the ontology knows nobody of this name", right)
 
     def _add(self, place: Place) -> None:
         """Put a piece of furniture, and its room, in as individuals."""
         room = self._individual(place.room, place.room_kind, "Room")
-        self._individual(place.name, place.kind, "Furniture").isIn = room
+        piece = self._individual(place.name, place.kind, "Furniture")
+        self._graph.put(piece, _class("isIn"), room)
 
-    def _individual(self, name: str, kind: str, root: str) -> Any:
+    def _individual(self, name: str, kind: str, root: str) -> Identifier:
         class_ = self._kinds[root].get(kind)
         if class_ is None:
             known = ", ".join(self._kinds[root])
-            raise InputError(name, f"is a {kind!r}, which the ontology lacks", f"known are {known}")
-        individual = self._world[INDIVIDUALS + name]
-        if individual is None:
-            return class_(name, namespace=self._home)
-        individual.is_a = [class_]
+            fault = f"is a {printable(kind)!r}, which the ontology lacks"
+            raise InputError(printable(name), fault, f"known are {known}")
+        individual = URIRef(INDIVIDUALS + name)
+        self._graph.put(individual, RDF.type, class_)
         return individual
 
     def _index(self) -> dict[str, tuple[str, ...]]:
         """Words, run together -> names of the objects that they may mean."""
-        classes = [thing for thing in self._things if thing not in self._objects]
+        graph, known = self._graph, set(self._objects)
+        objects = [(graph.called(thing), graph.label(thing)) for thing in self._objects]
+        members = [
+            (graph.called(kind), graph.label(thing))
+            for kind in self._things
+            if kind not in known
+            for thing in graph.leaves(kind)
+        ]
         return index_by_words(
-            [(words_of(label(thing)), label(thing)) for thing in self._objects],
-            [(words_of(name), label(thing)) for thing in self._objects for name in thing.altLabel],
-            [(words_of(label(c)), label(thing)) for c in classes for thing in leaves(c)],
-            [
-                (words_of(n), label(thing))
-                for c in classes
-                for n in c.altLabel
-                for thing in leaves(c)
-            ],
+            [(words_of(called.name), name) for called, name in objects],
+            [(words_of(n), name) for called, name in objects for n in called.synonyms],
+            [(words_of(called.name), name) for called, name in members],
+            [(words_of(n), name) for called, name in members for n in called.synonyms],
         )
 
     def _called(self) -> dict[str, tuple[str, ...]]:
         """Furniture or room class -> what it and the classes above it are called."""
+        graph, roots = self._graph, {_class(root) for root in self._kinds}
         return {
-            name: tuple(n for c in upwards(kind) if c.name not in self._kinds for n in _names(c))
+            name: tuple(n for c in graph.upwards(kind) if c not in roots for n in graph.names(c))
             for kinds in self._kinds.values()
             for name, kind in kinds.items()
         }
 
 
-def _names(entity: Any) -> tuple[str, ...]:
-    """Label and synonyms."""
-    return (label(entity), *entity.altLabel)
+def _class(name: str) -> URIRef:
+    return URIRef(CLASSES + name)
+
+
+def _by_name(kinds: Iterable[Identifier]) -> dict[str, Identifier]:
+    """Classes by the ends of their IRIs; the first of a name has it."""
+    named: dict[str, Identifier] = {}
+    for kind in kinds:
+        named.setdefault(ending(kind), kind)
+    return named

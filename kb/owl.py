@@ -1,109 +1,168 @@
-"""Reading OWL files offline, and walking what they say, in terms of owlready2."""
+"""Reading ontologies: what a file says, as triples. Nothing in it is run, opened or fetched.
 
-from collections.abc import Iterator
+The parsers of rdflib only turn text into triples. The loader of owlready2 is not used, because it
+imports the Python module that an annotation names, and reads what a file imports.
+"""
+
+import logging
+import warnings
 from dataclasses import dataclass
-from io import BytesIO
+from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
 
-import owlready2
+import rdflib
+from rdflib import OWL, RDF, URIRef
+from rdflib.parser import InputSource
+from rdflib.term import Identifier
 
-from executive.errors import InputError
+from executive.errors import ExecutiveError, InputError
+from executive.text import printable
+from kb.bounds import base_of_bounded
+from kb.syntax import is_xml, turtle_text
 
-_RDF = "{http://www.w3.org/1999/02/22-rdf-syntax-ns#}"
-_OWL = "{http://www.w3.org/2002/07/owl#}"
-_BASE = "{http://www.w3.org/XML/1998/namespace}base"
+Triple = tuple[Identifier, Identifier, Identifier]
+"""Subject, predicate, object: an IRI, a blank node or a literal, each a str."""
+
+MOST_BYTES = 8_000_000
+MOST_TRIPLES = 200_000
+LONGEST_FAULT = 200
+OWLREADY = "http://www.lesfleursdunormal.fr/static/_downloads/owlready_ontology.owl#"
+_RUNS_PYTHON = URIRef(OWLREADY + "python_module")
+
+logging.getLogger("rdflib").setLevel(logging.CRITICAL)
+"""It warns of odd IRIs and literals by printing them as they are."""
+rdflib.NORMALIZE_LITERALS = False
+"""Else a short number such as 1e999999999 is written out."""
 
 
 @dataclass(frozen=True, slots=True)
 class OwlFile:
-    """An RDF/XML file, the IRI of the ontology in it, and the IRIs that this one imports."""
+    """A file, the IRI and the versions of the ontology in it, and the IRIs that it imports."""
 
     path: Path
     content: bytes
+    triples: tuple[Triple, ...]
     iri: str
+    versions: tuple[str, ...]
     imports: tuple[str, ...]
 
 
 def read(path: Path) -> OwlFile:
-    """Read a file; one that declares no IRI goes by its place on the disk.
+    """Read a file.
 
     Raises:
-        InputError: if it is no RDF/XML.
+        InputError: if it cannot be opened or is too large, and as `parsed` does.
     """
+    return parsed(path, _content(path, printable(path)))
+
+
+def parsed(path: Path, content: bytes) -> OwlFile:
+    """What is in a file; one that declares no IRI goes by its xml:base, or its place on the disk.
+
+    Raises:
+        InputError: if it is neither RDF/XML nor Turtle, refers to another file, says too much, or
+            names Python code to be run.
+    """
+    where = printable(path)
+    if len(content) > MOST_BYTES:
+        fault = f"is larger than {MOST_BYTES // 1_000_000} MB"
+        raise InputError(where, fault, "give a smaller part of it")
+    here = path.absolute().as_uri()
+    if is_xml(content, where):
+        base = base_of_bounded(content, where)
+        triples = _triples(content, "xml", "RDF/XML", here, where)
+    else:
+        base = ""
+        triples = _triples(turtle_text(content, where), "turtle", "Turtle", here, where)
+    for subject, relation, module in triples:
+        if relation == _RUNS_PYTHON:
+            fault = f"{ending(subject)} names Python code to be run, python_module {_shown(module)}"
+            raise InputError(where, fault, "nothing in an ontology is run: take python_module out")
+    declared = [s for s, p, o in triples if p == RDF.type and o == OWL.Ontology]
+    names = [iri for iri in declared if isinstance(iri, URIRef)]
+    return OwlFile(
+        path,
+        content,
+        triples,
+        (names[0] if names else base or here).rstrip("#"),
+        tuple(str(o) for _, p, o in triples if p == OWL.versionIRI),
+        tuple(dict.fromkeys(str(o) for _, p, o in triples if p == OWL.imports)),
+    )
+
+
+def ending(entity: str) -> str:
+    """What an IRI ends in: its name for people, fit to be shown."""
+    last = entity.rstrip("#/").replace("#", "/").rpartition("/")[2]
+    return printable(last)[:LONGEST_FAULT] or "nameless"
+
+
+class _Read(rdflib.Graph):
+    """Takes triples from a parser, in the order of the file."""
+
+    def __init__(self, where: str) -> None:
+        super().__init__(bind_namespaces="none")
+        self.where = where
+        self.triples_read: dict[Triple, None] = {}
+
+    def add(self, triple: Any) -> "_Read":
+        self.triples_read[triple] = None
+        if len(self.triples_read) > MOST_TRIPLES:
+            fault = f"says more than {MOST_TRIPLES} things"
+            raise InputError(self.where, fault, "give a smaller part of it")
+        return self
+
+
+def _content(path: Path, where: str) -> bytes:
     try:
-        content = path.read_bytes()
-        root = ElementTree.fromstring(content)
+        if path.exists() and not path.is_file() and not path.is_dir():
+            raise InputError(where, "cannot be read: it is no file")
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
     except OSError as error:
-        raise InputError(str(path), f"cannot be read: {error.strerror}") from None
-    except ElementTree.ParseError as error:
-        raise InputError(str(path), f"is not XML: {error}") from None
-    if root.tag != f"{_RDF}RDF":
-        raise InputError(str(path), f"begins with <{root.tag}>", "save the ontology as RDF/XML")
-    declared = root.find(f"{_OWL}Ontology")
-    about = "" if declared is None else declared.get(f"{_RDF}about", "")
-    iri = about or root.get(_BASE) or path.absolute().as_uri()
-    imports = (imported.get(f"{_RDF}resource", "") for imported in root.iter(f"{_OWL}imports"))
-    return OwlFile(path, content, iri.rstrip("#"), tuple(name.rstrip("#") for name in imports))
+        raise InputError(where, f"cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise InputError(where, f"cannot be read: {error}") from None
+    return content
 
 
-def load(world: owlready2.World, file: OwlFile) -> None:
-    """Put a file into the world; nothing is ever fetched from the network.
-
-    Raises:
-        InputError: if it is no ontology, or imports one that was not loaded before it.
-    """
-    loaded = {iri.rstrip("#") for iri in world.ontologies}
-    for iri in file.imports:
-        if iri not in loaded:
-            right = f"load first the file that holds it; loaded are {', '.join(sorted(loaded))}"
-            raise InputError(str(file.path), f"imports {iri}", right)
+def _triples(
+    content: bytes | str, syntax: str, called: str, here: str, where: str
+) -> tuple[Triple, ...]:
+    graph = _Read(where)
     try:
-        ontology = world.get_ontology(file.path.absolute().as_uri())
-        ontology.load(only_local=True, fileobj=BytesIO(file.content))
-    except (owlready2.OwlReadyError, TypeError, ValueError) as error:
-        fault = f"is no ontology that owlready2 can read: {error}"
-        raise InputError(str(file.path), fault) from None
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            graph.parse(_source(content, here), format=syntax)
+    except ExecutiveError:
+        raise
+    except RecursionError:
+        raise InputError(where, "is nested too deep", "give what is inside a name") from None
+    except Exception as error:  # parsers meet what their authors did not think of
+        fault = f"cannot be read as {called}: {_reason(error)}"
+        raise InputError(where, fault) from None
+    return tuple(graph.triples_read)
 
 
-def label(entity: Any) -> str:
-    """What an entity is called: its rdfs:label, or the end of its IRI."""
-    return str(entity.label.first() or entity.name)
+def _source(content: bytes | str, here: str) -> InputSource:
+    """What a parser reads; bytes are in the encoding that they say themselves."""
+    source = InputSource()
+    source.setPublicId(here)
+    if isinstance(content, bytes):
+        source.setByteStream(BytesIO(content))
+    else:
+        source.setCharacterStream(StringIO(content))
+    return source
 
 
-def upwards(entity: Any) -> Iterator[Any]:
-    """The class and all classes above it, nearest first, without owl:Thing."""
-    level, seen = [entity], {owlready2.Thing}
-    while level:
-        new = [c for c in dict.fromkeys(level) if c not in seen]
-        yield from new
-        seen.update(new)
-        level = [s for c in new for s in c.is_a if isinstance(s, owlready2.ThingClass)]
+def _reason(error: Exception) -> str:
+    """What a parser says, on one line; rdflib's Turtle parser quotes half of the file."""
+    if isinstance(error, IndexError):
+        return "it ends too early"
+    line, why = getattr(error, "lines", None), getattr(error, "_why", None)
+    said = f"line {line + 1}: {why}" if why and isinstance(line, int) else str(error)
+    return _shown(said or type(error).__name__)
 
 
-def downwards(entity: Any) -> Iterator[Any]:
-    """The class and all classes below it, each once, depth first in the files' order."""
-    stack, seen = [entity], set()
-    while stack:
-        current = stack.pop()
-        if current not in seen:
-            seen.add(current)
-            yield current
-            stack.extend(reversed(list(current.subclasses())))
-
-
-def leaves(entity: Any) -> list[Any]:
-    """The classes below this one (or itself) that have none below them."""
-    return [c for c in downwards(entity) if not list(c.subclasses())]
-
-
-def values(entity: Any, relation: Any) -> list[Any]:
-    """What the class's own restrictions `relation value x` name; None what no file declares."""
-    return [
-        c.value
-        for c in entity.is_a
-        if isinstance(c, owlready2.Restriction)
-        and c.property is relation
-        and c.type == owlready2.VALUE
-    ]
+def _shown(text: str) -> str:
+    return printable(text)[:LONGEST_FAULT]

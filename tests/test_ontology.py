@@ -1,7 +1,6 @@
 """What the knowledge base knows about things and places, and how people may name them."""
 
 import re
-import socket
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -10,7 +9,6 @@ import rdflib
 from conftest import four_rooms, ontology
 from hypothesis import given
 from hypothesis import strategies as st
-from owlready2 import World
 from rdflib import OWL as OWL_
 from rdflib import RDF, RDFS
 
@@ -19,7 +17,6 @@ from executive.types import Place
 from kb.__main__ import main
 from kb.names import PlaceNames, stem, words_of
 from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
-from kb.owl import load, read
 from sim.home import home_text
 
 PAPERS_OBJECTS = [
@@ -246,8 +243,9 @@ def test_an_unknown_thing_has_no_class():
 @pytest.mark.parametrize(
     ("content", "fault"),
     [
-        ("this is no XML", "more.owl: is not XML"),
-        ("<html></html>", "more.owl: begins with <html>; save the ontology as RDF/XML"),
+        ("this is none", "more.owl: is no ontology: it begins with 'this is none'; save it as RDF"),
+        ("<rdf:RDF>", "more.owl: is not XML: unbound prefix"),
+        ("<html></html>", "more.owl: begins with <html>; save it as RDF/XML or Turtle"),
     ],
 )
 def test_a_broken_file_is_refused(tmp_path, content, fault):
@@ -271,22 +269,26 @@ def test_two_files_of_one_name_are_refused_because_one_would_be_lost_in_the_log(
         Ontology(files=[one, other])
 
 
+@pytest.mark.parametrize("name", ["home.owl", "config.toml"])
+def test_a_file_is_not_called_like_what_else_is_kept_with_the_log(tmp_path, name):
+    (tmp_path / name).write_text(OWL.format(""))
+    with pytest.raises(InputError, match=f"{name}: another file has the same name; rename one"):
+        Ontology(files=[tmp_path / name])
+
+
+def test_a_file_that_takes_the_place_of_ones_own_is_told(tmp_path):
+    one = owl_file(tmp_path, "")
+    other = tmp_path / "again.owl"
+    other.write_text(one.read_text())
+    [told] = Ontology(files=[one, other]).warnings()
+    assert told.startswith("again.owl takes the place of more.owl, which declares the same IRI")
+
+
 def test_a_file_is_kept_as_it_was_loaded(tmp_path):
     path = owl_file(tmp_path, "")
     known, loaded = Ontology(files=[path]), path.read_bytes()
     path.unlink()
     assert known.files()["more.owl"] == loaded
-
-
-def test_an_import_is_never_fetched_from_the_network(tmp_path, monkeypatch):
-    monkeypatch.setattr(socket.socket, "connect", lambda *_: pytest.fail("went to the network"))
-    importing = owl_file(
-        tmp_path,
-        """<owl:Ontology rdf:about=""><owl:imports rdf:resource="http://example.org/far.owl"/>
-        </owl:Ontology>""",
-    )
-    with pytest.raises(InputError, match=r"imports http://example.org/far.owl; load first"):
-        Ontology(files=[importing])
 
 
 def test_two_knowledge_bases_do_not_share_anything():
@@ -303,14 +305,10 @@ def test_the_loaded_files_can_be_kept_with_the_log():
 
 def test_what_the_home_adds_is_kept_as_an_ontology_and_has_the_last_word(tmp_path):
     den = [Place("desk", "Table", "den", "Office"), Place("cot", "Bed", "den", "Office")]
-    moved = Ontology(den)
-    (tmp_path / "home.owl").write_bytes(moved.files()["home.owl"])
-    world = World()
-    for path in (HOUSEHOLD, tmp_path / "home.owl"):
-        load(world, read(path))
-    desk = world["http://robot-executive.org/home.owl#desk"]
-    assert (desk.is_a[0].name, desk.isIn.name) == ("Table", "den")
-    assert world["http://robot-executive.org/home.owl#cot"].isIn is desk.isIn
+    (tmp_path / "den.owl").write_bytes(Ontology(den).files()["home.owl"])
+    known = Ontology(files=[tmp_path / "den.owl"], defaults=False)
+    asked = "SELECT ?piece ?kind WHERE { ?piece household:isIn home:den . ?piece a ?kind }"
+    assert set(known.query(asked).rows) >= {("desk", "table"), ("cot", "bed")}
 
 
 @pytest.mark.parametrize("path", [HOUSEHOLD, DEFAULTS])

@@ -1,0 +1,57 @@
+"""The furniture of a home as an ontology in RDF/XML, for the log and for other tools."""
+
+from collections.abc import Iterable, Mapping
+from xml.etree import ElementTree
+
+from rdflib import OWL, RDF
+from rdflib.term import Identifier
+
+from executive.text import printable
+from executive.types import Place
+
+
+def home_file(
+    namespace: str,
+    is_in: Identifier,
+    places: Iterable[Place],
+    furniture: Mapping[str, Identifier],
+    rooms: Mapping[str, Identifier],
+) -> bytes:
+    """Each room and each piece of furniture once, as an individual of its class.
+
+    Args:
+        namespace: where the individuals are, up to the `#`.
+        is_in: the property that says in which room a piece stands.
+        places: the furniture.
+        furniture: furniture classes by name.
+        rooms: room classes by name.
+    """
+    root = ElementTree.Element(f"{{{RDF}}}RDF")
+    _about(ElementTree.SubElement(root, f"{{{OWL}}}Ontology"), namespace.rstrip("#"))
+    described = set[str]()
+    for place in places:
+        if place.room not in described:
+            _individual(root, namespace + place.room, rooms[place.room_kind])
+        described.add(place.room)
+        piece = _individual(root, namespace + place.name, furniture[place.kind])
+        _resource(piece, is_in, namespace + place.room)
+    ElementTree.indent(root)
+    written: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
+    return written + b"\n"
+
+
+def _individual(root: ElementTree.Element, iri: str, kind: Identifier) -> ElementTree.Element:
+    individual = ElementTree.SubElement(root, f"{{{OWL}}}NamedIndividual")
+    _about(individual, iri)
+    _resource(individual, RDF.type, kind)
+    return individual
+
+
+def _about(element: ElementTree.Element, iri: str) -> None:
+    element.set(f"{{{RDF}}}about", printable(iri))
+
+
+def _resource(element: ElementTree.Element, relation: Identifier, iri: str) -> None:
+    space, mark, name = relation.rpartition("#")
+    named = ElementTree.SubElement(element, f"{{{space}{mark}}}{name}")
+    named.set(f"{{{RDF}}}resource", printable(iri))

@@ -1,0 +1,68 @@
+"""Which syntax an ontology is written in, by how it begins: a file's ending may say anything."""
+
+import re
+from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
+
+from executive.errors import InputError
+from executive.text import printable
+
+SAVE = 'save it as RDF/XML or Turtle (in Protégé: File, Save as, "RDF/XML Syntax")'
+"""What is right where a syntax is not read."""
+START = 10_000
+"""Bytes that tell which syntax it is; a comment before the ontology may be as long."""
+
+_XML = re.compile(r"<(?:\?xml|!|rdf:RDF\b|[A-Za-z_][\w.:-]*(?:\s|/>)|[A-Za-z_][\w.-]*>)")
+"""Turtle may begin with `<urn:x>`, which is no element, because nothing says what `urn` is."""
+_OTHERS = (
+    ("OWL functional syntax", re.compile(r"(?:Prefix|Ontology)\s*\(")),
+    ("Manchester syntax", re.compile(r"(?:Prefix|Ontology|Namespace)\s*:")),
+    ("JSON-LD", re.compile(r"\{|\[\s*\{")),
+    ("OBO", re.compile(r"format-version\s*:|\[Term\]")),
+)
+_TURTLE = re.compile(r"@?(?:prefix|base)\b|<|_:|\[|\(|\w*:\w", re.IGNORECASE)
+
+
+def is_xml(content: bytes, where: str) -> bool:
+    """Whether it is XML; else it is Turtle, of which N-Triples are a part.
+
+    Raises:
+        InputError: if it is neither, with what to save it as.
+    """
+    start = _without_comments(_decoded(content[:START], "replace"))
+    if _XML.match(start):
+        return True
+    for name, begins in _OTHERS:
+        if begins.match(start):
+            raise InputError(where, f"is in {name}, which is not read", SAVE)
+    if not _TURTLE.match(start):
+        begins_with = f"begins with {printable(start[:30])!r}" if start else "is empty"
+        raise InputError(where, f"is no ontology: it {begins_with}", SAVE)
+    return False
+
+
+def turtle_text(content: bytes, where: str) -> str:
+    """The text of a Turtle file.
+
+    Raises:
+        InputError: if its bytes are no UTF-8.
+    """
+    try:
+        return _decoded(content, "strict")
+    except UnicodeDecodeError as error:
+        fault = f"is no UTF-8 text: byte {error.start} is none of it"
+        raise InputError(where, fault, "save it as UTF-8") from None
+
+
+def _decoded(content: bytes, errors: str) -> str:
+    for mark, encoding in ((BOM_UTF16_LE, "utf-16"), (BOM_UTF16_BE, "utf-16")):
+        if content.startswith(mark):
+            return content.decode(encoding, errors)
+    return content.removeprefix(BOM_UTF8).decode("utf-8", errors)
+
+
+def _without_comments(text: str) -> str:
+    """The text from its first line on that is no comment of Turtle's (`# ...`)."""
+    lines = text.lstrip().splitlines()
+    while lines and (not lines[0].strip() or lines[0].lstrip().startswith("#")):
+        del lines[0]
+    return "\n".join(lines).lstrip()
