@@ -4,8 +4,6 @@ import json
 from math import isfinite
 from typing import Any
 
-from pydantic import BaseModel
-
 from executive.records import (
     LlmCall,
     Mishap,
@@ -31,11 +29,9 @@ from executive.types import (
     Usage,
 )
 from logs.schema import MESSAGES, STATUS
+from logs.sound import MOST, MOST_DEEP, check_situation, finite, json_value, whole
 
 MOST_BEHAVIOURS = 2000
-MOST_DEEP = 64
-"""Levels of a tree, or of a JSON value."""
-_MOST = 2**63 - 1
 _PARAMETERS = ("temperature", "top_p", "top_k", "seed", "max_tokens")
 
 
@@ -109,8 +105,8 @@ def tick_from_message(message: Any) -> Tick:
     """
     if len(message.behaviours) > MOST_BEHAVIOURS:
         raise ValueError(f"a tick of {len(message.behaviours)} behaviours")
-    situation = {pair.key: _json(pair.value) for pair in message.situation}
-    _Known.model_validate(situation)
+    situation = {pair.key: json_value(pair.value) for pair in message.situation}
+    check_situation(situation)
     return Tick(
         number=whole(message.tick),
         cause=message.cause,
@@ -125,72 +121,6 @@ def _status(number: int) -> str:
     if not 0 < number < len(STATUS):
         raise ValueError(f"{number} is no status of a behaviour")
     return STATUS[number]
-
-
-class _There(BaseModel):
-    """A place, and who says so."""
-
-    place: str
-
-
-class _Asked(BaseModel):
-    """A command."""
-
-    kind: str | None = None
-
-
-class _Known(BaseModel):
-    """What readers look for in a situation, if it is there; the rest may be anything."""
-
-    command: _Asked | None = None
-    candidates: list[_There] | None = None
-    candidate: _There | None = None
-    found: _There | None = None
-    visited: list[str] | None = None
-    unreached: dict[str, str] | None = None
-    among: list[str] | None = None
-
-
-def _json(text: str) -> Any:
-    """A JSON value that is not nested too deeply for whatever reads it.
-
-    Raises:
-        ValueError: if it is none.
-        RecursionError: if it is nested very deeply.
-    """
-    value = json.loads(text)
-    level = [value]
-    for _ in range(MOST_DEEP):
-        level = [inner for outer in level if isinstance(outer, list | dict) for inner in _in(outer)]
-        if not level:
-            return value
-    raise ValueError(f"a value is nested more than {MOST_DEEP} times")
-
-
-def _in(outer: list[Any] | dict[str, Any]) -> Any:
-    return outer.values() if isinstance(outer, dict) else outer
-
-
-def whole(number: int) -> int:
-    """A number of things, as every table can hold it.
-
-    Raises:
-        ValueError: if it is none.
-    """
-    if not 0 <= number <= _MOST:
-        raise ValueError(f"{number} is no number of things")
-    return number
-
-
-def finite(number: float) -> float:
-    """A measure of something.
-
-    Raises:
-        ValueError: if it is none.
-    """
-    if not isfinite(number):
-        raise ValueError(f"{number} is no measure of anything")
-    return number
 
 
 # --- the language model ---
@@ -266,7 +196,7 @@ def llm_call_from_message(message: Any) -> LlmCall:
             kind=message.kind,
         )
         return LlmCall(Scored(ranking, tuple(o.score for o in message.options), usage))
-    schema = _json(message.output_schema) if message.output_schema else None
+    schema = json_value(message.output_schema) if message.output_schema else None
     return LlmCall(
         Replied(
             ChatRequest(message.label, asked, schema),
@@ -279,7 +209,7 @@ def llm_call_from_message(message: Any) -> LlmCall:
 
 def _figure(count: float) -> int:
     """A number of tokens, whatever a server calls one: what is none is recorded as 0."""
-    return int(count) if isfinite(count) and 0 <= count <= _MOST else 0
+    return int(count) if isfinite(count) and 0 <= count <= MOST else 0
 
 
 def _add_parameters(message: Any, usage: Usage) -> None:
@@ -295,7 +225,7 @@ def _parameters(message: Any) -> dict[str, float | int | str]:
         name: getattr(message, f"gen_ai_request_{name}")
         for name in _PARAMETERS
         if message.HasField(f"gen_ai_request_{name}")
-    } | {pair.key: _json(pair.value) for pair in message.other_parameters}
+    } | {pair.key: json_value(pair.value) for pair in message.other_parameters}
 
 
 def _add_turns(field: Any, messages: tuple[Message, ...]) -> None:

@@ -4,13 +4,10 @@ import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
-from math import isfinite
 from pathlib import Path
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from google.protobuf.message import DecodeError
-from mcap.records import Attachment, Channel, McapRecord, Message, Metadata, Schema
-from pydantic import ValidationError
+from mcap.records import Attachment, Channel, McapRecord, Message, Metadata
 
 from executive.errors import InputError
 from executive.events import Event
@@ -19,27 +16,12 @@ from executive.text import printable
 from executive.types import Outcome
 from logs import messages
 from logs.event_messages import event_from_message
-from logs.mcap_file import Damage, MiB, is_whole, records
-from logs.schema import recorded_class
+from logs.mcap_file import Damage, is_whole, records
+from logs.parsing import MISFITS, Parsing, in_few_words
+from logs.sound import in_mission
 from logs.times import nanoseconds
-from logs.topics import TOPICS, is_own, most_in
 
 FILE_NAME = "mission.mcap"
-MOST_READ, OVERHEAD = 128 * MiB, 256
-"""Of all messages that one question reads, and what each one costs beside its bytes (bytes)."""
-LONGEST_S = 30 * 86_400.0
-"""No mission takes longer: a time beyond it is wrong."""
-_MISFITS = (
-    DecodeError,
-    ValueError,
-    TypeError,
-    LookupError,
-    AttributeError,
-    ArithmeticError,
-    RecursionError,
-)
-"""What turning a message into a record raises where it is not as we write it."""
-_WHY_LENGTH = 200
 
 T = TypeVar("T")
 
@@ -95,7 +77,7 @@ class Run:
         try:
             return tomllib.loads(self.attachments.get("config.toml", b"").decode())
         except (ValueError, RecursionError) as error:
-            what = f"its config.toml is not TOML: {_why(error)}"
+            what = f"its config.toml is not TOML: {in_few_words(error)}"
             raise InputError(str(self.path), what) from error
 
     def tree(self) -> TreeShape:
@@ -206,15 +188,15 @@ class Run:
 
     def _read_all(self, decoders: dict[str, Callable[[Any], T]]) -> Iterator[tuple[str, At[T]]]:
         """What was recorded under these topics, in the order in which it was."""
-        reading = _Reading(tuple(decoders), self._origin_ns)
+        parsing = Parsing(tuple(decoders), self._origin_ns)
         for offset, record in self._records(", ".join(decoders)):
             try:
-                if (found := reading.take(record)) is None:
+                if (found := parsing.take(record)) is None:
                     continue
                 topic, time_s, message = found
                 value = decoders[topic](message)
-            except _MISFITS as error:
-                raise self._damaged(reading.topic, _why(error), offset) from error
+            except MISFITS as error:
+                raise self._damaged(parsing.topic, in_few_words(error), offset) from error
             yield topic, At(time_s, value)
 
     def _records(self, wanted: str) -> Iterator[tuple[int, McapRecord]]:
@@ -247,55 +229,6 @@ def mcap_of(folder: Path) -> Path:
     return file
 
 
-class _Reading:
-    """Finds the messages of some topics among records, and parses them as they were defined."""
-
-    def __init__(self, topics: tuple[str, ...], origin_ns: int) -> None:
-        self.topic = topics[0]
-        """What was read last."""
-        self._topics = topics
-        self._origin_ns = origin_ns
-        self._room = MOST_READ
-        self._schemas: dict[int, Schema] = {}
-        self._channels: dict[int, Channel] = {}
-
-    def take(self, record: McapRecord) -> tuple[str, float, Any] | None:
-        """Topic, mission time (s) and message, if it is one that is wanted."""
-        match record:
-            case Schema():
-                self._schemas.setdefault(record.id, record)
-            case Channel():
-                self._channels.setdefault(record.id, record)
-            case Message():
-                channel = self._channels.get(record.channel_id)
-                if channel is None:
-                    raise ValueError(f"a message of channel {record.channel_id}, which is not told")
-                if channel.topic in self._topics:
-                    return self._parsed(channel, record)
-        return None
-
-    def _parsed(self, channel: Channel, message: Message) -> tuple[str, float, Any]:
-        self.topic = channel.topic
-        time_s = in_mission((message.log_time - self._origin_ns) / 1e9)
-        size = len(message.data)
-        if is_own(channel.topic):
-            self._room -= size + OVERHEAD
-        if size > most_in(channel.topic) or self._room < 0:
-            raise ValueError(f"a message of {size} bytes, or all before it, are more than is read")
-        return channel.topic, time_s, self._class(channel).FromString(message.data)
-
-    def _class(self, channel: Channel) -> Any:
-        """What the topic's messages are, with the numbers of the fields that the file has."""
-        kind = TOPICS[channel.topic]
-        name = kind.DESCRIPTOR.full_name
-        schema = self._schemas.get(channel.schema_id)
-        if schema is None or schema.name != name or channel.message_encoding != "protobuf":
-            raise ValueError(f"its messages should be {name}")
-        if not is_own(channel.topic):
-            return kind
-        return recorded_class(kind.DESCRIPTOR.name, schema.data)
-
-
 class _Exact(NamedTuple):
     time_s: float
     event: Event
@@ -305,28 +238,7 @@ def _exact_event(message: Any) -> _Exact:
     return _Exact(in_mission(message.mission_time_s), event_from_message(message))
 
 
-def in_mission(time_s: float) -> float:
-    """A mission time (s), which must be one.
-
-    Raises:
-        ValueError: if no mission has it.
-    """
-    if not isfinite(time_s) or abs(time_s) > LONGEST_S:
-        raise ValueError(f"a time of {time_s:.6g} s is none of a mission")
-    return time_s
-
-
 def _is_plain(name: str) -> bool:
     """Whether an attachment is called as a file in a folder may be."""
     plain = name == Path(name).name and name not in ("", ".", "..") and printable(name) == name
     return plain and len(name.encode()) <= 255
-
-
-def _why(error: Exception) -> str:
-    """What does not fit, in a few words."""
-    if isinstance(error, ValidationError):
-        fault = error.errors(include_url=False, include_input=False)[0]
-        return f"{'.'.join(map(str, fault['loc']))}: {fault['msg']}"
-    if isinstance(error, RecursionError):
-        return "it is nested too deeply"
-    return f"{error}"[:_WHY_LENGTH]

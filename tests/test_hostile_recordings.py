@@ -31,7 +31,7 @@ from executive.records import (
     TreeShape,
 )
 from executive.types import Outcome, Saw
-from logs import export, mcap_file
+from logs import export, mcap_file, parsing
 from logs.__main__ import main
 from logs.mcap_file import MiB
 from logs.reader import Run
@@ -232,6 +232,16 @@ def test_what_no_mission_records_is_said_with_its_place(
     assert ask(question, record(tmp_path / "run", records), tmp_path / "out") == 2
     assert "cannot be read: " in (error := capsys.readouterr().err)
     assert "damaged at byte" in error
+
+
+@pytest.mark.parametrize("lists", [[[]] * 2000, ["x" * 100_000], [{}, {}] * 1000])
+def test_no_more_is_read_than_memory_has_room_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lists: object
+) -> None:
+    monkeypatch.setattr(parsing, "MOST_READ", 100_000)
+    run = record(tmp_path, with_tick(situation={"among": None, "view": lists}))
+    with pytest.raises(InputError, match="all messages up to here are more than is read"):
+        list(Run(run).ticks())
 
 
 @pytest.mark.parametrize("text", ["[" * 100_000, "no JSON", "9" * 5000])
