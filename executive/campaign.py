@@ -246,8 +246,9 @@ def cluster(address: str) -> Engine:
 
 def as_in_paper(settings: Sequence[Settings], commands: Sequence[str]) -> tuple[str, ...]:
     """The homes in which the paper's figures may stand beside ours: its own, if its commands."""
-    homes = {one.home for one in settings}
-    return tuple(homes & {paper.HOME}) if tuple(commands) == paper.COMMANDS else ()
+    if tuple(commands) != paper.COMMANDS:
+        return ()
+    return tuple({s.home for s in settings if not (s.place or s.fault)} & {paper.HOME})
 
 
 def make_folder(out: Path) -> None:

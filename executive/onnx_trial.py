@@ -5,6 +5,7 @@ that process, too: it reads the network from standard input, runs it on two pict
 standard output what went wrong.
 """
 
+import os
 import resource
 import subprocess
 import sys
@@ -38,6 +39,7 @@ def _run_elsewhere(content: bytes, height: int, width: int, takes_bytes: bool) -
             [*command, "uint8" if takes_bytes else "float32"],
             input=content,
             capture_output=True,
+            env={name: value for name, value in os.environ.items() if not _is_ours(name)},
             timeout=LONGEST_S,
         )
     except subprocess.TimeoutExpired:
@@ -45,6 +47,11 @@ def _run_elsewhere(content: bytes, height: int, width: int, takes_bytes: bool) -
     if ended.returncode:
         return "OpenCV breaks down on it"
     return ended.stdout.decode(errors="replace")
+
+
+def _is_ours(name: str) -> bool:
+    """Whether a variable of the environment is a setting of ours, such as a key: not for others."""
+    return name.startswith("EXECUTIVE_")
 
 
 def network(content: bytes) -> cv2.dnn.Net:

@@ -141,7 +141,7 @@ class OccupancyGrid:
     @cached_property
     def graph(self) -> csr_array[np.float64]:
         """Free cells, numbered row-major, and the cost of a step to each of their 8 neighbours."""
-        numbers = np.arange(self.clearance.size).reshape(self.clearance.shape)
+        numbers = np.arange(self.clearance.size, dtype=np.int32).reshape(self.clearance.shape)
         starts, ends, costs = [], [], []
         for dx, dy in ((1, 0), (0, 1), (1, 1), (1, -1)):
             here, there = _neighbours(self.free, dx, dy)

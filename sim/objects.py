@@ -1,7 +1,6 @@
 """The things in the home: their mass, shape and how a two-finger hand takes them."""
 
 import math
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -15,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter
 from scipy.spatial.transform import Rotation
 
 from executive.records import Shape
+from executive.toml_file import parse_toml
 from executive.types import Color, Pose, Vector3
 
 Grasp = Literal["top", "rim", "handle"]
@@ -63,8 +63,8 @@ class ObjectModel:
 @cache
 def load_objects() -> dict[str, ObjectModel]:
     """The objects of the paper (objects.toml), by name."""
-    text = files("sim").joinpath("objects.toml").read_text(encoding="utf-8")
-    rows = TypeAdapter(dict[str, _Row]).validate_python(tomllib.loads(text))
+    content = files("sim").joinpath("objects.toml").read_bytes()
+    rows = TypeAdapter(dict[str, _Row]).validate_python(parse_toml(content, "objects.toml"))
     return {name: row.model(name) for name, row in rows.items()}
 
 

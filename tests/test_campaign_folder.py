@@ -8,13 +8,15 @@ import sys
 import threading
 from dataclasses import asdict, replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from executive import appending, households
+from executive import appending, households, paper
 from executive.appending import append_line, cut_half_line
-from executive.campaign import main, read_commands
+from executive.campaign import as_in_paper, main, read_commands
 from executive.claim import lock_folder
+from executive.config import load_settings
 from executive.errors import InputError
 from executive.journal import Entry, Journal, Row, write_tables
 
@@ -274,6 +276,22 @@ def test_missions_without_a_working_model_are_no_results_and_are_run_again(
 
 
 # --- the paper's figures ---
+
+
+@pytest.mark.parametrize(
+    ("settings", "commands", "homes"),
+    [
+        ({}, paper.COMMANDS, ("four_rooms",)),
+        ({}, paper.COMMANDS[1:], ()),
+        ({"home": "four_rooms.toml"}, paper.COMMANDS, ()),
+        ({"place": {"mug": "desk"}}, paper.COMMANDS, ()),
+        ({"fault": ("miss=0.5",)}, paper.COMMANDS, ()),
+    ],
+)
+def test_what_the_paper_did_is_its_commands_in_its_home_as_it_is(
+    settings: dict[str, Any], commands: tuple[str, ...], homes: tuple[str, ...]
+) -> None:
+    assert as_in_paper([load_settings(**settings)], commands) == homes
 
 
 def test_the_papers_figures_stand_beside_its_own_commands_in_its_own_home_only(

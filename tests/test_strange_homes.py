@@ -1,6 +1,7 @@
 """Homes that strangers write, by mistake or in bad faith: a home, or a sentence for each fault."""
 
 import math
+import time
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from test_home import FLAT
 from executive.errors import InputError
 from executive.text import printable
 from sim.__main__ import main
+from sim.checking import way_faults
 from sim.home import MOST_TOLD, home_text, inspect_home, load_home
 from sim.naming import name_fault, usable
 from sim.overlaps import overlapping
@@ -250,3 +252,31 @@ def test_a_home_with_anything_in_it_is_a_home_or_a_sentence(
     file.write_text(tomli_w.dumps({**flat(), **changes}), encoding="utf-8")
     _, faults = inspect_or_refuse(str(file))
     assert all(str(fault) == printable(fault) for fault in faults)
+
+
+@pytest.mark.parametrize("key", ["rooms", "doors", "furniture"])
+def test_what_no_home_has_so_many_of_is_refused_by_its_key(tmp_path: Path, key: str) -> None:
+    file = tmp_path / "flat.toml"
+    file.write_text(tomli_w.dumps({**flat(), key: [1] * 100_000}))
+    _, faults = inspect_home(str(file))
+    assert 0 < len(faults) <= MOST_TOLD
+    assert key in str(faults[0])
+
+
+def test_thousands_of_pieces_are_looked_at_in_seconds(tmp_path: Path) -> None:
+    """Comparing each with each, one after the other, took half a minute."""
+    piece = {"kind": "Desk", "room": "den", "size": [0.6, 1.2, 0.7]}
+    many = [
+        {"name": f"desk_{n}", "pose": [2.0 + n % 56 * 3, 2.0 + n // 56 * 3, -90], **piece}
+        for n in range(3000)
+    ]
+    den = {"name": "den", "kind": "LivingRoom", "rectangle": [0, 0, 180, 180]}
+    file = tmp_path / "hall.toml"
+    home = {**flat(), "rooms": [den], "furniture": many, "objects": {"mug": "desk_7"}}
+    file.write_text(tomli_w.dumps({**home, "robot_start": [1, 0.6, 0], "person": [0.6, 5, 0]}))
+    began = time.process_time()
+    loaded, faults = inspect_home(str(file))
+    assert not [fault for fault in faults if "delivery" not in str(fault)]
+    assert loaded
+    list(way_faults(loaded))
+    assert time.process_time() - began < 30
