@@ -103,11 +103,8 @@ def _value(literal: Literal) -> tuple[str | int | float, str]:
 def _rows(prepared: Any) -> Iterator[Iterator[tuple[Any, Any]]]:
     """Each row as values with their types; `o` is that of an entity, which is a number."""
     for raw in prepared.execute_raw():
-        cells = iter(raw)
-        yield (
-            (cell, "o" if kind == "objs" else next(cells))
-            for kind, cell in zip(prepared.column_types, cells, strict=False)
-        )
+        cells = iter(zip(prepared.column_types, raw, strict=False))
+        yield ((cell, "o" if kind == "objs" else next(cells)[1]) for kind, cell in cells)
 
 
 def _namer(world: Any, graph: Graph) -> Callable[[tuple[Any, Any]], str | int | float | bool]:
