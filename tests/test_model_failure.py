@@ -3,7 +3,7 @@
 import pytest
 from conftest import Run, run_mission
 
-from executive.records import Utterance
+from executive.records import EventTaken, Utterance
 from executive.types import Source, Status
 
 WARNING = "My language model does not answer: "
@@ -30,13 +30,17 @@ def test_the_person_hears_why_the_model_is_of_no_help_and_then_is_asked(
 
 
 def test_a_model_that_fails_twice_is_told_once() -> None:
-    run = run_mission(
-        "Come with the apple or whatever", defaults=False, replies=[], answers=["yes", "desk"]
-    )
-    assert len(warnings(run)) == 1
-    run = run_mission("Find an apple", defaults=False, elicit="generate", replies=["Hm."])
+    rooms = '{"places": ["kitchen", "bedroom"]}'
+    run = run_mission("Find an apple", defaults=False, elicit="generate", replies=[rooms])
+    failed = [e.event for e in run.notebook.all(EventTaken) if "replies" in repr(e.event)]
+    assert len(failed) > 1
     assert len(warnings(run)) == 1
     assert run.outcome.model_failure == "the script has no more replies"
+
+
+def test_a_model_that_cannot_read_the_words_is_told_too() -> None:
+    run = run_mission("Come with the hammer!", replies=[], answers=["yes"])
+    assert (run.outcome.status, len(warnings(run))) == (Status.NOT_UNDERSTOOD, 1)
 
 
 @pytest.mark.parametrize("reply", ["On the table, I guess.", '{"places": ["pantry"]}', ""])

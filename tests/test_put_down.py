@@ -162,6 +162,7 @@ def test_a_full_hand_is_offered_to_be_emptied_for_another_thing(serve: Serve, wo
     ]
     assert (outcome.status, outcome.object) == (Status.DONE, "power_drill")
     assert world.resting_place("hammer") == "coffee_table"
+    assert outcome.visited == ("shelf_lobby",)
 
 
 @pytest.mark.parametrize("answer", ["no", "I don't know", None])
