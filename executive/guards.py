@@ -30,7 +30,7 @@ def in_words(error: BaseException) -> str:
     """An exception as a clause: "ConnectionError: driver gone"; that of our own, what it says."""
     name = type(error).__name__
     try:
-        said = printable(error)
+        said = printable(error).strip()
     except Exception:
         said = ""
     if isinstance(error, ExecutiveError) and said:

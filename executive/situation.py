@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from copy import copy
-from dataclasses import asdict, dataclass, field, fields, is_dataclass
+from dataclasses import asdict, dataclass, field, is_dataclass
 from typing import Any
 
 from executive.events import (
@@ -214,8 +214,7 @@ class Situation:
 
     def restore(self, saved: "Situation") -> None:
         """Know again what was known then, and nothing else."""
-        for each in fields(self):
-            setattr(self, each.name, getattr(saved, each.name))
+        vars(self).update(vars(saved))
 
     def snapshot(self) -> dict[str, Any]:
         """Everything that fits in a log line: plain values, no pictures."""
@@ -269,14 +268,14 @@ class Situation:
 
 def _copied(value: Any) -> Any:
     """A copy of what may be changed in place; the rest as it is."""
-    if isinstance(value, list | set):
-        return type(value)(_copied(item) for item in value)
-    if isinstance(value, dict):
+    kind = type(value)
+    if kind is list or kind is set:
+        return kind(map(_copied, value))
+    if kind is dict:
         return {name: _copied(item) for name, item in value.items()}
-    if is_dataclass(value) and not type(value).__dataclass_params__.frozen:  # type: ignore[union-attr]
+    if is_dataclass(kind) and not kind.__dataclass_params__.frozen:  # type: ignore[attr-defined]
         twin = copy(value)
-        for each in fields(value):
-            setattr(twin, each.name, _copied(getattr(value, each.name)))
+        vars(twin).update({name: _copied(item) for name, item in vars(value).items()})
         return twin
     return value
 

@@ -72,7 +72,10 @@ class FanOut:
     def open(self, sinks: Sequence[Sink], started: datetime) -> None:
         """Begin a mission that started at this wall time; a mission still open is closed first."""
         self.close()
-        self._writer = _Writer(sinks, LIVE_FLUSH_S if self._live else FLUSH_S)
+        try:
+            self._writer = _Writer(sinks, LIVE_FLUSH_S if self._live else FLUSH_S)
+        except RuntimeError as error:  # no thread is to be had
+            log.warning("the mission goes on without logs: %s", error)
         self.record(Note("info", f"mission time 0 is {started.isoformat()}"))
 
     def record(self, record: Record) -> None:

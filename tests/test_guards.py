@@ -177,6 +177,7 @@ class Unspeakable(Exception):
         (ConnectionError("driver gone"), "ConnectionError: driver gone"),
         (ExecutiveError("the model file is broken"), "the model file is broken"),
         (KeyError(), "KeyError"),
+        (OSError(" "), "OSError"),
         (Unspeakable(), "Unspeakable"),
         (ValueError("\x1b[2J\n\ud800"), r"ValueError: \x1b[2J\n\ud800"),
     ],

@@ -153,3 +153,17 @@ def test_a_sink_that_hangs_delays_the_mission_once_and_costs_records_that_are_co
     assert sink.texts[-1] == "and on"
     assert "records were lost here" in sink.texts[-2]
     assert "could not keep up" in caplog.text
+
+
+def test_where_no_thread_is_to_be_had_the_mission_goes_on_without_logs(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def no_thread(self: threading.Thread) -> None:
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(threading.Thread, "start", no_thread)
+    fan = FanOut(lambda: 0.0)
+    fan.open([ListSink()], STARTED)
+    fan.record(Note("info", "lost"))
+    fan.close()
+    assert "without logs: can't start new thread" in caplog.text
