@@ -5,6 +5,7 @@ same seed makes the same mission, however fast the machine is.
 """
 
 import atexit
+import queue
 import threading
 import time
 from collections.abc import Callable
@@ -12,6 +13,8 @@ from typing import Any, Generic, TypeVar
 
 T = TypeVar("T")
 
+IDLE_S = 1.0
+"""After this time without work a thread ends."""
 LEAVING_S = 0.3
 """The longest that anything waits for what was given up."""
 
@@ -74,30 +77,41 @@ class Computation(Generic[T]):
 class Worker:
     """Computes one thing at a time; what was given up is waited for before the next begins.
 
-    Its threads hold up nobody: a process ends without them.
+    Its thread holds up nobody: a process ends without it, and so does what is idle for a while.
     """
 
     def __init__(self, name: str) -> None:
         """Compute nothing yet."""
         self._name = name
-        self._turn = threading.Lock()
+        self._jobs: queue.SimpleQueue[tuple[Computation[Any], Callable[[], None]]]
+        self._jobs = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._awake = False
         self._last: Computation[Any] | None = None
 
     def start(self, computation: Computation[Any], done: Callable[[], None]) -> None:
-        """Begin; `done` is called on the other thread at the end."""
-
-        def run() -> None:
-            with self._turn:
-                _under_way.add(computation)
-                computation.run()
-                _under_way.discard(computation)
-            done()
-
+        """Begin as soon as all before is done; `done` is called on the other thread at the end."""
         self._last = computation
-        try:
-            threading.Thread(target=run, name=self._name, daemon=True).start()
-        except RuntimeError:
-            run()  # the system has no more threads: better late than never
+        with self._lock:
+            self._jobs.put((computation, done))
+            if not self._awake:
+                threading.Thread(target=self._run, name=self._name, daemon=True).start()
+                self._awake = True
+
+    def _run(self) -> None:
+        while True:
+            try:
+                computation, done = self._jobs.get(timeout=IDLE_S)
+            except queue.Empty:
+                with self._lock:
+                    if self._jobs.empty():
+                        self._awake = False
+                        return
+                continue
+            _under_way.add(computation)
+            computation.run()
+            _under_way.discard(computation)
+            done()
 
     def close(self) -> None:
         """Give up what is computed, and wait a little for it."""
