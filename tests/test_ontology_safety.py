@@ -253,6 +253,7 @@ def test_a_file_that_is_too_much_or_broken_is_refused_in_a_sentence(tmp_path, co
         ("<urn:a> <urn:b> " + "(" * 5000, "is nested too deep"),
         ("<urn:a> <urn:b> <urn:c>", "cannot be read as Turtle: it ends too early"),
         ("<urn:a> <urn:b> " + "9" * 5000 + " .", "cannot be read as Turtle: Exceeds the limit"),
+        ("<urn:a> <urn:b> '" + "\\t" * 100_001 + "' .", "has more than 100000 escapes"),
         ("<urn:a> <urn:b> .", "cannot be read as Turtle: line 5: "),
         ("<urn:a> <urn:b> \x1b[31m .", r"cannot be read as Turtle: line [^\x1b]*"),
     ],
