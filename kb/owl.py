@@ -24,8 +24,8 @@ from kb.syntax import is_xml, turtle_text
 Triple = tuple[Identifier, Identifier, Identifier]
 """Subject, predicate, object: an IRI, a blank node or a literal, each a str."""
 
-MOST_BYTES = 8_000_000
-MOST_TRIPLES = 200_000
+MOST_BYTES = 4_000_000
+MOST_TRIPLES = 100_000
 LONGEST_FAULT = 200
 OWLREADY = "http://www.lesfleursdunormal.fr/static/_downloads/owlready_ontology.owl#"
 _RUNS_PYTHON = URIRef(OWLREADY + "python_module")
@@ -34,6 +34,14 @@ logging.getLogger("rdflib").setLevel(logging.CRITICAL)
 """It warns of odd IRIs and literals by printing them as they are."""
 rdflib.NORMALIZE_LITERALS = False
 """Else a short number such as 1e999999999 is written out."""
+
+
+class _Markup(str):
+    """A value that is XML or HTML itself, left as it is."""
+
+
+for _kind in (RDF.XMLLiteral, RDF.HTML):
+    rdflib.term.bind(_kind, _Markup)
 
 
 @dataclass(frozen=True, slots=True)

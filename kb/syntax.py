@@ -10,6 +10,8 @@ SAVE = 'save it as RDF/XML or Turtle (in Protégé: File, Save as, "RDF/XML Synt
 """What is right where a syntax is not read."""
 START = 10_000
 """Bytes that tell which syntax it is; a comment before the ontology may be as long."""
+MOST_ESCAPES = 100_000
+"""Backslashes of a Turtle file: rdflib takes quadratic time over those of one text."""
 
 _XML = re.compile(r"<(?:\?xml|!|rdf:RDF\b|[A-Za-z_][\w.:-]*(?:\s|/>)|[A-Za-z_][\w.-]*>)")
 """Turtle may begin with `<urn:x>`, which is no element, because nothing says what `urn` is."""
@@ -44,13 +46,17 @@ def turtle_text(content: bytes, where: str) -> str:
     """The text of a Turtle file.
 
     Raises:
-        InputError: if its bytes are no UTF-8.
+        InputError: if its bytes are no UTF-8, or most of it is escapes.
     """
     try:
-        return _decoded(content, "strict")
+        text = _decoded(content, "strict")
     except UnicodeDecodeError as error:
         fault = f"is no UTF-8 text: byte {error.start} is none of it"
         raise InputError(where, fault, "save it as UTF-8") from None
+    if text.count("\\") > MOST_ESCAPES:
+        fault = f"has more than {MOST_ESCAPES} escapes"
+        raise InputError(where, fault, "write the characters themselves")
+    return text
 
 
 def _decoded(content: bytes, errors: str) -> str:

@@ -32,6 +32,9 @@ TURTLE = """@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix py: <{ready}
 @prefix h: <http://robot-executive.org/household.owl#> .
 <http://example.org/guest.ttl> a owl:Ontology .
 """.replace("{ready}", OWLREADY)
+COMMENT = '<owl:Class rdf:about="#K"><rdfs:comment>{}</rdfs:comment></owl:Class>'
+MARKUP = COMMENT.replace("rdfs:comment>{}", 'rdfs:comment rdf:parseType="Literal">{}')
+PREFIXES = "".join(f' xmlns:p{number}="urn:{number}"' for number in range(501))
 SPELLINGS = {
     "an element": HEAD + ABOUT.format("<py:python_module>guest_code</py:python_module>"),
     "an attribute": HEAD + '<owl:Ontology rdf:about="" py:python_module="guest_code"/>',
@@ -230,7 +233,11 @@ def test_entities_that_shorten_iris_are_read(tmp_path):
     ("content", "fault"),
     [
         ("<h:Room>" * 100_000, "has more than 200 elements in one another"),
-        ("x" * 8_000_001, "is larger than 8 MB"),
+        ("x" * 4_000_001, "is larger than 4 MB"),
+        (COMMENT.format("\n" * 20_001), "has a text of more than 20000 characters"),
+        (MARKUP.format("<a/>" * 2_001), "has too much XML as values"),
+        (MARKUP.format("&amp;x" * 2_001), "has too much XML as values"),
+        (KETTLE.replace("Class", "Class" + PREFIXES, 1), "has more than 500 prefixes at one place"),
         (KETTLE * 2 + '<h:Room rdf:ID="1 2"/>', "cannot be read as RDF/XML: .*"),
     ],
 )
@@ -246,6 +253,7 @@ def test_a_file_that_is_too_much_or_broken_is_refused_in_a_sentence(tmp_path, co
         ("<urn:a> <urn:b> " + "(" * 5000, "is nested too deep"),
         ("<urn:a> <urn:b> <urn:c>", "cannot be read as Turtle: it ends too early"),
         ("<urn:a> <urn:b> " + "9" * 5000 + " .", "cannot be read as Turtle: Exceeds the limit"),
+        ("<urn:a> <urn:b> '" + "\\t" * 100_001 + "' .", "has more than 100000 escapes"),
         ("<urn:a> <urn:b> .", "cannot be read as Turtle: line 5: "),
         ("<urn:a> <urn:b> \x1b[31m .", r"cannot be read as Turtle: line [^\x1b]*"),
     ],
@@ -297,6 +305,14 @@ def test_numbers_of_any_size_are_only_text(tmp_path):
     known = Ontology(files=[tmp_path / "guest.ttl"])
     table = known.query("SELECT ?w WHERE { household:Mug household:weight ?w }")
     assert len(table.rows) == len(numbers)
+
+
+def test_a_value_that_is_xml_is_left_as_it_is(tmp_path):
+    kind = "<http://www.w3.org/1999/02/22-rdf-syntax-ns#XMLLiteral>"
+    (tmp_path / "guest.ttl").write_text(TURTLE + f'h:Mug h:notes "<a/>unclosed<b>"^^{kind} .')
+    known = Ontology(files=[tmp_path / "guest.ttl"])
+    asked = "SELECT ?x WHERE { household:Mug household:notes ?x }"
+    assert known.query(asked).rows == (("<a/>unclosed<b>",),)
 
 
 def test_the_bounds_leave_room_for_what_people_write():
