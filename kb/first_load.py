@@ -31,7 +31,9 @@ from kb.template import Template
 PATIENCE_S = 60.0
 """For a small file, and ..."""
 SLOWEST_DISK = 20e6
-"""... as much longer as reading the file from such a disk takes (bytes/s)."""
+"""... as much longer as reading the file from such a disk takes (bytes/s), but ..."""
+MOST_PATIENCE_S = 900.0
+"""... no longer than this."""
 SPARE_MEMORY = 8 << 30
 """Bytes that loading a file may take beside twice its size."""
 TEMPLATE_S = 10
@@ -81,7 +83,7 @@ def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
     ) as child:
         try:
             patience_s = PATIENCE_S + path.stat().st_size / SLOWEST_DISK
-            said = _until_ended(child, patience_s, called_off)
+            said = _until_ended(child, min(patience_s, MOST_PATIENCE_S), called_off)
         finally:
             child.kill()
     lines = writable(said.decode(errors="replace")).splitlines()
