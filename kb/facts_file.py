@@ -11,8 +11,8 @@ from executive.text import printable
 
 APPLICATION_ID = 0x0FAC7501
 """Marks an SQLite file as ours (https://sqlite.org/fileformat.html, "Application ID")."""
-BUSY_S = 1.0
-"""How long to wait for another process that is writing."""
+BUSY_S = 0.25
+"""How long to wait for another process that is writing; a stop waits for it, too."""
 OPENING_S = 10.0
 """The same while it is opened: others may be making it."""
 MOST_CHECKED = 16 * 1024 * 1024
@@ -65,6 +65,7 @@ def opened(file: Path | None, *, learns: bool) -> sqlite3.Connection:
             if learns:
                 database.execute("DELETE FROM fact WHERE 0")  # raises if it can only be read
                 database.rollback()
+            database.execute("PRAGMA synchronous = NORMAL")  # no fact waits for the disk
             database.execute(f"PRAGMA busy_timeout = {round(BUSY_S * 1000)}")
         except (sqlite3.Error, OSError, ValueError) as error:
             right = "name a file that --memory made, or one that does not exist yet"

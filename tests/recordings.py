@@ -16,7 +16,7 @@ from logs.mcap_sink import McapSink
 from logs.recorder import Stamp
 
 HEAD = struct.Struct("<BQ")
-PACK = {"zstd": zstandard.compress, "lz4": lz4.frame.compress}
+PACK = {"": bytes, "zstd": zstandard.compress, "lz4": lz4.frame.compress}
 
 
 def record(

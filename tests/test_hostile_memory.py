@@ -23,6 +23,7 @@ MAKE = """
 import sys
 from pathlib import Path
 from kb.facts import FactStore
+print("ready", flush=True)
 sys.stdin.readline()
 store = FactStore(Path(sys.argv[1]))
 for number in range(5):
@@ -53,13 +54,18 @@ def test_four_processes_make_one_memory_at_a_time(tmp_path: Path) -> None:
         subprocess.Popen(
             [sys.executable, "-c", MAKE, str(file), str(number)],
             stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
         )
         for number in range(4)
     ]
     for maker in makers:
+        assert maker.stdout
+        maker.stdout.readline()
+    for maker in makers:
         assert maker.stdin
         maker.stdin.write(b"go\n")
+        maker.stdin.flush()
     assert [maker.communicate()[1] for maker in makers] == [b""] * 4
     store = FactStore(file)
     assert len(store.all()) == 4 * MADE_BY_EACH

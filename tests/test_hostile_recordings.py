@@ -130,6 +130,15 @@ def test_every_command_names_the_byte_at_which_a_recording_is_damaged(
     assert not list(run.glob("out/*"))
 
 
+def test_a_byte_that_was_changed_is_noticed_where_nothing_is_packed(run: Path) -> None:
+    repack(run, packing="")
+    assert len(list(Run(run).dialog())) == 2
+    file = run / "mission.mcap"
+    file.write_bytes(file.read_bytes().replace(b"Here is the sugar_box", b"Here is no sugar_box."))
+    with pytest.raises(InputError, match="checksum of a chunk is wrong: .* damaged at byte"):
+        list(Run(run).dialog())
+
+
 def test_the_index_at_the_end_of_a_file_is_not_believed(run: Path) -> None:
     before, file = list(Run(run).ticks()), run / "mission.mcap"
     data = bytearray(file.read_bytes())
