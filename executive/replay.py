@@ -7,7 +7,7 @@ is a regression test:
     assert replay(Path("runs/20260101T120000Z-find-an-apple")).parting is None
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -147,12 +147,13 @@ class Judge:
                 self._compare(record)
 
     def changes(self, recorded: TreeShape) -> list[str]:
-        """Behaviours that one tree has and the other has not, a note each."""
+        """Behaviours that one tree has and the other has not, a note each for the outermost."""
         if not recorded.nodes:
             return []  # the recording ends before the tree was
         then, now = ({node.path: None for node in s.nodes} for s in (recorded, self._shape))
-        return [f"behaviour gone since: {path}" for path in then if path not in now] + [
-            f"behaviour new since: {path}" for path in now if path not in then
+        gone, new = _outermost(then, now), _outermost(now, then)
+        return [f"behaviour gone since: {path}" for path in gone] + [
+            f"behaviour new since: {path}" for path in new
         ]
 
     def _compare(self, tick: Tick) -> None:
@@ -177,6 +178,12 @@ def _situation(run: Run) -> Situation:
     """What was known of the robot before the recorded mission."""
     restless = run.metadata.get("restless") == str(True)
     return Situation(in_hand=run.metadata.get("in_hand") or None, restless=restless)
+
+
+def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]:
+    """The paths that the others lack, less those inside of another one."""
+    lacking = [path for path in paths if path not in others]
+    return (path for path in lacking if path.rpartition("/")[0] not in lacking)
 
 
 def _grounds(run: Run, absent: Absent) -> Grounds:
