@@ -1,5 +1,7 @@
 """The mission as a rerun recording, saved for replay and shown live if wished."""
 
+import atexit
+import threading
 from pathlib import Path as FilePath
 
 import rerun as rr
@@ -131,9 +133,18 @@ class RerunSink:
             # The viewer was closed: no reason to end the file.
 
     def close(self) -> None:
-        """Write the footer and close the file."""
+        """Write the footer and close the file.
+
+        Raises:
+            OSError: if that does not end: rerun may wait for ever for a disk that is full.
+        """
         self._send_kept()
-        self._stream.disconnect()
+        closing = threading.Thread(target=self._stream.disconnect, name="rerun", daemon=True)
+        closing.start()
+        closing.join(FLUSH_S)
+        if closing.is_alive():
+            atexit.unregister(rr.rerun_shutdown)  # it would wait, too
+            raise OSError(f"rerun does not finish its file within {FLUSH_S:g} s")
 
     def _write_tick(self, tick: Tick) -> None:
         self._tick = tick.number

@@ -154,6 +154,7 @@ def test_a_mission_on_a_full_disk_goes_on_and_its_log_is_recovered_up_to_there(
         capture_output=True,
         text=True,
         check=False,
+        timeout=120,
     )
     assert mission.stdout == "done\n", mission.stderr
     assert "McapSink" in mission.stderr
