@@ -11,6 +11,7 @@ import numpy as np
 from executive.config import KnowledgeSystem, Settings
 from executive.events import StopRequested
 from sim.home import load_home
+from sim.skill import CONTROL_S
 from sim.world import PhysicsWorld
 from soaking.case import INSTANT, Soak, faults, watchdog
 from soaking.chaos import Chaos
@@ -18,6 +19,8 @@ from soaking.chaos import Chaos
 PHYSICAL = (*INSTANT, "crate")
 STILL_M_S = 0.02
 """What moves slower (m/s, rad/s) is at rest."""
+SETTLED_S = 0.5
+"""So long after a mission nothing may move: the head nods on for a moment when it has looked."""
 
 
 def run_in_physics(seed: int) -> list[str]:
@@ -61,6 +64,8 @@ class PhysicsSoak(Soak):
     def _body_at_rest(self) -> Iterator[str]:
         world = self._session.world
         assert isinstance(world, PhysicsWorld)
+        for _ in range(round(SETTLED_S / CONTROL_S)):
+            world._pass_period()
         client, body = world._client, world._hardware.body
         joints = range(client.getNumJoints(body))
         speeds = {
