@@ -61,9 +61,13 @@ class Executive:
             self._call_off()
             if not decided or self._situation.restless:
                 self._come_to_rest()
-        except BaseException:
-            self._call_off()
-            self._robot.start(Halt())
+        except BaseException as interrupt:
+            self._take_in(StopRequested(who_interrupts(interrupt)))
+            self._situation.stay_restless()
+            try:
+                self._call_off()
+            finally:
+                self._robot.start(Halt())
             raise
         finally:
             self._inbox.drop_all()
@@ -171,10 +175,11 @@ class Executive:
             result = self._halt()
             if not isinstance(result, Failed):
                 break
-        self._situation.restless = not isinstance(result, Succeeded)
-        if self._situation.restless:
-            why = printable(result.reason)[:LONGEST] if isinstance(result, Failed) else ""
-            self._situation.reason += "; I may not be at rest" + (f": {why}" if why.strip() else "")
+        if isinstance(result, Succeeded):
+            self._situation.restless = False
+        else:
+            why = result.reason if isinstance(result, Failed) else ""
+            self._situation.stay_restless(printable(why)[:LONGEST])
         self._inbox.drop_all()
         self._feel()
 
@@ -194,6 +199,11 @@ class Executive:
     def _note(self, error: Exception) -> None:
         log.debug("the mission is cut short", exc_info=error)
         self._recorder.record(Note("error", traceback_of(error)))
+
+
+def who_interrupts(interrupt: BaseException) -> str:
+    """Who said stop, by what was raised for it."""
+    return "Ctrl-C" if isinstance(interrupt, KeyboardInterrupt) else type(interrupt).__name__
 
 
 def _may_change_the_hand(event: Event) -> bool:

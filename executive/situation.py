@@ -153,6 +153,11 @@ class Situation:
         elif self.in_hand is None:
             self.in_hand = self.reached_for or SOMETHING
 
+    def stay_restless(self, why: str = "") -> None:
+        """It is not known that the robot stands still: say so."""
+        self.restless = True
+        self.reason += "; I may not be at rest" + (f": {why}" if why.strip() else "")
+
     @property
     def is_cut_short(self) -> bool:
         """Whether the mission ends without a decision: stopped, or the program failed."""
