@@ -105,8 +105,9 @@ class Executive:
         if not events:
             events = (DeadlinePassed(self._clock.now()),)
             self._take_in(*events)
-        if any(_may_change_the_hand(event) for event in events):
-            self._feel()
+            self._feel()  # what takes too long may have come far
+        elif any(_may_change_the_hand(event) for event in events):
+            self._feel_at_rest()
         woke = (event for event in events if not isinstance(event, HandFelt))
         return ", ".join(type(getattr(e, "result", e)).__name__ for e in woke)
 
@@ -125,12 +126,15 @@ class Executive:
         if isinstance(result, Replied | Scored):
             self._recorder.record(LlmCall(result))
 
+    def _feel_at_rest(self) -> None:
+        """Ask the fingers, unless the robot is at something."""
+        if not self._inbox.awaits_anything:
+            self._feel()
+
     def _feel(self) -> None:
-        """Ask the fingers, unless the robot is at something; what they feel anew is an event."""
-        if self._inbox.awaits_anything:
-            return
+        """Ask the fingers; what they feel anew is an event."""
         holding = self._robot.holding
-        if holding is not None and holding != self._situation.felt:
+        if holding != self._situation.felt:
             self._take_in(HandFelt(holding))
 
     def _tick(self, cause: str) -> None:

@@ -84,7 +84,7 @@ def test_a_thing_that_was_gripped_as_the_mission_was_stopped_is_in_the_hand(hous
 
     house.changes[Pick] = stop
     assert house.run("Take the apple").status == Status.STOPPED
-    assert "my hand holds the apple" in house.run("Take the mug").reason
+    assert house.session._in_hand == "apple"
     assert house.run("Bring the apple").status == Status.DONE
     assert house.world.resting_place("apple") == "delivery"
 
@@ -125,9 +125,8 @@ def test_what_someone_took_from_the_hand_between_missions_is_not_in_it(house: Ho
 def test_what_someone_put_into_the_hand_is_something(house: House) -> None:
     del house.world.things["hammer"]
     house.world.held = "hammer"
-    outcome = house.session.run("Take the mug")
+    house.session.run("Find the mug")
     assert house.session._in_hand == SOMETHING
-    assert "my hand holds" in outcome.reason
     assert house.session.folder
     assert replay(house.session.folder).parting is None
 
