@@ -129,13 +129,16 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
 
 
 def converse(session: "Session", as_json: bool) -> int:
-    """Do what the person types, until they end the session; the exit code of the last command."""
+    """Do what the person types, until they end the session; the exit code of the last command.
+
+    Who says stop otherwise than the person ends the session, and not only the mission.
+    """
     code = DONE
     line = session.next_command(f"{PROMPT} (stop ends what I do, quit ends the session)")
     while line is not None:
         code = conclude(session.run(line), as_json)
         if session.stopped_by not in ("", THE_PERSON):
-            break
+            return STOPPED
         line = session.next_command(PROMPT)
     return code
 

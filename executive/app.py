@@ -19,8 +19,8 @@ from executive.composition import OURS, Advise, Grounds, build_advisor, build_te
 from executive.config import Settings
 from executive.control import control
 from executive.errors import InputError
-from executive.events import THE_PERSON, Ended, Inbox, Started, StopRequested
-from executive.guards import GuardedModel, in_words
+from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
+from executive.guards import GuardedModel, GuardedRecorder, GuardedRobot, in_words
 from executive.interfaces import (
     Camera,
     Detector,
@@ -31,13 +31,13 @@ from executive.interfaces import (
     SimulatedHome,
     User,
 )
-from executive.loop import Executive
+from executive.loop import Executive, who_interrupts
 from executive.perception import Eyes
-from executive.records import Finished
+from executive.records import EventTaken, Finished
 from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
 from executive.text import one_line, too_long, writable
-from executive.types import Answered, Outcome, Status
+from executive.types import Answered, Halt, Outcome, Status
 from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
 from kb.facts import FactStore
 from kb.key import Key
@@ -128,7 +128,10 @@ class Session:
         self.folder: Path | None = None
         """Where the last mission left its recording."""
         self.stopped_by = ""
-        """Who stopped the last mission; empty if nobody did."""
+        """Who said stop in the last mission, or just after it; empty if nobody did.
+
+        Of several, the first who was not the person: that one ends the session, too.
+        """
 
     def run(self, words: str) -> Outcome:
         """One mission, from words to its outcome, with its own run folder if it is recorded.
@@ -151,21 +154,52 @@ class Session:
         self.folder = folder
         situation = Situation(words=words, in_hand=self._in_hand, restless=self._restless)
         try:
-            self._begin(folder, started)
-            self._carry_out(situation)
+            self._carry_out_safely(situation, folder, started)
+        finally:
+            self._in_hand, self._restless = situation.in_hand, situation.restless
             outcome = situation.outcome(
-                mission_time_s=self.clock.now(),
+                mission_time_s=self._mission_time(),
                 wall_time_s=time.monotonic() - began,
                 run_dir=str(folder) if folder else None,
             )
-            self.recorder.record(Finished(outcome))
-        finally:
-            self._in_hand, self._restless = situation.in_hand, situation.restless
-            self.stopped_by = situation.stopped_by
+            GuardedRecorder(self.recorder).record(Finished(outcome))
             self.recorder.close()
-        if folder:
-            write(folder / "outcome.json", to_json(outcome) + "\n")
+            if folder:
+                write(folder / "outcome.json", to_json(outcome) + "\n")
         return outcome
+
+    def _carry_out_safely(
+        self, situation: Situation, folder: Path | None, started: datetime
+    ) -> None:
+        """What fails before the tree is there to hear of it ends the mission, too."""
+        try:
+            self._begin(folder, started)
+            self._carry_out(situation)
+        except BaseException as error:
+            if not situation.is_over:
+                self._break_off(situation, error)
+            if not isinstance(error, Exception):
+                raise
+
+    def _break_off(self, situation: Situation, error: BaseException) -> None:
+        """End a mission that had not begun; the robot is told to halt nevertheless."""
+        log.debug("the mission could not begin", exc_info=error)
+        recorder = GuardedRecorder(self.recorder)
+        broke = Broke(f"internal error: {in_words(error)}")
+        end = broke if isinstance(error, Exception) else StopRequested(who_interrupts(error))
+        for event in (Started(situation.words), end):
+            situation.fold(event)
+            recorder.record(EventTaken(event))
+        GuardedRobot(self.robot, self.inbox, recorder).start(Halt())
+        self.inbox.drop_all()
+        situation.stay_restless()
+
+    def _mission_time(self) -> float:
+        """The mission time (s); 0 if the clock cannot tell."""
+        try:
+            return self.clock.now()
+        except Exception:
+            return 0.0
 
     def _begin(self, folder: Path | None, started: datetime) -> None:
         """Open the logs, and tell them what is where."""
@@ -209,8 +243,12 @@ class Session:
         if control(situation.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             team.user.tell(NOTHING_TO_STOP)
-        executive.run()
-        self.ticks = executive.ticks
+        try:
+            executive.run()
+        finally:
+            self.ticks = executive.ticks
+            others = [by for by in executive.stops if by != THE_PERSON]
+            self.stopped_by = next(iter(others or executive.stops), "")
 
     def next_command(self, prompt: str = "") -> str | None:
         """Prompt, and wait for the person to type a command; None if the input or session ends.

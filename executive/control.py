@@ -50,7 +50,8 @@ def _plain(words: str) -> str:
     compatible = unicodedata.normalize("NFKC", one_line(words[:LONGEST]))[:LONGEST]
     apart = unicodedata.normalize("NFD", compatible.casefold())
     letters = "".join(c for c in apart if unicodedata.category(c) != "Mn")
-    return re.sub("[’‘`´ʼ]", "'", letters)
+    said = _SIGNS.sub(". stop. ", re.sub("[’‘`´ʼ]", "'", letters))
+    return _NO_APOSTROPHE.sub(r"\1'\2", said)
 
 
 def _words(clause: str) -> list[str]:
@@ -87,12 +88,16 @@ def _is_urgent(clause: list[str]) -> bool:
     """Whether it has an urgent word in it that is no part of a name."""
     first = next((word for word in clause if word not in _FILLERS), "")
     named = first in _BEFORE_NAMES
-    return not _ASKED & set(clause[:1]) and any(
+    asked = clause[:1] and clause[0] in _ASKED and not _URGES & set(clause[1:2])
+    return not asked and any(
         word in _URGENT and before not in _DENIALS and (not named or before in _TURNS)
         for before, word in zip(["", *clause], clause, strict=False)
     )
 
 
+_SIGNS = re.compile("[\U0001f6d1\u26d4\U0001f6ab\u270b\U0001f590\u23f9\u23f8]")
+"""A stop sign, no entry, a raised hand, the buttons stop and pause."""
+_NO_APOSTROPHE = re.compile(r"\b(don|won|can|that|let)(t|s)\b")
 _CLAUSE_ENDS = re.compile(r"[.,;:!?…。、]|--")
 _WORD = re.compile(r"[^\W\d_]+(?:['_][^\W\d_]+)*")
 
@@ -118,4 +123,4 @@ _ORDERS, _ALONE, _QUITS = _phrases("orders"), _phrases("alone"), _phrases("quit"
 _FILLERS = _each("fillers")
 _NOTHING_MORE = _FILLERS | _each("after")
 _BEFORE_NAMES, _TURNS = _each("before_names"), _each("turns")
-_DENIALS, _ASKED = _each("denials"), _each("asked")
+_DENIALS, _ASKED, _URGES = _each("denials"), _each("asked"), _each("urges")

@@ -54,9 +54,9 @@ class StopRequested:
 
 @dataclass(frozen=True, slots=True)
 class HandFelt:
-    """What the fingers feel is not what they felt before: something, or nothing."""
+    """What the fingers feel is not what they felt before: something, nothing; None: no telling."""
 
-    holding: bool
+    holding: bool | None
 
 
 @dataclass(frozen=True, slots=True)

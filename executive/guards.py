@@ -126,7 +126,7 @@ class GuardedRobot(_Guard):
 
     def views(self, place: str) -> int:
         """How many head poses it takes to see all of a place; one, if the robot cannot tell."""
-        return self._try(lambda: self._robot.views(place), 1)
+        return max(1, self._try(lambda: int(self._robot.views(place)), 1))
 
     @property
     def holding(self) -> bool | None:

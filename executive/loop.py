@@ -61,9 +61,13 @@ class Executive:
             self._call_off()
             if not decided or self._situation.restless:
                 self._come_to_rest()
-        except BaseException:
-            self._call_off()
-            self._robot.start(Halt())
+        except BaseException as interrupt:
+            self._take_in(StopRequested(who_interrupts(interrupt)))
+            self._situation.stay_restless()
+            try:
+                self._call_off()
+            finally:
+                self._robot.start(Halt())
             raise
         finally:
             self._inbox.drop_all()
@@ -101,8 +105,9 @@ class Executive:
         if not events:
             events = (DeadlinePassed(self._clock.now()),)
             self._take_in(*events)
-        if any(_may_change_the_hand(event) for event in events):
-            self._feel()
+            self._feel()  # what takes too long may have come far
+        elif any(_may_change_the_hand(event) for event in events):
+            self._feel_at_rest()
         woke = (event for event in events if not isinstance(event, HandFelt))
         return ", ".join(type(getattr(e, "result", e)).__name__ for e in woke)
 
@@ -121,12 +126,15 @@ class Executive:
         if isinstance(result, Replied | Scored):
             self._recorder.record(LlmCall(result))
 
+    def _feel_at_rest(self) -> None:
+        """Ask the fingers, unless the robot is at something."""
+        if not self._inbox.awaits_anything:
+            self._feel()
+
     def _feel(self) -> None:
-        """Ask the fingers, unless the robot is at something; what they feel anew is an event."""
-        if self._inbox.awaits_anything:
-            return
+        """Ask the fingers; what they feel anew is an event."""
         holding = self._robot.holding
-        if holding is not None and holding != self._situation.felt:
+        if holding != self._situation.felt:
             self._take_in(HandFelt(holding))
 
     def _tick(self, cause: str) -> None:
@@ -171,10 +179,11 @@ class Executive:
             result = self._halt()
             if not isinstance(result, Failed):
                 break
-        self._situation.restless = not isinstance(result, Succeeded)
-        if self._situation.restless:
-            why = printable(result.reason)[:LONGEST] if isinstance(result, Failed) else ""
-            self._situation.reason += "; I may not be at rest" + (f": {why}" if why.strip() else "")
+        if isinstance(result, Succeeded):
+            self._situation.restless = False
+        else:
+            why = result.reason if isinstance(result, Failed) else ""
+            self._situation.stay_restless(printable(why)[:LONGEST])
         self._inbox.drop_all()
         self._feel()
 
@@ -194,6 +203,11 @@ class Executive:
     def _note(self, error: Exception) -> None:
         log.debug("the mission is cut short", exc_info=error)
         self._recorder.record(Note("error", traceback_of(error)))
+
+
+def who_interrupts(interrupt: BaseException) -> str:
+    """Who said stop, by what was raised for it."""
+    return "Ctrl-C" if isinstance(interrupt, KeyboardInterrupt) else type(interrupt).__name__
 
 
 def _may_change_the_hand(event: Event) -> bool:

@@ -2,8 +2,9 @@
 
 from collections.abc import Iterable
 
-from executive.events import DeadlinePassed, Ended, Event, Inbox, StopRequested
+from executive.events import Ended, Event, Inbox, StopRequested
 from executive.records import Tick
+from executive.situation import Situation
 from executive.types import FLOOR, ChatRequest, Goal, Halt, Question, RankRequest, Succeeded
 from logs.reader import Turn
 from sim.home import FLOOR_VIEWS, Home
@@ -78,8 +79,6 @@ class RecordedTime:
                         self._held_back = events[index:]
                         return
                     self._inbox.post(Ended(number, result))
-                case DeadlinePassed():
-                    pass  # the executive finds its inbox empty, as it did then
                 case StopRequested(by):
                     self.stop(by)
                 case _:
@@ -92,16 +91,20 @@ class Absent:
     name = "absent"
     context_tokens = 4096
     can_rank = True
-    holding = None
-    """What the fingers felt is among the recorded events."""
 
-    def __init__(self, inbox: Inbox) -> None:
-        """Open requests in this inbox."""
+    def __init__(self, inbox: Inbox, situation: Situation) -> None:
+        """Open requests in this inbox; the fingers feel what is known in this situation."""
         self._inbox = inbox
+        self._situation = situation
         self.home: Home | None = None
         """Whose furniture takes several views; None: one is enough."""
         self.rests = False
         """Whether it halts at once, whatever was recorded: that was not judged in earlier days."""
+
+    @property
+    def holding(self) -> bool | None:
+        """What they felt before: what they felt anew is among the recorded events."""
+        return self._situation.felt
 
     def start(self, goal: Goal) -> int:
         """Pursue nothing."""

@@ -97,7 +97,7 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     inbox, situation = Inbox(), _situation(run)
     clock = RecordedTime(tuple(run.turns()), inbox, _requests_before(run))
     judge = Judge(clock, ends_early=run.outcome() is None)
-    absent = Absent(inbox)
+    absent = Absent(inbox, situation)
     absent.rests = "policy" not in run.metadata
     grounds = _grounds(run, absent)
     team = build_team(

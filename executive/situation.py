@@ -142,16 +142,21 @@ class Situation:
             case DeadlinePassed() | StopRequested() | Broke():
                 pass
 
-    def _feel(self, holding: bool) -> None:
+    def _feel(self, holding: bool | None) -> None:
         """What is in the hand is what the fingers feel; its name is that of what they reached for.
 
-        What was in it before stays in it as long as something does.
+        What was in it before stays in it as long as something does, or they cannot tell.
         """
         self.felt = holding
-        if not holding:
+        if holding is False:
             self.in_hand = None
-        elif self.in_hand is None:
+        elif holding and self.in_hand is None:
             self.in_hand = self.reached_for or SOMETHING
+
+    def stay_restless(self, why: str = "") -> None:
+        """It is not known that the robot stands still: say so."""
+        self.restless = True
+        self.reason += "; I may not be at rest" + (f": {why}" if why.strip() else "")
 
     @property
     def is_cut_short(self) -> bool:

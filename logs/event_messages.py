@@ -48,7 +48,7 @@ def event_to_message(event: Event, mission_time_s: float) -> Any:
         case DeadlinePassed(time):
             message.deadline_s = time
         case HandFelt(holding):
-            message.holding = holding
+            message.holding, message.numb = bool(holding), holding is None
         case Ended(request, result):
             message.request = request
             message.result = type(result).__name__
@@ -76,7 +76,7 @@ def event_from_message(message: Any) -> Event:
         case "StopRequested":
             return StopRequested(message.text)
         case "HandFelt":
-            return HandFelt(message.holding)
+            return HandFelt(None if message.numb else message.holding)
         case "Broke":
             return Broke(message.text)
     raise ValueError(f"unknown event {message.name!r}")
@@ -142,7 +142,7 @@ def gist(event: Event) -> str:
         case StopRequested(by):
             return by
         case HandFelt(holding):
-            return "something" if holding else "nothing"
+            return {True: "something", False: "nothing"}.get(holding, "I cannot tell")
         case Broke(reason):
             return reason
 

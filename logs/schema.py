@@ -113,6 +113,7 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "llm_call": "LlmCall",
         "lost": "bool",
         "holding": "bool",
+        "numb": "bool",
     },
     "Mishap": {**_STAMPED, "fault": "string", "text": "string"},
     "Candidate": {"place": "string", "source": "string", "probability": "optional double"},

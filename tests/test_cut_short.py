@@ -206,7 +206,7 @@ def test_what_a_behaviour_did_before_it_raised_counts_for_nothing(
 ) -> None:
     def halfway(self: SeeTarget, result: object) -> Any:
         self.situation.inquiries = 17
-        self.situation.looks.visited.append("the moon")
+        self.situation.looks.reached("the moon")
         raise ValueError("oops")
 
     monkeypatch.setattr(SeeTarget, "ended", halfway)

@@ -56,9 +56,11 @@ class HandStaysFull(Step):
 
     def update(self) -> Status:
         """There was no room for what it holds, or it may not be put down."""
-        held = self.situation.in_hand
-        if held is None or self.situation.unplaced:
-            return self.fail(self.situation.reason)
+        held, why = self.situation.in_hand, self.situation.reason
+        if held is None:
+            return self.fail(why)
+        if self.situation.unplaced:
+            return self.fail(f"{why}; I still hold {the(held)}")
         return self.fail(full_hand(held))
 
 

@@ -316,6 +316,8 @@ def tell(team: Team, text: str) -> None:
 
 def full_hand(held: str) -> str:
     """Why nothing else is taken, as a clause."""
+    if held == SOMETHING:
+        return f"my hand holds {held}; tell me first to put it down"
     return f"my hand holds {the(held)}; ask me first to bring that"
 
 

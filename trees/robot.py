@@ -232,6 +232,15 @@ class PickUp(RobotAction):
             self.situation.unplaced.clear()
         return super().ended(result)
 
+    def out_of_time(self) -> Status:
+        """With the thing in the hand it is as if the robot had failed; only that it may move."""
+        assert self.situation.detection
+        if not (self.situation.felt and self.situation.in_hand == self.situation.detection.label):
+            return super().out_of_time()
+        status = self.ended(Failed(f"it took longer than {self._patience_s:g} s"))
+        self.situation.restless = True
+        return status
+
 
 class PutDownAt(RobotAction):
     """Puts the held thing down."""
@@ -249,6 +258,8 @@ class PutDownAt(RobotAction):
 
     def ended(self, result: Result) -> Status:
         """Remember that it is here now."""
+        if isinstance(result, Succeeded) and self.situation.felt:
+            result = Failed("my fingers do not let go of it")
         if isinstance(result, Succeeded):
             place = self._place_now()
             if self._held and self._held != SOMETHING:
