@@ -36,6 +36,7 @@ from executive.shell import (
 from executive.terminal import Terminal
 from executive.text import printable, too_long
 from executive.types import Outcome, Status
+from executive.usage import Parser
 from executive.user import STOPPING, Console
 
 if TYPE_CHECKING:
@@ -186,7 +187,7 @@ def log_to_stderr(verbose: int) -> None:
 
 def parser() -> argparse.ArgumentParser:
     """The command line; what is not given comes from the config file or its default."""
-    p = argparse.ArgumentParser(
+    p = Parser(
         prog="python -m executive",
         description="Ask a home robot to find, take or bring a thing.",
         epilog="exit: 0 done, 1 not done, 2 bad usage or input, 130 stopped",

@@ -32,6 +32,7 @@ from executive.policies import POLICIES
 from executive.shell import DONE, NOT_DONE, STOPPED, entry_point, on_stop_signals
 from executive.terminal import show_over
 from executive.text import printable
+from executive.usage import Parser
 
 OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
 """Settings that the campaign itself varies."""
@@ -319,7 +320,7 @@ def read_commands(file: Path) -> tuple[str, ...]:
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    p = argparse.ArgumentParser(
+    p = Parser(
         prog="python -m executive.campaign",
         description="Run the paper's experiment with a simulated person, and tabulate it. "
         "Stopped with Ctrl-C, the same command goes on.",

@@ -10,7 +10,6 @@ from executive.start import begin
 if __name__ == "__main__":
     begin()
 
-import argparse
 import os
 import sys
 import tempfile
@@ -34,6 +33,7 @@ from executive.shell import DONE, entry_point
 from executive.terminal import show_over
 from executive.text import printable
 from executive.types import Box, Detection, Frame
+from executive.usage import Parser
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.scenes import Scene, SceneMaker
 from sim.objects import load_objects
@@ -214,7 +214,7 @@ def draw_confusion(table: Ints, names: Sequence[str]) -> str:
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Judge a detector."""
-    parser = argparse.ArgumentParser(prog="python -m executive.evaluation", description=__doc__)
+    parser = Parser(prog="python -m executive.evaluation", description=__doc__)
     parser.add_argument("--detector", default="learned", help="learned (default), or a FILE.onnx")
     parser.add_argument("--scenes", type=int, default=500, metavar="N", help="default: 500")
     parser.add_argument("--validation", action="store_true", help="scenes to choose a network by")

@@ -72,6 +72,10 @@ class Terminal:
         """No: what libraries write to terminals only, such as colours, it would spell out."""
         return False
 
+    def is_seen(self) -> bool:
+        """Whether somebody sees it as it is written: it is a terminal, and not a file or a pipe."""
+        return self._stream is not None and self._stream.isatty()
+
     def _has_room(self) -> bool:
         try:
             return bool(select([], [self.fileno()], [], ROOM_S)[1])
@@ -115,8 +119,13 @@ def open_closed_files() -> None:
 
 
 def show_over(line: str, out: TextIO | None = None) -> None:
-    """Show a line of progress in place of the one before it (default: on standard error)."""
+    """Show a line of progress in place of the one before it (default: on standard error).
+
+    In a file or a pipe, where nothing is over another, it is a line of its own.
+    """
     out = out or sys.stderr
-    write = out.write_raw if isinstance(out, Terminal) else out.write
-    write(f"\r{printable(line):<{WIDTH}}" + "\r" * (not line))
+    if isinstance(out, Terminal) and out.is_seen():
+        out.write_raw(f"\r{printable(line):<{WIDTH}}" + "\r" * (not line))
+    elif line:
+        out.write(f"{printable(line)}\n")
     out.flush()

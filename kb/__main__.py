@@ -17,6 +17,7 @@ from pathlib import Path
 from executive.errors import InputError
 from executive.shell import DONE, NOT_DONE, entry_point
 from executive.text import printable
+from executive.usage import Parser
 from kb.facts import FactStore
 from kb.ontology import Ontology
 from sim.home import load_home
@@ -132,7 +133,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    p = argparse.ArgumentParser(prog="python -m kb", description=__doc__)
+    p = Parser(prog="python -m kb", description=__doc__)
     commands = p.add_subparsers(dest="command", required=True, metavar="COMMAND")
     shown = commands.add_parser("show", help="what is known about a thing")
     shown.add_argument("words", nargs="+", help="an object or a class: sugar box, fruit")

@@ -24,6 +24,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import LanguageModel
 from executive.shell import DONE, entry_point
+from executive.usage import Parser
 from kb.key import Key
 from kb.llama import LlamaCpp, embedded_model
 from kb.measures import Measures, expected_of_chance, mean, measure
@@ -228,7 +229,7 @@ def _report(
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    p = argparse.ArgumentParser(prog="python -m kb.benchmark", description=__doc__)
+    p = Parser(prog="python -m kb.benchmark", description=__doc__)
     p.add_argument("--data", action="append", choices=DATA, help="repeatable; default: all")
     p.add_argument("--fold", choices=("valid", "test"), default="test", help="of the placements")
     p.add_argument("--placements", type=Path, metavar="FILE", help="default: as installed")

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple, TypeVar
 from executive.errors import InputError
 from executive.shell import entry_point
 from executive.text import printable
+from executive.usage import Parser
 from logs import comparison, gantt, pictures, report, viewer
 from logs.reader import FILE_NAME, At, Run, mcap_of
 from logs.recovery import first_damage, recover, written
@@ -44,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="python -m logs",
         description="Questions to recorded missions.",
         epilog="exit: 0 answered, 1 compare or replay: not the same, export or replay: of several "

@@ -1,6 +1,5 @@
 """A recorded mission, read back as the records it was made of."""
 
-import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
@@ -13,6 +12,7 @@ from executive.errors import InputError
 from executive.events import Event
 from executive.records import LlmCall, Mishap, Tick, TreeShape, Utterance, Verified
 from executive.text import printable
+from executive.toml_file import parse_toml
 from executive.types import Outcome
 from logs import messages
 from logs.event_messages import event_from_message
@@ -72,13 +72,10 @@ class Run:
         """The recorded settings, as they were written down; empty if none were.
 
         Raises:
-            InputError: if they are no TOML.
+            InputError: if they are no TOML, or such as no file of ours is.
         """
-        try:
-            return tomllib.loads(self.attachments.get("config.toml", b"").decode())
-        except (ValueError, RecursionError) as error:
-            what = f"its config.toml is not TOML: {in_few_words(error)}"
-            raise InputError(str(self.path), what) from error
+        content = self.attachments.get("config.toml", b"")
+        return parse_toml(content, f"{self.path}: its config.toml")
 
     def tree(self) -> TreeShape:
         """The tree's shape; empty if the mission ended before it was recorded."""

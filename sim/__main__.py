@@ -24,6 +24,7 @@ from executive.errors import InputError
 from executive.shell import DONE, entry_point
 from executive.text import printable
 from executive.types import Intrinsics, Pose
+from executive.usage import Parser
 from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
 from sim.camera import render
 from sim.catalogue import contact_sheet
@@ -45,7 +46,7 @@ MARGIN = 1.08
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit status (0 done, 1 the home has faults, 2 bad input)."""
-    parser = argparse.ArgumentParser(prog="python -m sim", description=__doc__)
+    parser = Parser(prog="python -m sim", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
     view = commands.add_parser("view", help="draw a home from above, or all objects, as a PNG file")
     view.add_argument(

@@ -5,6 +5,7 @@ import unicodedata
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
+from executive.control import control
 from executive.types import DELIVERY, FLOOR
 
 LONGEST = 64
@@ -17,6 +18,12 @@ TAKEN = frozenset(
 )
 """What already means something, in answers or as a frame."""
 _BETWEEN = frozenset("_-' ")
+_UNSEEN = re.compile(
+    "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]"
+)
+"""What counts as letters and marks, and shows nothing (Unicode: Default_Ignorable_Code_Point)."""
+_DETERMINERS = re.compile(r"\A(?:(?:a|an|any|my|our|some|that|the|this|your)_)+(?=.)")
+"""What is left out where an answer is read."""
 RULE = f"use up to {LONGEST} letters, digits, and single _ - ' or blanks between them"
 
 
@@ -29,19 +36,25 @@ def name_fault(name: str) -> str | None:
     wrong = next((c for c in name if not (_is_of_words(c) or c in _BETWEEN)), None)
     if wrong is not None:
         return f"has the character {ascii(wrong)}"
-    if name[0] in _BETWEEN or name[-1] in _BETWEEN or "  " in name:
+    if (
+        name[0] in _BETWEEN
+        or unicodedata.category(name[0])[0] == "M"
+        or name[-1] in _BETWEEN
+        or "  " in name
+    ):
         return "does not begin and end with a letter or a digit, or has two blanks in a row"
     return None
 
 
 def folded(name: str) -> str:
-    """The same for names that nobody would keep apart: `Side Table` is side_table."""
-    return re.sub(r"[\s_'-]+", "_", unicodedata.normalize("NFKC", name).casefold())
+    """The same for names that nobody would keep apart: `The Side Table` is side_table."""
+    plain = re.sub(r"[\s_'-]+", "_", unicodedata.normalize("NFKC", name).casefold())
+    return _DETERMINERS.sub("", plain)
 
 
 def is_taken(name: str) -> bool:
-    """Whether the name already means something else."""
-    return folded(name) in TAKEN
+    """Whether the name already means something else, such as a word that stops the robot."""
+    return folded(name) in TAKEN or control(name) is not None
 
 
 def alike(names: Iterable[str]) -> Iterator[tuple[str, ...]]:
@@ -59,5 +72,5 @@ def usable(text: str) -> str:
 
 
 def _is_of_words(character: str) -> bool:
-    """Whether it is a letter, a digit, or a mark on one, of any script."""
-    return unicodedata.category(character)[0] in "LMN"
+    """Whether it is a letter, a digit, or a mark on one, of any script, that can be seen."""
+    return unicodedata.category(character)[0] in "LMN" and not _UNSEEN.match(character)

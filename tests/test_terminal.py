@@ -5,6 +5,7 @@ import io
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 
 import pytest
 from hypothesis import given
@@ -40,10 +41,36 @@ def test_a_refused_option_reaches_the_terminal_spelled_out(
     assert "\x1b" not in capsys.readouterr().err
 
 
-def test_progress_is_shown_in_place() -> None:
+DOORS = {
+    "executive.__main__": "",
+    "executive.campaign": "",
+    "executive.evaluation": "",
+    "kb.__main__": "check",
+    "logs.__main__": "why run",
+    "sim.__main__": "check home",
+    "trees.__main__": "show",
+}
+
+
+@pytest.mark.parametrize(("door", "words"), DOORS.items())
+def test_what_a_door_does_not_know_forges_no_line(
+    door: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        import_module(door).main([*words.split(), "--unknown\nerror:all-is-well"])
+    complaints = capsys.readouterr().err
+    assert "unknown" in complaints
+    assert "\nerror:" not in complaints
+
+
+@pytest.mark.parametrize(("seen", "shown"), [(True, f"\r{'1 of 2':<78}"), (False, "1 of 2\n")])
+def test_progress_is_shown_in_place_on_a_terminal_and_in_lines_elsewhere(
+    monkeypatch: pytest.MonkeyPatch, seen: bool, shown: str
+) -> None:
     screen = io.StringIO(newline="")
+    monkeypatch.setattr(screen, "isatty", lambda: seen)
     show_over("1 of 2", Terminal(screen, dispensable=True))  # type: ignore[arg-type]
-    assert screen.getvalue().startswith("\r1 of 2  ")
+    assert screen.getvalue() == shown
 
 
 class Full(io.StringIO):

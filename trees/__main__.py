@@ -5,7 +5,6 @@ from executive.start import begin
 if __name__ == "__main__":
     begin()
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,6 +16,7 @@ from py_trees.display import unicode_tree
 from executive.errors import InputError
 from executive.shell import DONE, entry_point
 from executive.situation import Situation
+from executive.usage import Parser
 from trees.drawing import svg
 from trees.mission import mission
 from trees.team import Rules, Team
@@ -27,7 +27,7 @@ KNOWLEDGE = ("okb", "okb+llm", "okb+llm+mem")
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; return the exit status (0 done, 2 bad input)."""
-    parser = argparse.ArgumentParser(prog="python -m trees", description=__doc__)
+    parser = Parser(prog="python -m trees", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     show = commands.add_parser("show", help="print the tree, and draw it into a file")
     show.add_argument(

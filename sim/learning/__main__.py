@@ -15,13 +15,14 @@ from pathlib import Path
 from executive.errors import InputError
 from executive.shell import DONE, entry_point
 from executive.terminal import show_over
+from executive.usage import Parser
 from sim.learning.frames import SHARD, make_shards
 
 
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit status (0 done, 2 bad input, 130 stopped)."""
-    parser = argparse.ArgumentParser(prog="python -m sim.learning", description=__doc__)
+    parser = Parser(prog="python -m sim.learning", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
     frames = commands.add_parser("frames", help="render scenes drawn by chance")
     frames.add_argument("folder", type=Path, help="where the shards go, or some are already")

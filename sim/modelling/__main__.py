@@ -1,9 +1,9 @@
 """Makes the meshes of the objects anew: `python -m sim.modelling` (needs the extra `objects`)."""
 
-import argparse
 from collections.abc import Callable
 from pathlib import Path
 
+from executive.usage import Parser
 from sim.modelling import fruit, household, packages, tools
 from sim.modelling.assembly import assemble, write
 from sim.modelling.parts import Part
@@ -41,7 +41,7 @@ RECIPES: dict[str, Callable[[], list[Part]]] = {
 
 def main(arguments: list[str] | None = None) -> None:
     """Write the files of all objects, or of those named."""
-    parser = argparse.ArgumentParser(prog="python -m sim.modelling", description=__doc__)
+    parser = Parser(prog="python -m sim.modelling", description=__doc__)
     parser.add_argument(
         "names",
         nargs="*",
