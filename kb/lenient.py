@@ -17,11 +17,15 @@ _WIDE = {wide: chr(ord(wide) - 0xFEE0) for wide in "｛｝［］：，"}
 """Marks as they are written among Chinese and Japanese letters."""
 _OPENING = re.compile(r"[{\[｛［]")
 _SPACE = re.compile(r"(?:\s+|//[^\n]*|#[^\n]*|/\*[^*]*+\*/|\.{3}|…)+")
-_QUOTES = ('""', "''", "``", "“”", "‘’", "«»", "‹›", "„“", "„”", "「」", "＂＂")
-_BEGINS = frozenset(quote[0] for quote in _QUOTES)
+_QUOTES = {
+    quote[0]: quote[1:]
+    for quote in ('""', "''", "``", "“”", "‘’", "«»", "‹›", "„“”", "「」", "＂＂")
+}
+"""What begins a string, and what may end it."""
 _STRING = re.compile(
     "|".join(
-        rf"{begins}([^{ends}\\\n]*+(?:\\.[^{ends}\\\n]*+)*+){ends}" for begins, ends in _QUOTES
+        rf"{begins}([^{ends}\\\n]*+(?:\\.[^{ends}\\\n]*+)*+)[{ends}]"
+        for begins, ends in _QUOTES.items()
     )
 )
 _BARE = re.compile(r"-?\w[\w.+-]*")
@@ -126,7 +130,7 @@ def _scalar(text: str, at: int, unclosed: dict[str, int]) -> tuple[object, int] 
     looked at again.
     """
     found = _STRING.match(text, at) if at >= unclosed.get(text[at], 0) else None
-    if not found and text[at] in _BEGINS:
+    if not found and text[at] in _QUOTES:
         end = text.find("\n", at)
         unclosed[text[at]] = end if end >= 0 else len(text)
     if found:
