@@ -186,7 +186,7 @@ class Inbox:
         Other events wait: which of them would come before the end is the machine's chance.
         """
         latest = time.monotonic() + seconds
-        while self.computes and not self._stop_waits:
+        while self.computes and not self.stop_waits:
             left = latest - time.monotonic()
             if left <= 0:
                 return False
@@ -204,6 +204,12 @@ class Inbox:
     def has_events(self) -> bool:
         """Whether `take_all` would return anything now."""
         return self._collect()
+
+    @property
+    def stop_waits(self) -> bool:
+        """Whether someone said stop, and nobody has heard it yet."""
+        self._collect()
+        return any(isinstance(event, StopRequested) for event in self._taken)
 
     def take_all(self) -> tuple[Event, ...]:
         """Empty the box, oldest first.
@@ -250,10 +256,6 @@ class Inbox:
         elif wanted := self._wanted.pop(item.computation, None):
             item.computation.settle()
             wanted[0]()
-
-    @property
-    def _stop_waits(self) -> bool:
-        return any(isinstance(event, StopRequested) for event in self._taken)
 
 
 def _fit(result: Result) -> Result:

@@ -7,6 +7,8 @@ import os
 import socket
 import ssl
 import time
+from contextlib import aclosing
+from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,6 +20,7 @@ from kb.address import bases_of, is_this_machine, without_secrets
 from kb.dialect import Dialect
 from kb.key import VARIABLE, Key
 from kb.listing import chat_models, is_about_the_model
+from kb.packed import NotUnpacked, unpacked
 from kb.refusal import MOST_BYTES, MOST_CHARACTERS, Refused, refusal
 from kb.wire import BrokenOff, NotJson, Written, objects
 
@@ -131,6 +134,7 @@ class Asking:
 
     async def _until_answered(self, request: ChatRequest, began: float) -> Written:
         tries = _Tries(began + self._timeout_s)
+        learned = deepcopy(self._dialect)
         while True:
             got, body = Written(), dict[str, Any]()
             try:
@@ -144,6 +148,7 @@ class Asking:
                 if self._otherwise(refused, body):
                     continue
                 if (pause := tries.pause_s(refused.status, refused.wait_s)) is None:
+                    self._dialect = learned  # what was tried did not help
                     raise
             except httpx2.TimeoutException:
                 raise TimeoutError from None
@@ -161,10 +166,11 @@ class Asking:
             if response.status_code != 200:
                 raise await _refused(response)
             try:
-                async for chunk in objects(response):
-                    got.add(chunk, time.monotonic() - began)
+                async with aclosing(objects(response)) as chunks:
+                    async for chunk in chunks:
+                        got.add(chunk, time.monotonic() - began)
             except BrokenOff:
-                if not got.finish_reason:
+                if not got.finish_reason and got.written is None:  # usage comes last
                     raise
 
     def _otherwise(self, refused: Refused, body: dict[str, Any]) -> bool:
@@ -212,7 +218,7 @@ class Asking:
                         self._listed = tuple(n for n in names if n == self._key.hidden_in(n))
                         self._bases = [base]
                         return
-                elif response.status_code not in NOT_HERE:
+                elif not _lists_none(response.status_code):
                     raise await _refused(response)
 
     def _connected(self) -> httpx2.AsyncClient:
@@ -228,7 +234,8 @@ class Asking:
         """Why it did not answer, as a clause; without the key, whatever the server says."""
         match error:
             case Refused():
-                return self._shortly(str(error)) + self._advice(error)
+                told = Refused(error.status, self._key.hidden_in(error.says))
+                return self._shortly(str(told)) + self._advice(error)
             case BrokenOff():
                 return f"{self._shown} {error}"
             case NotJson():
@@ -246,6 +253,11 @@ class Asking:
     def _shortly(self, text: str) -> str:
         text = self._key.hidden_in(printable(text))
         return text[:MOST_CHARACTERS] + "..." * (len(text) > MOST_CHARACTERS)
+
+
+def _lists_none(status: int) -> bool:
+    """Whether a server that says so may chat all the same."""
+    return 400 <= status < 500 and status not in (*BUSY, *DENIED)
 
 
 async def _refused(response: httpx2.Response) -> Refused:
@@ -267,12 +279,16 @@ async def _json(response: httpx2.Response) -> object:
 
 async def _read(response: httpx2.Response, most: int) -> bytes:
     """The beginning of what it sends, at most so many bytes and a chunk."""
-    parts: list[bytes] = []
-    async for part in response.aiter_raw():
-        parts.append(part)
-        if sum(map(len, parts)) > most:
-            break
-    return b"".join(parts)[:most]
+    read = bytearray()
+    try:
+        async with aclosing(unpacked(response)) as parts:
+            async for part in parts:
+                read += part
+                if len(read) > most:
+                    break
+    except NotUnpacked as error:
+        return str(error).encode()
+    return bytes(read[:most])
 
 
 def _why(error: BaseException) -> str:

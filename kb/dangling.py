@@ -7,6 +7,7 @@ from rapidfuzz import process
 from rdflib import OWL, RDF, RDFS, BNode, URIRef
 from rdflib.term import Identifier
 
+from executive.text import printable
 from kb.graph import STANDARDS, Graph
 from kb.owl import ending
 
@@ -53,17 +54,21 @@ def dangling(graph: Graph, *, strict: bool) -> Iterator[Link]:
         one for one in graph.subjects() if isinstance(one, URIRef) and graph.is_declared(one)
     ]
     spaces = {_space(one) for one in declared}
-    names = list(dict.fromkeys(map(ending, declared)))
+    by_name = {ending(one): one for one in reversed(declared)}
+    known = list(by_name)
     around = {of: (s, p) for s, p, of in graph.triples() if isinstance(of, BNode)}
     compared = 0
     for subject, relation, of in graph.triples():
         for end in _missing(graph, spaces, strict, relation, of):
             nearest = None
             if (compared := compared + 1) <= MOST_COMPARED:
-                nearest = process.extractOne(ending(end), names, score_cutoff=LEAST_LIKENESS)
+                nearest = process.extractOne(ending(end), known, score_cutoff=LEAST_LIKENESS)
             owner, by = _owner(graph, around, subject, relation)
             how = "uses" if end is relation else ending(by)
-            yield Link(owner, _title(graph, owner), how, ending(end), nearest and nearest[0])
+            to, right = ending(end), nearest and nearest[0]
+            if to == right:  # it is the rest of the IRI that is amiss
+                to, right = printable(end), printable(by_name[right])
+            yield Link(owner, _title(graph, owner), how, to, right)
 
 
 def _missing(

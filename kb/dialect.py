@@ -16,10 +16,10 @@ SCHEMAS = ("json_schema", "json_object", None)
 """How a schema is written: as OpenAI does, as llama_cpp.server does, or not at all."""
 
 _NO_SYSTEM = re.compile(
-    r"system.{0,40}(?:role|message|prompt|instruction|turn)"
-    r"|roles?\b.{0,60}(?:system|alternate|\buser\b)"
-    r"|only (?:the )?user and (?:assistant|model)"
-    r"|(?:system|developer) instruction",
+    r"\bsystem\b(?!\s+(?:error|fail|is\b|overload|busy|memory|resource))"
+    r"|roles?\b.{0,60}(?:alternat|\buser\b)|(?:invalid|unknown|unexpected|bad) role"
+    r"|only (?:the )?user and (?:assistant|model)|developer instruction"
+    r"|(?:begin|start|first).{0,40}\buser\b|jinja|chat.?template|template.?error",
     re.IGNORECASE | re.DOTALL,
 )
 _NO_SCHEMA = re.compile(r"response.?format|json.?schema|guided|grammar|structured", re.IGNORECASE)
@@ -101,10 +101,17 @@ class Dialect:
         if "response_format" in body and refused.status in (*_DISLIKES, 500):
             self._schemas.pop(0)
             return True
-        extra = {name for name in OPTIONAL if name != "stream" and name in body}
-        if not extra or refused.status not in _DISLIKES or _TOO_LONG.search(refused.says):
+        if refused.status not in _DISLIKES or _TOO_LONG.search(refused.says):
             return False
-        self._left_out |= extra
+        extra = {name for name in OPTIONAL if name != "stream" and name in body}
+        if extra:
+            self._left_out |= extra
+        elif _has_system(body):
+            self._no_system = True
+        elif self._limits[0]:
+            self._limits.pop(0)
+        else:
+            return False
         return True
 
 

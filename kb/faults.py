@@ -7,6 +7,7 @@ from itertools import islice
 from rdflib import RDFS, BNode, Literal, URIRef
 from rdflib.term import Identifier
 
+from executive.control import control
 from executive.text import printable
 from kb.dangling import dangling
 from kb.graph import STANDARDS, Graph
@@ -102,6 +103,9 @@ def _taken(graph: Graph, things: Iterable[Identifier]) -> Iterator[str]:
         for name in graph.names(thing):
             if words_of(name) in taken:
                 fault = f"{ending(thing)} is called {name!r}, as the robot calls something else"
+                yield f"{fault}: rename it"
+            elif control(name):
+                fault = f"{ending(thing)} is called {name!r}, which tells the robot to stop"
                 yield f"{fault}: rename it"
 
 

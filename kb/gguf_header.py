@@ -95,7 +95,10 @@ class _Reader:
     def header(self) -> Header:
         if self._take(4) != b"GGUF":
             self._refuse("does not begin with the letters GGUF")
-        if (version := self._number("<I")) not in VERSIONS:
+        version = int(self._number("<I"))
+        if int.from_bytes(version.to_bytes(4, "little"), "big") in VERSIONS:
+            self._refuse("is made for big-endian machines: take the one for all others")
+        if version not in VERSIONS:
             self._refuse(f"is of version {version}; known are 2 and 3")
         tensors = self._count("tensors", MOST_TENSORS)
         values: dict[str, Value] = {}

@@ -13,12 +13,19 @@ from dataclasses import dataclass, field
 DEEPEST = 16
 """Brackets in brackets; what lies deeper is no answer."""
 
-_OPENING = re.compile(r"[{\[]")
+_WIDE = {wide: chr(ord(wide) - 0xFEE0) for wide in "｛｝［］：，"}
+"""Marks as they are written among Chinese and Japanese letters."""
+_OPENING = re.compile(r"[{\[｛［]")
 _SPACE = re.compile(r"(?:\s+|//[^\n]*|#[^\n]*|/\*[^*]*+\*/|\.{3}|…)+")
+_QUOTES = {
+    quote[0]: quote[1:]
+    for quote in ('""', "''", "``", "“”", "‘’", "«»", "‹›", "„“”", "「」", "＂＂")
+}
+"""What begins a string, and what may end it."""
 _STRING = re.compile(
     "|".join(
-        rf"{begins}([^{ends}\\\n]*+(?:\\.[^{ends}\\\n]*+)*+){ends}"
-        for begins, ends in ('""', "''", "``", "“”", "‘’")
+        rf"{begins}([^{ends}\\\n]*+(?:\\.[^{ends}\\\n]*+)*+)[{ends}]"
+        for begins, ends in _QUOTES.items()
     )
 )
 _BARE = re.compile(r"-?\w[\w.+-]*")
@@ -75,6 +82,7 @@ def values(text: str) -> Iterator[tuple[int, object]]:
     Never raises; takes time in proportion to the text.
     """
     at, stack = 0, list[_Open]()
+    unclosed: dict[str, int] = {}
     while True:
         if not stack:
             found = _OPENING.search(text, at)
@@ -85,11 +93,11 @@ def values(text: str) -> Iterator[tuple[int, object]]:
             at = space.end()
         if at == len(text):
             return
-        end = _step(text, at, stack)
+        end = _step(text, at, stack, unclosed)
         if end is None:
-            at += text[at] not in "{["
+            at += not _OPENING.match(text, at)
             continue
-        if text[at] in "}]":
+        if text[at] in "}]｝］":
             closed = stack.pop().value
             yield end, closed
             if stack and not stack[-1].take(closed):
@@ -97,9 +105,9 @@ def values(text: str) -> Iterator[tuple[int, object]]:
         at = end
 
 
-def _step(text: str, at: int, stack: list[_Open]) -> int | None:
+def _step(text: str, at: int, stack: list[_Open], unclosed: dict[str, int]) -> int | None:
     """Take in what is here and return where it ends; None, and an empty stack, if it is amiss."""
-    mark = text[at]
+    mark = _WIDE.get(text[at], text[at])
     if mark in "{[" and len(stack) < DEEPEST and (not stack or stack[-1].wants == "value"):
         stack.append(_Open("}", "key", {}) if mark == "{" else _Open("]", "value", []))
         return at + 1
@@ -108,16 +116,24 @@ def _step(text: str, at: int, stack: list[_Open]) -> int | None:
     elif mark in "}]":
         fits, end = stack[-1].closes(mark), at + 1
     else:
-        scalar = _scalar(text, at)
+        scalar = _scalar(text, at, unclosed)
         fits, end = (stack[-1].take(scalar[0]), scalar[1]) if scalar else (False, at)
     if not fits:
         stack.clear()
     return end if fits else None
 
 
-def _scalar(text: str, at: int) -> tuple[object, int] | None:
-    """A string, word or number that begins here, and its end."""
-    if found := _STRING.match(text, at):
+def _scalar(text: str, at: int, unclosed: dict[str, int]) -> tuple[object, int] | None:
+    """A string, word or number that begins here, and its end.
+
+    `unclosed` is for quotes that nothing closes in their line: where such a line ends. They are not
+    looked at again.
+    """
+    found = _STRING.match(text, at) if at >= unclosed.get(text[at], 0) else None
+    if not found and text[at] in _QUOTES:
+        end = text.find("\n", at)
+        unclosed[text[at]] = end if end >= 0 else len(text)
+    if found:
         return _ESCAPE.sub(_escaped, found[found.lastindex or 0]), found.end()
     if found := _BARE.match(text, at):
         word = found[0]

@@ -1,5 +1,6 @@
 """The files of an ontology: which of them count, and what they import."""
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from rdflib import OWL, RDF
@@ -11,6 +12,8 @@ from kb.owl import OwlFile, ending
 
 KEPT_BESIDE = frozenset(("home.owl", "config.toml", "home.toml", "facts.json"))
 """Names of what else is kept with a recording."""
+_VERSION = re.compile(r"[/#][vV]?\d[\w.-]*")
+"""What people write behind an IRI to name a version of it."""
 LONGEST_IRI = 200
 """Characters of an IRI that are shown."""
 
@@ -75,7 +78,8 @@ def _is_met(imported: str, files: Iterable[OwlFile]) -> bool:
     wanted = imported.rstrip("#/")
     for file in files:
         iri = file.iri.rstrip("#/")
-        if wanted == iri or wanted.startswith((iri + "/", iri + "#")):
+        rest = wanted.removeprefix(iri)
+        if not rest or _VERSION.fullmatch(rest):
             return True
         if wanted in (version.rstrip("#/") for version in file.versions):
             return True

@@ -7,11 +7,12 @@ from kb.refusal import Refused
 
 MOST_MODELS = 1000
 LONGEST_NAME = 200
+_CALLED = ("id", "name", "model", "model_name")
 
 _NO_CHAT = re.compile(
-    r"embed|rerank|\bbge\b|\bgte\b|\be5\b|minilm|mpnet|colbert|splade|\bmxbai\b|nomic-bert"
-    r"|whisper|transcri|\b(?:tts|asr|stt)\b|speech|voxtral-mini-.*-transcribe|bark\b|musicgen"
-    r"|dall-?e|diffusion|\bsdxl?\b|\bflux\b|\bimage\b|imagen|\bsora\b|\bveo\b"
+    r"embed|rerank|snowflake-arctic-(?!instruct)|paraphrase|\bbge\b|\bgte\b|\be5\b|minilm|mpnet|colbert|splade|\bmxbai\b|nomic-bert"
+    r"|whisper|transcri|\b(?:tts|asr|stt)\b|speech|voxtral-mini-.*-transcribe|bark\b|musicgen|kokoro|parakeet|canary"
+    r"|dall-?e|diffusion|stable-video|\bsdxl?\b|\bflux\b|\bimage\b|imagen|\bsora\b|\bveo\b"
     r"|moderation|llama-?guard|shield|\bclip\b|siglip|davinci-002|babbage-002|realtime",
     re.IGNORECASE,
 )
@@ -42,11 +43,13 @@ def is_about_the_model(refused: Refused) -> bool:
 def _names(listing: object) -> Iterator[str]:
     if isinstance(listing, dict):
         listing = listing.get("data") or listing.get("models")
+    if isinstance(listing, dict):
+        listing = list(listing)
     for entry in listing[:MOST_MODELS] if isinstance(listing, list) else ():
         kind = entry.get("type") if isinstance(entry, dict) else None
         if kind in ("embedding", "embeddings", "rerank", "image", "audio", "moderation"):
             continue
-        keys = (entry.get("id"), entry.get("name")) if isinstance(entry, dict) else (entry,)
+        keys = map(entry.get, _CALLED) if isinstance(entry, dict) else (entry,)
         name = next((key for key in keys if isinstance(key, str) and key), None)
         if name and len(name) <= LONGEST_NAME and name.isprintable():
             yield name

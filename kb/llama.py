@@ -122,10 +122,10 @@ class LlamaCpp:
         Raises:
             ModelError: if the file cannot be loaded, or its model does not chat. A file that is
                 seen for the first time is tried before (`first_load`).
-            KeyboardInterrupt: if meanwhile something came in, such as a stop.
+            KeyboardInterrupt: if someone said stop meanwhile.
         """
         check_file(path)
-        self.can_rank = _is_packaged(path) or tried(path, lambda: inbox.has_events)
+        self.can_rank = _is_packaged(path) or tried(path, lambda: inbox.stop_waits)
         self._path = path
         self._inbox = inbox
         self._n_ctx = n_ctx

@@ -13,6 +13,7 @@ from kb.dialect import Dialect
 from kb.key import Key
 from kb.thinking import answer_of, used_up
 from kb.threads import Daemons
+from kb.wire import Written
 
 BYTES_PER_TOKEN = 3
 """A careful estimate for English: such servers do not offer their tokenizer."""
@@ -169,8 +170,8 @@ class Server:
         written = got.chunks if got.written is None else got.written
         if not text and got.finish_reason == "length":
             return Failed(used_up(written or self._max_tokens))
-        if not text and (thought or got.thought):
-            return Failed("it thought, and gave no answer")
+        if not text.strip():
+            return Failed(no_answer(got, thought=thought))
         read = got.read
         if read is None:
             read = sum(self.count_tokens(message.content) for message in request.messages)
@@ -184,3 +185,14 @@ class Server:
             parameters={**self._sampling, "max_tokens": self._max_tokens},
         )
         return Replied(request, text, usage, got.finish_reason or "stop")
+
+
+def no_answer(got: Written, *, thought: bool) -> str:
+    """Why a reply has nothing in it."""
+    if got.called:
+        return "it called a tool, which it does not have, instead of an answer"
+    if thought or got.thought:
+        return "it thought, and gave no answer"
+    if got.finish_reason not in ("", "stop"):
+        return f"its answer is empty ({got.finish_reason})"
+    return "its answer is empty"

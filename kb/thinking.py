@@ -2,9 +2,18 @@
 
 import re
 
-_NAMES = "think|thinking|thought|thoughts|reasoning|reflection|scratchpad|seed:think"
-_MARK = re.compile(rf"<(/?)(?:{_NAMES})>|\[(/?)(?:{_NAMES})\]", re.IGNORECASE)
-_CHANNEL = re.compile(r"<\|channel\|>\s*(\w+)[^<]*<\|message\|>")
+_NAMES = (
+    "think|thinking|thought|thoughts|reasoning|reflection|scratchpad|seed:think|analysis|reason"
+)
+_MARK = re.compile(
+    rf"<(/?)(?:{_NAMES})(?:\s[^<>]{{0,100}})?>|\[(/?)(?:{_NAMES})\]|\u25c1(/?)think\u25b7"
+    r"|<\|(?:begin_of_thought|START_THINKING)\|>|<\|((?:end_of_thought|END_THINKING))\|>",
+    re.IGNORECASE,
+)
+_CHANNEL = re.compile(r"<\|channel\|>\s*(\w+)(?:[^<]|<\|constrain\|>){0,200}<\|message\|>")
+_WITHOUT_MARKS = re.compile(r"\s*analysis(?=[A-Z])")
+_FINAL_WITHOUT_MARKS = "assistantfinal"
+"""As some servers give the channels of gpt-oss."""
 _TURN_ENDS = re.compile(r"<\|(?:end|return|start|call)\|>")
 
 
@@ -16,11 +25,13 @@ def answer_of(text: str) -> tuple[str, bool]:
     """
     if channels := list(_CHANNEL.finditer(text)):
         return _final_of(text, channels), True
+    if _WITHOUT_MARKS.match(text):
+        return text.partition(_FINAL_WITHOUT_MARKS)[2].strip(), True
     kept: list[str] = []
     inside, at, thought = False, 0, False
     for mark in _MARK.finditer(text):
         thought = True
-        if mark[1] or mark[2]:
+        if any(mark.groups()):
             if not inside:
                 kept.clear()
             inside, at = False, mark.end()

@@ -4,6 +4,7 @@ The paper's output parser and existence check. Pure functions.
 """
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from operator import itemgetter
 from typing import Any
@@ -17,6 +18,9 @@ from kb.names import PlaceNames, unique
 
 MOST_CHARACTERS = 10_000
 """Of a reply, counted from its end: looking through more could take seconds."""
+_OBJECT = re.compile(r"\{(?=\s*[\"}])")
+_BULLET = re.compile(r"^(?:\d{1,2}[.):]|[-*•–])\s+")
+_BETWEEN = re.compile(r"[,;\n]")
 NAME_KEYS = ("name", "place", "furniture", "location", "room")
 """What a model may call the name of a place, where it gives more than the name."""
 
@@ -53,10 +57,20 @@ def read(reply: str) -> tuple[str, ...] | None:
     loose = None
     for value in last_first(reply):
         names = _places(value)
-        if names is not None:
-            return tuple(writable(name).strip() for name in names)
+        if names is not None and not _is_a_pattern(names):
+            return _tidied(names)
         loose = loose or _loosely(value)
-    return tuple(writable(name).strip() for name in loose) if loose else None
+    return _tidied(loose) if loose else None
+
+
+def _is_a_pattern(names: list[str]) -> bool:
+    """Whether it only shows what an answer looks like, as in `["...", "..."]`."""
+    return bool(names) and not any(map(str.isalnum, "".join(names)))
+
+
+def _tidied(names: list[str]) -> tuple[str, ...]:
+    """The names without the numbers and dots of a list."""
+    return tuple(_BULLET.sub("", writable(name).strip()) for name in names)
 
 
 def _places(value: object) -> list[str] | None:
@@ -65,8 +79,26 @@ def _places(value: object) -> list[str] | None:
         return None
     for key, named in value.items():
         if key.strip().lower() == "places":
-            return _names(named) if isinstance(named, list) else _name(named)
+            return _listed(named)
     return None
+
+
+def _listed(named: object) -> list[str] | None:
+    """The names in what is given as places: a list, a text with commas, or numbers by name."""
+    if isinstance(named, list):
+        return _names(named)
+    if isinstance(named, str):
+        return [part for part in _BETWEEN.split(named) if part.strip()]
+    if not isinstance(named, dict) or _name(named):
+        return _name(named)
+    if all(key.strip().isdecimal() for key in named):
+        return _names(list(named.values()))
+    return None if any(map(_says_more, named.values())) else list(named)
+
+
+def _says_more(value: object) -> bool:
+    """Whether it is more than how likely something is."""
+    return value is not None and not isinstance(value, int | float)
 
 
 def _loosely(value: object) -> list[str] | None:
@@ -78,11 +110,20 @@ def _loosely(value: object) -> list[str] | None:
 
 def _names(parts: list[object]) -> list[str] | None:
     """One name for each part; null stands for no part, as numbers do."""
-    named = [_name(part) for part in parts if part is not None]
+    named = [_rated(part) or _name(part) for part in parts if part is not None]
     if parts and not named:
         return None
     names = [name for some in named if some for name in some]
     return names if len(names) == len(named) else None
+
+
+def _rated(part: object) -> list[str] | None:
+    """The name in a pair of a name and how likely it is; None if it is something else."""
+    if isinstance(part, dict) and not any(key.strip().lower() in NAME_KEYS for key in part):
+        part = [value for pair in part.items() for value in pair]
+    if not isinstance(part, list) or len(part) != 2 or _says_more(part[1]):
+        return None
+    return _name(part[0])
 
 
 def _name(part: object) -> list[str] | None:
@@ -118,24 +159,24 @@ def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -
 def last_first(reply: str) -> list[object]:
     """The objects and lists in the end of a reply, the last one first, an outer one before its own.
 
-    What is JSON to the letter is found whatever stands before it, the rest as `lenient` does.
+    What is JSON to the letter is found whatever stands before it, the rest as `lenient` does. Where
+    there is nothing, quotes may be spelled out, as in a web page or in JSON within JSON.
     Never raises, and never takes long.
     """
     text = reply[-MOST_CHARACTERS:]
-    found = [*_strictly(text), *values(text)]
+    plain = text.replace("&quot;", '"').replace('\\"', '"')
+    found = [*_strictly(text), *values(text)] or [*_strictly(plain), *values(plain)]
     return [value for _, value in sorted(found, key=itemgetter(0), reverse=True)]
 
 
 def _strictly(text: str) -> Iterator[tuple[int, object]]:
     """What can be read as JSON from each opening brace on, with where it ends."""
     decoder = json.JSONDecoder()
-    start = text.find("{")
-    while start >= 0:
+    for begins in _OBJECT.finditer(text):
         try:
-            value, end = decoder.raw_decode(text, start)
-            yield end, value
+            value, end = decoder.raw_decode(text, begins.start())
         except ValueError:
-            pass
+            continue
         except RecursionError:
             return
-        start = text.find("{", start + 1)
+        yield end, value

@@ -1,22 +1,26 @@
 """A reply of a server as it comes in: a stream of events, or one JSON object."""
 
 import json
-import re
-from codecs import BOM_UTF8
-from collections.abc import AsyncIterator
+from collections.abc import AsyncGenerator, Sequence
+from contextlib import aclosing
 from dataclasses import dataclass, field
 from typing import Any
 
 import httpx2
 
+from kb.lines import TooLong, lines
+from kb.packed import NotUnpacked
 from kb.refusal import refusal_in
 
-MOST_BYTES = 8 << 20
-"""Of one reply."""
 MOST_TOKENS = 10**9
 """Of what a server may say that it counted."""
+_WORDS = ("content", "text", "response", "refusal")
 _THOUGHTS = ("reasoning_content", "reasoning", "thinking")
-_LINE_ENDS = re.compile(rb"[\r\n]")
+_TOOLS = ("tool_calls", "function_call")
+_FIELDS = ("data", "event", "id", "retry", "")
+"""Of an event; a comment has none."""
+_SIZED = ("Content-Length", "Transfer-Encoding")
+"""Headers of a reply that cannot end too early unseen."""
 
 
 class BrokenOff(Exception):  # noqa: N818 - what happened
@@ -33,6 +37,8 @@ class Written:
 
     thought: bool = False
     """Whether the model thought in a field of its own."""
+    called: bool = False
+    """Whether it called a tool, of which it has none."""
     finish_reason: str = ""
     first_token_s: float = 0.0
     chunks: int = 0
@@ -54,11 +60,11 @@ class Written:
         """
         if refused := refusal_in(chunk):
             raise refused
-        for choice in _dicts(chunk.get("choices")):
+        for choice in _choices(chunk):
             said = next((choice[k] for k in ("delta", "message") if choice.get(k)), choice)
             if isinstance(said, dict):
                 self._say(said, after_s)
-            reason = choice.get("finish_reason")
+            reason = choice.get("finish_reason") or choice.get("done_reason")
             self.finish_reason = (
                 reason if isinstance(reason, str) and reason else self.finish_reason
             )
@@ -69,55 +75,87 @@ class Written:
                 self.cached = _count(details.get("cached_tokens")) or 0
 
     def _say(self, said: dict[str, Any], after_s: float) -> None:
-        text = _text(said.get("content")) or _text(said.get("text")) or _text(said.get("refusal"))
+        text = next(filter(None, (_text(said.get(key)) for key in _WORDS)), "")
         self.thought = self.thought or any(said.get(key) for key in _THOUGHTS)
+        self.called = self.called or any(said.get(key) for key in _TOOLS)
         if text:
             self.first_token_s = self.first_token_s or after_s
             self._parts.append(text)
             self.chunks += 1
 
 
-async def objects(response: httpx2.Response) -> AsyncIterator[dict[str, Any]]:
-    """The JSON objects of a reply.
+async def objects(response: httpx2.Response) -> AsyncGenerator[dict[str, Any], None]:
+    """The JSON objects of a reply: events, one object, or an object a line.
 
     Raises:
-        BrokenOff: if a stream ends without `[DONE]`, which is no harm after a finish reason.
+        BrokenOff: if a stream ends without `[DONE]` and may have been cut off.
         NotJson: if it is something else.
     """
-    whole: list[str] = []
-    async for line in _lines(response):
+    reader = _Reader()
+    try:
+        async with aclosing(lines(response)) as every:
+            async for line in every:
+                for value in reader.take(line):
+                    yield value
+                if reader.done:
+                    return
+    except (TooLong, NotUnpacked) as error:
+        raise NotJson(str(error)) from None
+    for value in reader.rest():
+        yield value
+    if not (reader.whole or (reader.events and any(name in response.headers for name in _SIZED))):
+        raise BrokenOff("closed the connection without a reply")
+
+
+class _Reader:
+    """Puts the lines of a reply together to objects."""
+
+    def __init__(self) -> None:
+        self.whole: list[str] = []
+        self.events = 0
+        self.done = False
+        self._event: list[str] = []
+        self._strange = ""
+
+    def take(self, line: str) -> list[dict[str, Any]]:
+        """The objects that end with this line."""
         mark, colon, data = line.partition(":")
         data = data.strip()
-        if data == "[DONE]":
-            return
-        if whole or line.lstrip().startswith(("{", "[", "<")):
-            whole.append(line)
-        elif colon and data and mark == "data":
-            yield _object(data)
-        elif colon and data and mark == "error":
-            yield {"error": _object(data)}
-    if not whole:
-        raise BrokenOff("closed the connection without a reply")
-    yield _object("\n".join(whole))
+        self.done = data == "[DONE]"
+        if self.done or not (line or self.whole):
+            return self._end_of_event()
+        if self.whole or line.lstrip().startswith(("{", "[", "<")):
+            self.whole.append(line)
+        elif colon and data and mark in ("data", "error"):
+            self._event.append(data if mark == "data" else f'{{"error": {data}}}')
+        elif mark not in _FIELDS:
+            self._strange = self._strange or line
+        return []
+
+    def rest(self) -> list[dict[str, Any]]:
+        """The objects that nothing ended but the reply itself."""
+        if self._strange and not (self.whole or self.events or self._event):
+            raise NotJson(self._strange)
+        return [*self._end_of_event(), *_objects(self.whole)]
+
+    def _end_of_event(self) -> list[dict[str, Any]]:
+        ended = _objects(self._event)
+        self._event.clear()
+        self.events += len(ended)
+        return ended
 
 
-async def _lines(response: httpx2.Response) -> AsyncIterator[str]:
-    """The lines of a reply, whichever way they end, as soon as each is there."""
-    if (coding := response.headers.get("Content-Encoding", "identity")) != "identity":
-        raise NotJson(f"it is packed ({coding}), which was not asked for")
-    begun: list[bytes] = []
-    size = 0
-    async for part in response.aiter_raw():
-        if not size:
-            part = part.removeprefix(BOM_UTF8)
-        if (size := size + len(part)) > MOST_BYTES:
-            raise NotJson(f"it is longer than {MOST_BYTES >> 20} MiB")
-        *ended, rest = _LINE_ENDS.split(part)
-        for line in ended:
-            yield b"".join([*begun, line]).decode(errors="replace")
-            begun.clear()
-        begun.append(rest)
-    yield b"".join(begun).decode(errors="replace")
+def _objects(said: Sequence[str]) -> list[dict[str, Any]]:
+    """One object that goes over all lines, or one a line."""
+    filled = [line for line in said if line.strip()]
+    if not filled:
+        return []
+    try:
+        return [_object("\n".join(filled))]
+    except NotJson:
+        if not all(line.startswith("{") and line.rstrip().endswith("}") for line in filled):
+            raise
+    return [_object(line) for line in filled]
 
 
 def _object(data: str) -> dict[str, Any]:
@@ -149,6 +187,13 @@ def _count(value: object) -> int | None:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     return int(value) if 0 <= value < MOST_TOKENS and value == int(value) else None
+
+
+def _choices(chunk: dict[str, Any]) -> list[dict[str, Any]]:
+    """The first of what a model might say, of OpenAI's kind or of Ollama's own."""
+    if isinstance(chunk.get("message"), dict) or isinstance(chunk.get("response"), str):
+        return [chunk]
+    return [c for c in _dicts(chunk.get("choices")) if c.get("index") in (0, None)]
 
 
 def _dicts(value: object) -> list[dict[str, Any]]:

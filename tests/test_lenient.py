@@ -1,10 +1,12 @@
 """How replies are read that are not quite in the output format."""
 
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kb import understanding
+from kb import lenient, understanding
 from kb.lenient import values
 from kb.verification import read
 
@@ -27,6 +29,18 @@ BOTH = ("counter_wagon", "desk")
         '{"places": [{"name": "counter_wagon", "why": "kitchen"}, {"Place": "desk"}]}',
         '{"answer": {"places": ["counter_wagon", "desk"]}, "sure": true}',
         '["counter_wagon", "desk"]',
+        '{"places": "counter_wagon, desk"}',
+        '{"places": ["1. counter_wagon", "2) desk"]}',
+        '{"places": {"1": "counter_wagon", "2": "desk"}}',
+        '{"places": {"counter_wagon": 0.9, "desk": 0.1}}',
+        '{"places": [["counter_wagon", 0.9], ["desk", 0.1]]}',
+        '{"places": [{"counter_wagon": 0.9}, {"desk": null}]}',
+        "{«places»: [«counter_wagon», ‹desk›]}",
+        "{„places“: [„counter_wagon“, „desk”]}",
+        '｛"places"：［"counter_wagon"，「desk」］｝',
+        "{&quot;places&quot;: [&quot;counter_wagon&quot;, &quot;desk&quot;]}",
+        r'"{\"places\": [\"counter_wagon\", \"desk\"]}"',
+        '{"places": ["counter_wagon", "desk"]}, as you wrote: {"places": ["...", "..."]}',
         "Perhaps:\n```json\n['counter_wagon', 'desk']\n```\nIt's there [1].",
         '[{"name": "counter_wagon"}, {"name": "desk"}]',
         'It\'s in [see above: {"places": ["counter_wagon", "desk"]}',
@@ -72,8 +86,38 @@ def test_a_command_is_read_as_leniently(reply: str, kind: str) -> None:
     assert (asked.kind, asked.object) == (kind, "mug")
 
 
+class Counted:
+    """A pattern, and how often it is tried."""
+
+    def __init__(self, pattern: re.Pattern[str]) -> None:
+        self.pattern, self.tried = pattern, 0
+
+    def match(self, text: str, at: int) -> re.Match[str] | None:
+        self.tried += 1
+        return self.pattern.match(text, at)
+
+
+@pytest.mark.parametrize("quote", ["„", "“"])
+def test_a_quote_that_nothing_closes_is_looked_for_once_a_line(
+    quote: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    strings = Counted(lenient._STRING)
+    monkeypatch.setattr(lenient, "_STRING", strings)
+    list(values(f"[{quote}\\" * 500 + "\n" + f"[{quote}\\" * 500))
+    assert strings.tried <= 4
+
+
 pieces = st.lists(
-    st.sampled_from([*"{}[],:\"'`#/* \n1a", "places", '"desk"', '"places":', '{"places": [', "]}"])
+    st.sampled_from(
+        [
+            *"{}[],:\"'`#/* \n1a«“„”：，｛［］｝",
+            "places",
+            '"desk"',
+            '"places":',
+            '{"places": [',
+            "]}",
+        ]
+    )
     | st.text(max_size=3),
     max_size=40,
 ).map("".join)
@@ -87,13 +131,16 @@ def test_no_name_is_read_that_is_not_written_there(text: str) -> None:
 
 @given(pieces)
 def test_a_value_ends_where_a_bracket_closes(text: str) -> None:
-    assert all(text[end - 1] in "]}" for end, _ in values(text))
+    assert all(text[end - 1] in "]}］｝" for end, _ in values(text))
 
 
 @pytest.mark.parametrize(
     "unit",
     [
         "[\N{LEFT DOUBLE QUOTATION MARK}",
+        "[«",
+        "{",
+        '[\\"',
         "[/*",
         '{"a":',
         "['",

@@ -33,7 +33,7 @@ from executive.config import load_settings
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.types import ChatRequest, Failed, Message, RankRequest
-from kb import asking, wire
+from kb import asking, lines, wire
 from kb.address import bases_of
 from kb.dialect import Dialect
 from kb.key import Key
@@ -166,14 +166,9 @@ def test_a_page_instead_of_a_reply_is_told() -> None:
 
 @pytest.mark.parametrize("unit", [b"x", b"data: {}\n\n"])
 def test_a_reply_without_an_end_is_bounded(unit: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(wire, "MOST_BYTES", 1 << 20)
+    monkeypatch.setattr(lines, "MOST_BYTES", 1 << 20)
     with talking(sends(unit * (1 << 21))) as talk:
         assert "it is longer than 1 MiB" in talk.reason()
-
-
-def test_a_packed_reply_is_not_unpacked() -> None:
-    with talking(lambda handler, _: answer(handler, 200, "x", Content_Encoding="gzip")) as talk:
-        assert "packed (gzip)" in talk.reason()
 
 
 def test_a_reply_in_drips_ends_at_the_time_out() -> None:
@@ -296,7 +291,7 @@ def test_a_server_that_dislikes_the_schema_is_given_it_in_the_other_way(status: 
 def test_a_server_that_refuses_everything_has_refused() -> None:
     with talking(refuses(400, {"error": {"message": "no"}}), grammar=True) as talk:
         assert talk.reason() == "HTTP 400: no"
-        assert talk.bodies[-1].keys() == {"model", "messages", "stream", "max_tokens"}
+        assert talk.bodies[-1].keys() == {"model", "messages", "stream"}
 
 
 def test_a_chat_that_is_too_long_is_not_tried_with_less() -> None:
