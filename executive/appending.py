@@ -8,6 +8,7 @@ and drops with it, keeps them apart.
 import errno
 import fcntl
 import os
+import stat
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -50,6 +51,8 @@ def cut_half_line(file: Path) -> None:
 def _locked(file: Path) -> Iterator[int]:
     target = os.open(file, os.O_RDWR | os.O_APPEND | os.O_CREAT, 0o644)
     try:
+        if not stat.S_ISREG(os.fstat(target).st_mode):
+            raise OSError(errno.EINVAL, "it is no plain file")
         fcntl.flock(target, fcntl.LOCK_EX)
         yield target
     finally:

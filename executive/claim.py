@@ -1,6 +1,7 @@
 """A folder that one process has to itself, as long as it lives."""
 
 import fcntl
+import os
 from pathlib import Path
 from typing import TextIO
 
@@ -8,6 +9,8 @@ from executive.errors import InputError
 
 LOCK = "lock"
 """Name of the file that is locked; it stays, but the lock ends with its process."""
+_FLAGS = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_NONBLOCK
+"""To open it: a named pipe there, which nobody may read, is an error and not waited for."""
 
 
 def lock_folder(folder: Path, option: str) -> TextIO:
@@ -17,7 +20,7 @@ def lock_folder(folder: Path, option: str) -> TextIO:
         InputError: if another process has it, or it cannot be written to.
     """
     try:
-        stream = (folder / LOCK).open("a", encoding="utf-8")
+        stream = os.fdopen(os.open(folder / LOCK, _FLAGS, 0o666), "a", encoding="utf-8")
     except OSError as error:
         right = "name a folder to write to"
         raise InputError(f"{option} {folder}", f"cannot use it: {error.strerror}", right) from None

@@ -8,6 +8,7 @@ import csv
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
+from math import isfinite
 from pathlib import Path
 from typing import get_type_hints
 
@@ -17,6 +18,7 @@ import pyarrow.parquet as pq
 from executive.appending import append_line, cut_half_line
 from executive.config import KnowledgeSystem
 from executive.errors import InputError
+from executive.text import writable
 
 CRASHED = "crashed"
 """Status of a mission that ended in an exception, beside those of an Outcome."""
@@ -199,9 +201,23 @@ def read_entry(line: bytes) -> Entry | str:
         return f"{type(error).__name__}: {error}"
     for name, kind in _KINDS.items():
         value = getattr(row, name)
-        if type(value) is not kind and not (kind is float and type(value) is int):
+        if not _fits(value, kind):
             return f"{name} is {str(value)[:60]!r}"
     return Entry(row, exchanges)
+
+
+def _fits(value: object, kind: type) -> bool:
+    """Whether a table can hold it: text of whole characters, numbers of 64 bits."""
+    match value:
+        case str():
+            return kind is str and writable(value) == value
+        case bool():
+            return kind is bool
+        case int():
+            return kind in (int, float) and -(2**63) <= value < 2**63
+        case float():
+            return kind is float and isfinite(value)
+    return False
 
 
 def in_order(rows: Iterable[Row], policies: Sequence[str] = ()) -> list[Row]:

@@ -17,6 +17,8 @@ OPENING_S = 10.0
 """The same while it is opened: others may be making it."""
 MOST_CHECKED = 16 * 1024 * 1024
 """A file of so many bytes is looked through for damage when it is opened; a larger one is not."""
+_BESIDE = ("-journal", "-wal", "-shm")
+"""What SQLite opens, too."""
 MOST_BYTES = 1_000_000
 """Of a row."""
 
@@ -81,6 +83,9 @@ def _connect(file: Path | None, learns: bool) -> sqlite3.Connection:
         return sqlite3.connect(":memory:")
     if file.exists() and not file.is_file():
         raise sqlite3.DatabaseError("it is no file")
+    for beside in (Path(f"{file}{ending}") for ending in _BESIDE):
+        if beside.exists() and not beside.is_file():  # SQLite would wait for a pipe for ever
+            raise sqlite3.DatabaseError(f"{beside.name} beside it is no file")
     if not learns and not os.access(
         file.parent, os.W_OK
     ):  # no place for what SQLite puts beside it

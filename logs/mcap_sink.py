@@ -2,7 +2,7 @@
 
 import mimetypes
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from datetime import datetime
 from pathlib import Path as FilePath
 from typing import Any
@@ -31,8 +31,9 @@ from executive.records import (
 from executive.text import writable
 from executive.types import Frame
 from logs import foxglove, messages
-from logs.event_messages import event_to_message, in_words
+from logs.event_messages import event_from_message, event_to_message, in_words
 from logs.recorder import Stamp
+from logs.sound import in_mission
 from logs.times import nanoseconds
 from logs.topics import TOPICS, most_in
 
@@ -40,6 +41,18 @@ CHUNK_BYTES = 256 * 1024
 """Larger chunks compress better but stall the writer (and lose more if the process is killed)."""
 
 _MEDIA_TYPES = {".owl": "application/rdf+xml", ".toml": "application/toml"}
+
+_READ: dict[str, Callable[[Any], object]] = {
+    "/bt/tree": messages.tree_from_message,
+    "/bt/tick": messages.tick_from_message,
+    "/llm/call": messages.llm_call_from_message,
+    "/llm/verification": messages.verified_from_message,
+    "/dialog": messages.utterance_from_message,
+    "/event": event_from_message,
+    "/mishap": messages.mishap_from_message,
+    "/outcome": messages.outcome_from_message,
+}
+"""How our own messages are read: what does not read must not be written, it would cost the rest."""
 
 
 class McapSink:
@@ -99,13 +112,14 @@ class McapSink:
 
     def _encoded(self, stamp: Stamp, record: Record) -> list[tuple[str, int, bytes]]:
         """Topic, log time (ns) and bytes of all messages that a record becomes."""
-        ns = self._origin_ns + round(stamp.mission_s * 1e9)
+        ns = self._origin_ns + round(in_mission(stamp.mission_s) * 1e9)
         if not 0 <= ns < 2**63:
             raise ValueError(f"a mission time of {stamp.mission_s} s")
-        found = [
-            (topic, ns, message.SerializeToString())
-            for topic, message in self._messages(stamp, record, ns)
-        ]
+        told = list(self._messages(stamp, record, ns))
+        for topic, message in told:
+            if topic in _READ:
+                _READ[topic](message)
+        found = [(topic, ns, message.SerializeToString()) for topic, message in told]
         for topic, _, data in found:
             most = most_in(topic)
             if len(data) > most:

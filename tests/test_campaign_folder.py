@@ -138,6 +138,27 @@ def test_a_damaged_line_is_named_and_costs_no_other(journal: Path, damage: str) 
     assert "journal.jsonl:2: is not a mission" in sentence
 
 
+@pytest.mark.parametrize(
+    "wrong",
+    [{"reason": "\ud800"}, {"inquiries": 2**70}, {"llm_s": float("nan")}, {"path_m": float("inf")}],
+)
+def test_a_line_of_values_that_no_table_holds_is_damaged(
+    journal: Path, wrong: dict[str, Any]
+) -> None:
+    journal.write_text(line_of(replace(ROW, **wrong)) + line_of(ROW), encoding="utf-8")
+    assert [entry.row for entry in Journal(journal).entries()] == [ROW]
+    assert len(Journal(journal).damage()) == 1
+
+
+def test_a_pipe_in_a_campaigns_folder_holds_nothing_up(journal: Path, tmp_path: Path) -> None:
+    os.mkfifo(journal)
+    os.mkfifo(tmp_path / "lock")
+    with pytest.raises(InputError, match="it is no plain file"):
+        Journal(journal).mend()
+    with pytest.raises(InputError, match="cannot use it: No such device"):
+        lock_folder(tmp_path, "--out")
+
+
 def test_a_spreadsheet_finds_no_formula_in_the_table(tmp_path: Path) -> None:
     write_tables([replace(ROW, command='=HYPERLINK("http://x")')], tmp_path)
     assert "'=HYPERLINK" in (tmp_path / "results.csv").read_text()

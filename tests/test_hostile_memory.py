@@ -203,3 +203,12 @@ def test_a_name_that_no_database_takes_costs_the_fact_only(
     assert store.beliefs() == {"mug": ("desk",)}
     assert "could not be kept (half \\ud83d seen desk)" in caplog.text
     store.close()
+
+
+@pytest.mark.parametrize("ending", ["-journal", "-wal", "-shm"])
+def test_a_pipe_beside_a_memory_holds_nothing_up(tmp_path: Path, ending: str) -> None:
+    file = tmp_path / "memory.db"
+    FactStore(file).close()
+    os.mkfifo(f"{file}{ending}")
+    with pytest.raises(InputError, match=f"memory.db{ending} beside it is no file"):
+        FactStore(file)

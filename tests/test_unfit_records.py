@@ -57,6 +57,12 @@ UNFIT: dict[str, Record] = {
     "a parameter beyond 64 bits": call(parameters={"seed": 2**70}),
     "an answer that is a number": EventTaken(Ended(1, Answered(anything(5)))),
     "a request beyond 64 bits": EventTaken(Ended(2**70, Answered("yes"))),
+    "a time that is no number": call(total_s=float("nan")),
+    "a model that was asked nothing": LlmCall(
+        replace(chat_call().result, request=replace(chat_call().result.request, messages=()))
+    ),
+    "an event that is none": EventTaken(anything("a text")),
+    "an end at no time": Finished(replace(outcome(), mission_time_s=float("inf"))),
     "a status that is none": Finished(replace(outcome(), inquiries=-1)),
     "a picture without pixels": Picture(replace(frame(), color=np.zeros((0, 0, 3), np.uint8))),
     "a mesh that is gone": Scene((Entity("x", "map", (Shape("mesh", (1, 1, 1), (1, 1, 1, 1)),)),)),
