@@ -171,7 +171,7 @@ class Server:
         if not text and got.finish_reason == "length":
             return Failed(used_up(written or self._max_tokens))
         if not text.strip():
-            return Failed(no_answer(got, thought=thought))
+            return Failed(_no_answer(got, thought=thought))
         read = got.read
         if read is None:
             read = sum(self.count_tokens(message.content) for message in request.messages)
@@ -187,7 +187,7 @@ class Server:
         return Replied(request, text, usage, got.finish_reason or "stop")
 
 
-def no_answer(got: Written, *, thought: bool) -> str:
+def _no_answer(got: Written, *, thought: bool) -> str:
     """Why a reply has nothing in it."""
     if got.called:
         return "it called a tool, which it does not have, instead of an answer"

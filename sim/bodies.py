@@ -151,10 +151,7 @@ def create_object(client: BulletClient, model: ObjectModel, pose: Pose) -> int:
 def home_entities(home: Home, models: Mapping[str, ObjectModel]) -> tuple[Entity, ...]:
     """The home for the viewer: what is fixed in `map`, each object in a frame of its own name."""
     low = home.model_copy(update={"wall_height": min(home.wall_height, VIEWED_WALL_HEIGHT_M)})
-    fixed = [
-        Entity(name, MAP, tuple(_moved(shape, pose) for shape in shapes))
-        for name, shapes, pose in _fixtures(low)
-    ]
+    fixed = [Entity(name, MAP, _moved(shapes, pose)) for name, shapes, pose in _fixtures(low)]
     movable = [Entity(name, name, (packaged_mesh(name, "glb"),)) for name in home.objects]
     return (*fixed, *movable)
 
@@ -175,9 +172,10 @@ def _fixtures(home: Home) -> Iterator[tuple[str, tuple[Shape, ...], Pose]]:
     yield PERSON, PERSON_SHAPES, Pose((home.person[0], home.person[1], 0.0))
 
 
-def _moved(shape: Shape, pose: Pose) -> Shape:
-    """A shape of a frame that is at `pose`, seen from the parent frame."""
+def _moved(shapes: Sequence[Shape], pose: Pose) -> tuple[Shape, ...]:
+    """Shapes of a frame that is at `pose`, seen from the parent frame."""
     turn = Rotation.from_quat(pose.orientation)
-    position = turn.apply(shape.pose.position) + pose.position
-    orientation = (turn * Rotation.from_quat(shape.pose.orientation)).as_quat()
-    return replace(shape, pose=Pose(tuple(position.tolist()), tuple(orientation.tolist())))
+    positions = turn.apply([shape.pose.position for shape in shapes]) + pose.position
+    turned = turn * Rotation.from_quat([shape.pose.orientation for shape in shapes])
+    poses = map(Pose, map(tuple, positions.tolist()), map(tuple, turned.as_quat().tolist()))
+    return tuple(replace(shape, pose=at) for shape, at in zip(shapes, poses, strict=True))

@@ -69,9 +69,13 @@ class OccupancyGrid:
         y = origin[1] + np.arange(steps[1])[None, :] * resolution
         inside = np.zeros(steps, bool)
         for a, b, c, d in edges.tolist():
-            inside |= ((x >= a) & (x <= c)) & ((y >= b) & (y <= d))
-        person = np.hypot(x - home.person[0], y - home.person[1]) - PERSON_RADIUS_M
-        clearance = np.where(inside, person.clip(0.0, FAR_M), 0.0)
+            inside[np.ix_(((x >= a) & (x <= c)).ravel(), ((y >= b) & (y <= d)).ravel())] = True
+        clearance = np.where(inside, FAR_M, 0.0)
+        around = (*home.person[:2], 0.0, 2 * PERSON_RADIUS_M, 2 * PERSON_RADIUS_M)
+        near = _window(origin, resolution, around)
+        person = np.hypot(x[near[0]] - home.person[0], y[:, near[1]] - home.person[1])
+        found = (person - PERSON_RADIUS_M).clip(min=0.0)
+        clearance[near] = np.minimum(clearance[near], found)
         boxes = [(*wall.center, 0.0, *wall.size) for wall in home.walls()]
         boxes += [(*piece.pose, *piece.size[:2]) for piece in (*home.furniture, home.delivery)]
         for box in boxes:
