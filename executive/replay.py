@@ -8,7 +8,7 @@ is a regression test:
 """
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -293,6 +293,8 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
     if recorded is None:
         return None
     outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
+    if "thinks" not in run.metadata:  # recorded when outcomes did not tell of the model
+        outcome = replace(outcome, model_failure=recorded.model_failure)
     aspects = tuple(outcome_aspects(recorded, outcome, exact=True))
     return Parting(None, recorded.mission_time_s, aspects) if aspects else None
 
