@@ -142,7 +142,7 @@ def gist(event: Event) -> str:
         case StopRequested(by):
             return by
         case HandFelt(holding):
-            return {True: "something", False: "nothing"}.get(holding, "I cannot tell")
+            return "I cannot tell" if holding is None else "something" if holding else "nothing"
         case Broke(reason):
             return reason
 

@@ -222,3 +222,21 @@ def test_a_place_has_at_least_one_view(views: Any, house: House) -> None:
 
     house.session.robot = Odd(house.session.robot)
     assert house.run("Find the mug").status == Status.DONE
+
+
+def test_what_was_let_go_of_too_late_is_said_to_be_out_of_the_hand(house: House) -> None:
+    house.run("Take the mug")
+    start = house.session.robot.start
+
+    def lets_go_and_hangs(goal: Goal) -> int:
+        if not isinstance(goal, PutDown):
+            return start(goal)
+        house.world.things["mug"], house.world.held = goal.place, None
+        return house.inbox.open()
+
+    house.session.robot.start = lets_go_and_hangs  # type: ignore[method-assign]
+    assert house.run("Put it down").reason == (
+        "I could not put it down on the delivery table: it took longer than 120 s; "
+        "the mug is not in my hand any more"
+    )
+    assert hand_is_known(house)
