@@ -113,6 +113,27 @@ def test_what_a_second_interrupt_ends_has_an_outcome_and_replays(
     assert house.session._restless
 
 
+def test_an_interrupt_while_the_logs_are_closed_leaves_them_whole(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted() -> None:
+        monkeypatch.undo()
+        raise KeyboardInterrupt
+
+    opened = house.session.recorder.open
+
+    def open_and_wait(*arguments: Any) -> None:
+        opened(*arguments)
+        monkeypatch.setattr(house.session.recorder, "close", interrupted)
+
+    house.session.recorder.open = open_and_wait  # type: ignore[method-assign]
+    with pytest.raises(KeyboardInterrupt):
+        house.session.run("Find the mug")
+    assert written(house)["status"] == "done"
+    monkeypatch.setattr(house.session, "run", lambda words: Outcome(**written(house)))
+    house.run()  # nothing but the checks
+
+
 @pytest.mark.parametrize("error", [RuntimeError("no world"), KeyboardInterrupt()])
 def test_what_fails_before_anything_began_has_an_outcome_too(
     error: BaseException, house: House, monkeypatch: pytest.MonkeyPatch
