@@ -162,11 +162,21 @@ class Session:
                 wall_time_s=time.monotonic() - began,
                 run_dir=str(folder) if folder else None,
             )
-            GuardedRecorder(self.recorder).record(Finished(outcome))
-            self.recorder.close()
-            if folder:
-                write(folder / "outcome.json", to_json(outcome) + "\n")
+            try:
+                GuardedRecorder(self.recorder).record(Finished(outcome))
+                if folder:
+                    write(folder / "outcome.json", to_json(outcome) + "\n")
+            finally:
+                self._close_logs()
         return outcome
+
+    def _close_logs(self) -> None:
+        """Finish the recording; someone impatient ends the program, but not the recording."""
+        try:
+            self.recorder.close()
+        except KeyboardInterrupt:
+            self.recorder.close()
+            raise
 
     def _carry_out_safely(
         self, situation: Situation, folder: Path | None, started: datetime

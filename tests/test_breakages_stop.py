@@ -113,6 +113,27 @@ def test_what_a_second_interrupt_ends_has_an_outcome_and_replays(
     assert house.session._restless
 
 
+def test_an_interrupt_while_the_logs_are_closed_leaves_them_whole(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted() -> None:
+        monkeypatch.undo()
+        raise KeyboardInterrupt
+
+    opened = house.session.recorder.open
+
+    def open_and_wait(*arguments: Any) -> None:
+        opened(*arguments)
+        monkeypatch.setattr(house.session.recorder, "close", interrupted)
+
+    house.session.recorder.open = open_and_wait  # type: ignore[method-assign]
+    with pytest.raises(KeyboardInterrupt):
+        house.session.run("Find the mug")
+    assert written(house)["status"] == "done"
+    monkeypatch.setattr(house.session, "run", lambda words: Outcome(**written(house)))
+    house.run()  # nothing but the checks
+
+
 @pytest.mark.parametrize("error", [RuntimeError("no world"), KeyboardInterrupt()])
 def test_what_fails_before_anything_began_has_an_outcome_too(
     error: BaseException, house: House, monkeypatch: pytest.MonkeyPatch
@@ -222,3 +243,21 @@ def test_a_place_has_at_least_one_view(views: Any, house: House) -> None:
 
     house.session.robot = Odd(house.session.robot)
     assert house.run("Find the mug").status == Status.DONE
+
+
+def test_what_was_let_go_of_too_late_is_said_to_be_out_of_the_hand(house: House) -> None:
+    house.run("Take the mug")
+    start = house.session.robot.start
+
+    def lets_go_and_hangs(goal: Goal) -> int:
+        if not isinstance(goal, PutDown):
+            return start(goal)
+        house.world.things["mug"], house.world.held = goal.place, None
+        return house.inbox.open()
+
+    house.session.robot.start = lets_go_and_hangs  # type: ignore[method-assign]
+    assert house.run("Put it down").reason == (
+        "I could not put it down on the delivery table: it took longer than 120 s; "
+        "the mug is not in my hand any more"
+    )
+    assert hand_is_known(house)

@@ -68,9 +68,15 @@ class StillHolds(Step):
     """Says why the hand is not empty, and that it is not; always fails."""
 
     def update(self) -> Status:
-        """What fell is no longer held."""
+        """What fell is no longer held; nor is what was let go of before it went wrong."""
         held, why = self.situation.in_hand, self.situation.reason
-        return self.fail(f"{why}; I still hold {the(held)}" if held else why)
+        if held:
+            return self.fail(f"{why}; I still hold {the(held)}")
+        if self.situation.lost:
+            return self.fail(why)
+        return self.fail(
+            f"{why}; {the(self.situation.object or SOMETHING)} is not in my hand any more"
+        )
 
 
 class HoldsWhatIsMeant(Step):
