@@ -8,6 +8,7 @@ from urllib.parse import urlsplit
 
 import tomli_w
 from pydantic import Field, ValidationError, field_validator
+from pydantic_core import ErrorDetails
 from pydantic_settings import BaseSettings, SettingsConfigDict, SettingsError
 
 from executive.errors import InputError
@@ -159,7 +160,14 @@ def load_settings(config: Path | None = None, **given: Any) -> Settings:
         right = f"known are {known}" if fault["type"] == "extra_forbidden" else ""
         in_file = fault["loc"] and fault["loc"][0] in from_file
         where = f"{config}: {name}" if in_file else f"setting '{name}'"
-        raise InputError(where, fault["msg"], right) from None
+        raise InputError(where, in_words(fault), right) from None
+
+
+def in_words(fault: ErrorDetails) -> str:
+    """What is wrong with a setting, without pydantic's own words about it."""
+    if fault["type"] == "extra_forbidden":
+        return "is no setting"
+    return fault["msg"].removeprefix("Value error, ")
 
 
 def _address(url: str) -> str:
@@ -193,7 +201,7 @@ def _environment() -> dict[str, Any]:
     except ValidationError as error:
         fault = error.errors()[0]
         first, *rest = map(str, fault["loc"] or ("settings",))
-        raise InputError(".".join([PREFIX + first.upper(), *rest]), fault["msg"]) from None
+        raise InputError(".".join([PREFIX + first.upper(), *rest]), in_words(fault)) from None
     except SettingsError as error:
         field = re.search(r'field "(\w+)"', str(error))
         name = PREFIX + field[1].upper() if field else f"{PREFIX}..."

@@ -18,7 +18,7 @@ from typing import TypeVar
 from pydantic import TypeAdapter, ValidationError
 
 from executive.composition import OURS, Advise, Grounds, build_advisor, build_team
-from executive.config import Settings
+from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import Tree
@@ -241,7 +241,9 @@ def _settings(run: Run) -> Settings:
     try:
         return Settings(**{**unset, **recorded})
     except ValidationError as error:
-        what = f"its config.toml has a setting that is not known any more: {error.errors()[0]}"
+        fault = error.errors()[0]
+        name = ".".join(map(str, fault["loc"]))
+        what = f"its config.toml is not understood any more: {name} {in_words(fault)}"
         raise InputError(str(run.path), what) from error
 
 
