@@ -15,6 +15,8 @@ from typing import Any
 from executive.shell import leave_stopping_to_the_parent
 
 Row = dict[str, Any]
+TRIALS = 100
+"""After so many a process is replaced: what rerun keeps of each recording adds up."""
 
 
 def measure(
@@ -38,7 +40,8 @@ def measure(
     left = [trial for trial in wanted if trial not in done]
     began = time.monotonic()
     try:
-        with get_context("spawn").Pool(workers, leave_stopping_to_the_parent) as pool:
+        pool_of = get_context("spawn").Pool
+        with pool_of(workers, leave_stopping_to_the_parent, maxtasksperchild=TRIALS) as pool:
             ended = pool.imap_unordered(partial(_try, run), left)
             for number, (trial, result) in enumerate(ended, start=1):
                 done[trial] = result
