@@ -6,6 +6,7 @@ import json
 import random
 import signal
 import threading
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -36,6 +37,8 @@ LONGEST_S = 60.0
 """Wall time after which a mission counts as one that does not end."""
 MOST_ACTIONS = 400
 """No mission does more than this; each has a deadline, so that gives the longest mission."""
+LEAVING_S = 3.0
+"""How long threads may take to end after the session."""
 MOST_MISSIONS = 4
 INSTANT = ("moved", "blocked", "slip", "drop", "stuck", "blind", "noise", "miss")
 """Faults of the instant world that leave the truth to be told."""
@@ -135,8 +138,11 @@ class Soak:
             yield from (f"afterwards: {line}" for line in self._all_is_well_again())
         finally:
             self._session.close()
-        if threading.active_count() > threads + 1:
-            yield f"{threading.active_count() - threads} threads are left"
+        latest = time.monotonic() + LEAVING_S
+        while (left := threading.active_count() - threads) > 1 and time.monotonic() < latest:
+            time.sleep(0.05)
+        if left > 1:
+            yield f"{left} threads are left"
 
     def _build(self) -> None:
         chaos, inbox = self._chaos, self._inbox
@@ -238,6 +244,9 @@ class Soak:
         yield from self._body_at_rest()
         if self._inbox._open:
             yield f"requests {sorted(self._inbox._open)} are still open"
+        yield from self._unheard()
+
+    def _unheard(self) -> Iterator[str]:
         if any(isinstance(event, StopRequested) for event in self._inbox.take_all()):
             yield "a stop was not heard"
 

@@ -66,6 +66,11 @@ class PhysicsSoak(Soak):
         if not any(fault.startswith(("crate", "blocked")) for fault in self._settings.fault):
             yield from super()._all_is_well_again()
 
+    def _unheard(self) -> Iterator[str]:
+        """A stop may come when the mission has just ended: there was nothing to stop."""
+        self._inbox.take_all()
+        return iter(())
+
     def _body_at_rest(self) -> Iterator[str]:
         world = self._session.world
         assert isinstance(world, PhysicsWorld)
