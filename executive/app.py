@@ -147,6 +147,8 @@ class Session:
         began = time.monotonic()
         self.stopped_by, self.folder = "", None
         if why := too_long(words):
+            stops = (e.by for e in self.inbox.take_all() if isinstance(e, StopRequested))
+            self.stopped_by = next(stops, "")  # there is nothing to stop
             return refused(why)
         words = one_line(writable(words))
         started = datetime.now(UTC)

@@ -261,3 +261,10 @@ def test_what_was_let_go_of_too_late_is_said_to_be_out_of_the_hand(house: House)
         "the mug is not in my hand any more"
     )
     assert hand_is_known(house)
+
+
+def test_a_stop_before_words_that_are_too_long_does_not_stop_the_next_mission(house: House) -> None:
+    house.inbox.post(StopRequested("SIGTERM"))
+    assert house.session.run("x" * 3000).status == Status.NOT_UNDERSTOOD
+    assert house.session.stopped_by == "SIGTERM"
+    assert house.session.run("Find the mug").status == Status.DONE
