@@ -345,7 +345,8 @@ def test_a_replay_opens_nothing_that_the_recorded_settings_name(
     touched.clear()
     replay(run)
     assert touched
-    assert not [entry for entry in touched if str(bait) in entry or "open" not in entry]
+    others = [entry for entry in touched if not entry.endswith("sim/homes',)")]  # the packaged ones
+    assert not [entry for entry in others if str(bait) in entry or "open" not in entry]
 
 
 @pytest.mark.parametrize("config", [b"\xff", b"a = [", b"a = " + b"[" * 10_000, b"a = 1"])
