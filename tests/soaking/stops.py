@@ -40,6 +40,7 @@ class Stopped:
 
 def stop_once(seed: int) -> Stopped:
     """Start a mission in PyBullet, stop it, and look at what it leaves."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)  # where it is ignored, the program ignores it, too
     chance = random.Random(seed)
     way, stopped = chance.choice(WAYS), Stopped()
     words = chance.choice(("Bring a sugar_box", "Take the mug", "Find the hammer"))
