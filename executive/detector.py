@@ -59,7 +59,13 @@ class Found:
 class OnnxDetector:
     """Implements Detector."""
 
-    def __init__(self, path: Path, objects_named: Callable[[str], Sequence[str]]) -> None:
+    def __init__(
+        self,
+        path: Path,
+        objects_named: Callable[[str], Sequence[str]],
+        *,
+        threads: int | None = None,
+    ) -> None:
         """Load the network and its class list.
 
         The class list is in FILE.names or FILE.txt beside FILE.onnx, a name a line, or in the
@@ -68,10 +74,13 @@ class OnnxDetector:
         Args:
             path: the ONNX file.
             objects_named: what the ontology calls a class of the list, if it knows it.
+            threads: of OpenCV in this process; None: as many as it likes.
 
         Raises:
             InputError: if the file or its class list is not what it should be.
         """
+        if threads is not None:
+            cv2.setNumThreads(threads)
         about = read_onnx(path)
         self._path = path
         self._names = class_list(path, about.metadata)

@@ -21,7 +21,6 @@ from itertools import islice
 from multiprocessing import get_context
 from pathlib import Path
 
-import cv2
 import numpy as np
 
 from executive.detector import LEARNED, LEAST_CONFIDENCE, Found, OnnxDetector
@@ -114,8 +113,7 @@ def _judge_seed(job: tuple[Path, int]) -> Judgement:
 @cache
 def _detector(path: Path) -> OnnxDetector:
     """The detector of this process, which shares the cores with others."""
-    cv2.setNumThreads(1)
-    return OnnxDetector(path, lambda name: (name,))
+    return OnnxDetector(path, lambda name: (name,), threads=1)
 
 
 @cache
