@@ -40,7 +40,7 @@ from executive.usage import Parser
 from executive.user import STOPPING, Console
 
 if TYPE_CHECKING:
-    from executive.app import Session
+    from executive.app.session import Session
 
 EXIT = {
     Status.DONE: DONE,
@@ -89,7 +89,7 @@ def serve(
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
     user = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
-    from executive.app import Session  # heavy: not for --help or a wrong option
+    from executive.app.session import Session  # heavy: not for --help or a wrong option
 
     session = Session(settings, inbox=inbox, user=user, view=view, gui=gui)
     stop_on_signals(inbox)
@@ -110,7 +110,7 @@ def serve(
 def conclude(outcome: Outcome, as_json: bool) -> int:
     """Print the outcome, and turn it into an exit code."""
     if as_json:
-        from executive.runs import to_json
+        from executive.app.run_folder import to_json
 
         print(to_json(outcome), flush=True)
     else:

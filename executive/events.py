@@ -13,7 +13,7 @@ from functools import partial
 from typing import Any, TypeVar
 
 from executive.computing import Computation, Worker
-from executive.control import control
+from executive.language.control import control
 from executive.text import writable
 from executive.types import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
 

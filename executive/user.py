@@ -10,8 +10,8 @@ from contextlib import suppress
 from io import TextIOWrapper, UnsupportedOperation
 from typing import TextIO
 
-from executive.control import Control, control
 from executive.events import THE_PERSON, Inbox, StopRequested
+from executive.language.control import Control, control
 from executive.text import LONGEST, one_line, printable, too_long, writable
 from executive.types import Answered, Failed, Question, QuestionKind
 

@@ -7,7 +7,7 @@ from itertools import islice
 from rdflib import RDFS, BNode, Literal, URIRef
 from rdflib.term import Identifier
 
-from executive.control import control
+from executive.language.control import control
 from executive.text import printable
 from kb.dangling import dangling
 from kb.graph import STANDARDS, Graph

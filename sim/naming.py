@@ -5,7 +5,7 @@ import unicodedata
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
-from executive.control import control
+from executive.language.control import control
 from executive.types import DELIVERY, FLOOR
 
 LONGEST = 64

@@ -8,13 +8,13 @@ from typing import Any
 import hypothesis
 import pytest
 
+from executive.app.parts import near_person
 from executive.clock import SimulatedClock
-from executive.command import EnglishInterpreter
-from executive.composition import near_person
 from executive.events import Event, Inbox, Started
 from executive.interfaces import Detector, Facts, User
+from executive.language.grammar import EnglishInterpreter
 from executive.loop import Executive
-from executive.perception import Eyes
+from executive.perception.pipeline import Eyes
 from executive.records import Record, Tick, Verified
 from executive.situation import Situation
 from executive.types import Goal, Outcome
@@ -177,4 +177,4 @@ def places() -> tuple[str, ...]:
 @pytest.fixture
 def no_plots(monkeypatch: pytest.MonkeyPatch) -> None:
     """Reports without their plots, which take seconds to draw."""
-    monkeypatch.setattr("executive.experiment._plots", lambda found: iter(()))
+    monkeypatch.setattr("executive.campaign.report.report._plots", lambda found: iter(()))

@@ -9,8 +9,8 @@ import pytest
 from test_cut_short import House
 
 from executive.__main__ import converse
-from executive.control import Control, control
 from executive.events import THE_PERSON, StopRequested
+from executive.language.control import Control, control
 from executive.types import DriveTo, Failed, Goal, Halt, Outcome, Pick, PutDown, Status, Succeeded
 
 
@@ -141,7 +141,7 @@ def test_what_fails_before_anything_began_has_an_outcome_too(
     def fail(**parts: object) -> None:
         raise error
 
-    monkeypatch.setattr("executive.app.build_team", lambda *a, **k: fail())
+    monkeypatch.setattr("executive.app.session.build_team", lambda *a, **k: fail())
     if isinstance(error, Exception):
         assert house.session.run("Find the mug").status == Status.NOT_DONE
     else:

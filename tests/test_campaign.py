@@ -14,13 +14,14 @@ from pathlib import Path
 
 import pytest
 
-from executive import households
-from executive.app import Session
-from executive.campaign import Campaign, Progress, clock, main, parser
+from executive.app.session import Session
+from executive.campaign import blocks
+from executive.campaign.__main__ import main, parser
+from executive.campaign.campaign import Campaign, Progress, clock
+from executive.campaign.journal import Journal, Row, in_order, read_table
+from executive.campaign.policies import POLICIES
 from executive.config import KnowledgeSystem, load_settings
 from executive.events import Inbox
-from executive.journal import Journal, Row, in_order, read_table
-from executive.policies import POLICIES
 from executive.types import Outcome
 from kb.scripted import Scripted
 from sim.generation import generate_home
@@ -201,7 +202,7 @@ def test_a_signal_to_all_ends_the_workers_and_keeps_their_missions(
 def test_every_system_gets_the_commands_in_the_same_order() -> None:
     orders = {
         (h.settings.seed, h.commands)
-        for h in households.grid([load_settings()], ["ours"], list(KnowledgeSystem), COMMANDS, 20)
+        for h in blocks.grid([load_settings()], ["ours"], list(KnowledgeSystem), COMMANDS, 20)
     }
     assert len(orders) == 20
     assert len({order for _, order in orders}) > 1
@@ -209,7 +210,7 @@ def test_every_system_gets_the_commands_in_the_same_order() -> None:
 
 def household_that_writes(
     monkeypatch: pytest.MonkeyPatch, system: str
-) -> tuple[households.Household, list[Scripted]]:
+) -> tuple[blocks.Household, list[Scripted]]:
     models: list[Scripted] = []
 
     def build(settings: object, inbox: Inbox) -> Scripted:
@@ -219,11 +220,11 @@ def household_that_writes(
         return models[0]
 
     ours = replace(POLICIES["ours"], model=build)
-    monkeypatch.setattr(households, "POLICIES", {**POLICIES, "ours": ours})
+    monkeypatch.setattr(blocks, "POLICIES", {**POLICIES, "ours": ours})
     settings = load_settings(
         world="fake", user="oracle", knowledge=system, defaults=False, elicit="generate"
     )
-    return households.Household(settings, COMMANDS), models
+    return blocks.Household(settings, COMMANDS), models
 
 
 def prompts(models: Iterable[Scripted]) -> list[int]:
@@ -235,7 +236,7 @@ def test_the_dialogue_spans_the_commands_only_with_a_memory(
     monkeypatch: pytest.MonkeyPatch, system: str, lengths: int
 ) -> None:
     household, models = household_that_writes(monkeypatch, system)
-    entries = list(households.run(household))
+    entries = list(blocks.run(household))
     assert [entry.row.visited for entry in entries] == [
         "dining_table",
         "shelf_lobby",
@@ -248,10 +249,10 @@ def test_a_resumed_household_remembers_what_was_said_before(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     household, models = household_that_writes(monkeypatch, "okb+llm+mem")
-    whole = list(households.run(household))
+    whole = list(blocks.run(household))
     said = models[0].requests[1].messages
     household, models = household_that_writes(monkeypatch, "okb+llm+mem")
-    next(households.run(household, whole[:1]))
+    next(blocks.run(household, whole[:1]))
     assert models[0].requests[0].messages == said
 
 

@@ -12,13 +12,15 @@ from typing import Any
 
 import pytest
 
-from executive import appending, households, paper
-from executive.appending import append_line, cut_half_line
-from executive.campaign import as_in_paper, main, read_commands
-from executive.claim import lock_folder
+from executive.campaign import appending, blocks
+from executive.campaign.__main__ import main
+from executive.campaign.appending import append_line, cut_half_line
+from executive.campaign.campaign import as_in_paper, read_commands
+from executive.campaign.claim import lock_folder
+from executive.campaign.journal import Entry, Journal, Row, write_tables
+from executive.campaign.report import paper
 from executive.config import load_settings
 from executive.errors import InputError
-from executive.journal import Entry, Journal, Row, write_tables
 
 pytestmark = pytest.mark.usefixtures("no_plots")
 
@@ -186,7 +188,8 @@ def test_a_second_campaign_in_a_folder_is_refused(
 
 def test_a_lock_ends_with_its_process_even_if_that_is_killed(tmp_path: Path) -> None:
     program = (
-        "import sys, time; from pathlib import Path; from executive.claim import lock_folder; "
+        "import sys, time; from pathlib import Path; "
+        "from executive.campaign.claim import lock_folder; "
         "lock = lock_folder(Path(sys.argv[1]), '--out'); print('locked', flush=True); "
         "time.sleep(60)"
     )
@@ -208,7 +211,7 @@ def test_a_campaign_that_cannot_write_its_tables_says_so(
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr("executive.campaign.write_tables", full)
+    monkeypatch.setattr("executive.campaign.campaign.write_tables", full)
     assert main([*options, "--systems", "okb"]) == 2
     assert "the tables cannot be written: No space left on device" in capsys.readouterr().err
     monkeypatch.undo()
@@ -264,15 +267,15 @@ def test_missions_without_a_working_model_are_no_results_and_are_run_again(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    row_of = households._row
+    row_of = blocks._row
 
-    def without_a_model(turn: int, key: households.Key, *more: object) -> Row:
+    def without_a_model(turn: int, key: blocks.Key, *more: object) -> Row:
         return replace(row_of(turn, key, *more), model_failure="HTTP 429 Too Many Requests")
 
     grid = [*options, "--policy", "nearest", "--systems", "okb", "okb+llm"]
     with monkeypatch.context() as patch:
         patch.setattr(
-            households,
+            blocks,
             "_row",
             lambda turn, key, *more: (
                 without_a_model(turn, key, *more)

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from llama_server import llama_server
 
-from executive.campaign import main
-from executive.journal import Entry, Journal, Row
+from executive.campaign.__main__ import main
+from executive.campaign.journal import Entry, Journal, Row
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.usefixtures("no_plots")
@@ -97,7 +97,7 @@ def test_the_workers_of_a_cluster_share_one_server_of_the_language_model(
 def test_an_address_without_a_scheduler_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("executive.cluster.CONNECTING_S", 1)
+    monkeypatch.setattr("executive.campaign.cluster.CONNECTING_S", 1)
     options = ["--llm", "none", "--seeds", "1", "--out", str(tmp_path / "out")]
     assert main([*options, "--cluster", "tcp://127.0.0.1:9"]) == 2
     assert "dask scheduler" in capsys.readouterr().err

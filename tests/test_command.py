@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.command import EnglishInterpreter
+from executive.language.grammar import EnglishInterpreter
 from executive.types import Kind
 
 read = EnglishInterpreter()

@@ -227,7 +227,7 @@ def test_without_standard_input_nobody_is_there(monkeypatch: pytest.MonkeyPatch)
 
 
 def run(words: str) -> Outcome:
-    from executive.app import Session
+    from executive.app.session import Session
 
     settings = Settings(world="fake", llm="none", user="none")
     session = Session(settings, recorded=False, out=io.StringIO())

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.command import _VERBS, EnglishInterpreter
-from executive.control import Control, control
 from executive.events import THE_PERSON, Ended, Inbox, StopRequested
+from executive.language.control import Control, control
+from executive.language.grammar import _VERBS, EnglishInterpreter
 from executive.text import LONGEST, one_line, printable, too_long
 from executive.types import Answered
 

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Broke, Event, Inbox, StopRequested
-from executive.replay import replay
+from executive.replay.replay import replay
 from executive.types import DriveTo, Failed, Goal, Halt, Outcome, Status
 from logs.reader import Run
 from sim.fake import FakeWorld

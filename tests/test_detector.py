@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from onnx import TensorProto, helper, numpy_helper
 
 from executive.config import load_settings
-from executive.detector import LEARNED, OnnxDetector, letterbox
 from executive.errors import InputError
+from executive.perception.detector import LEARNED, OnnxDetector, letterbox
 from executive.types import Frame, Intrinsics, Pose
 
 NAMES = ("apple", "mug")

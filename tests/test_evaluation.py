@@ -6,9 +6,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from executive.evaluation import Judgement, draw_confusion, main, report
-from executive.metrics import Judged
+from sim.learning.evaluation import Judgement, draw_confusion, main, report
 from sim.learning.frames import class_names
+from sim.learning.metrics import Judged
 
 
 def perfect(classes: int) -> Judgement:

@@ -8,10 +8,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from executive import paper
-from executive.document import Figure, Heading, Link, Table, to_html, to_markdown
-from executive.experiment import report, write_report
-from executive.journal import Row, read_table
+from executive.campaign.journal import Row, read_table
+from executive.campaign.report import paper
+from executive.campaign.report.document import Figure, Heading, Link, Table, to_html, to_markdown
+from executive.campaign.report.report import report, write_report
 
 DOCS = Path(__file__).parents[1] / "docs"
 

@@ -15,7 +15,7 @@ from conftest import Run, four_rooms, run_mission
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.composition import furniture_at
+from executive.app.parts import furniture_at
 from executive.errors import InputError
 from executive.types import DriveTo, LookAt, Pick, PutDown, Source, Status
 from kb.__main__ import main

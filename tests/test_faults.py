@@ -9,7 +9,7 @@ from conftest import Notebook, four_rooms
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.errors import InputError
 from executive.events import Inbox

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import HandFelt, Inbox, StopRequested
-from executive.replay import replay
+from executive.replay.replay import replay
 from executive.situation import Situation
 from executive.types import SOMETHING, Failed, Goal, Outcome, Pick, PutDown, Result, Status
 from logs.reader import Run

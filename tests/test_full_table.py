@@ -5,7 +5,7 @@ import io
 import pytest
 from conftest import Notebook, four_rooms
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import DriveTo, Failed, Goal, PutDown, Result, Status, Succeeded

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
-from executive.replay import replay
+from executive.replay.replay import replay
 from executive.types import Status
 
 

@@ -9,14 +9,14 @@ import pytest
 from rerun.chunk import RrdReader
 from rerun.error_utils import RerunWarning
 
-from executive.replay import replay
+from executive.replay.replay import replay
 from logs.reader import Run
 from logs.recovery import recover
 
 SLOW_MISSION = r"""
 import io, os, sys, time
 from pathlib import Path
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import Settings
 from executive.records import EventTaken, Tick
 session = Session(

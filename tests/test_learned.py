@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from conftest import Notebook
 
-from executive.detector import LEARNED, OnnxDetector
 from executive.events import Inbox
-from executive.perception import locate
+from executive.perception.detector import LEARNED, OnnxDetector
+from executive.perception.pipeline import locate
 from executive.types import Detection, DriveTo, Frame, Goal, LookAt, Succeeded
 from sim.home import load_home
 from sim.learning.frames import class_names

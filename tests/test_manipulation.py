@@ -7,7 +7,7 @@ from contracts.robot import Bench
 from scipy.spatial.transform import Rotation
 
 from executive.events import Inbox
-from executive.perception import locate as locate_pixels
+from executive.perception.pipeline import locate as locate_pixels
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
 from sim.clutter import CELL_M, Column
 from sim.grasps import WIDEST, HandPose, find_grasps, varied

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.metrics import Judged, average_precision, by_class, confusion, match, overlaps
+from sim.learning.metrics import Judged, average_precision, by_class, confusion, match, overlaps
 
 CLASSES = 3
 coordinates = st.integers(0, 60)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from conftest import Notebook
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import KnowledgeSystem, load_settings
 from executive.events import StopRequested
 from executive.records import Tick, Transforms

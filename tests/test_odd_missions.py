@@ -11,7 +11,7 @@ from mcap.reader import make_reader
 from odd_server import Handler, answer, refuses, serving, streams, word
 
 from executive.__main__ import main, parser
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.errors import InputError
 from executive.types import Outcome, Status

@@ -202,7 +202,7 @@ def test_what_is_put_off_is_done_by_the_thread_that_ticks_in_its_order(inbox: In
 
 HANGING = """
 import io, threading
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Inbox, StopRequested
 

@@ -12,7 +12,7 @@ from contracts.robot import Bench
 
 from executive.clock import SimulatedClock
 from executive.events import Inbox
-from executive.perception import locate
+from executive.perception.pipeline import locate
 from executive.records import Mishap, Path, Scene, Transforms
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, PutDown, Succeeded
 from sim.faults import parse_faults

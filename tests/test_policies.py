@@ -7,12 +7,12 @@ from dataclasses import replace
 import pytest
 from conftest import four_rooms
 
-from executive import households
+from executive.campaign import blocks
+from executive.campaign.journal import Row
+from executive.campaign.policies import POLICIES, Reworded, any_names, no_home, popular
+from executive.campaign.routes import Routes
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
-from executive.journal import Row
-from executive.policies import POLICIES, Reworded, any_names, no_home, popular
-from executive.routes import Routes
 from executive.types import ChatRequest
 from kb.scripted import Scripted
 
@@ -22,8 +22,8 @@ Reword = Callable[[ChatRequest], ChatRequest]
 
 def missions(policy: str, *commands: str, **settings: object) -> list[Row]:
     given = {"world": "fake", "user": "oracle", "knowledge": LLM, "defaults": False, "llm": "none"}
-    household = households.Household(load_settings(**{**given, **settings}), commands, policy)
-    return [entry.row for entry in households.run(household)]
+    household = blocks.Household(load_settings(**{**given, **settings}), commands, policy)
+    return [entry.row for entry in blocks.run(household)]
 
 
 def with_replies(
@@ -37,7 +37,7 @@ def with_replies(
         return Reworded(made[0], reword)
 
     changed = {**POLICIES, policy: replace(POLICIES[policy], model=model)}
-    monkeypatch.setattr(households, "POLICIES", changed)
+    monkeypatch.setattr(blocks, "POLICIES", changed)
     return made
 
 
@@ -121,7 +121,7 @@ def test_all_time_of_a_mission_goes_into_something_that_has_a_name() -> None:
 
 def test_policies_of_a_writing_model_differ_in_what_it_is_held_to() -> None:
     used = {
-        name: households.Household(load_settings(), (), name).settings_used
+        name: blocks.Household(load_settings(), (), name).settings_used
         for name in ("rank", "generate", "generate-grammar")
     }
     assert [(s.elicitation, s.grammar) for s in used.values()] == [
@@ -133,7 +133,7 @@ def test_policies_of_a_writing_model_differ_in_what_it_is_held_to() -> None:
 
 def test_okb_runs_once_whatever_policies_and_models_there_are() -> None:
     models = [load_settings(llm=llm) for llm in ("embedded", "http://localhost:1/v1")]
-    found = households.grid(
+    found = blocks.grid(
         models, ["ours", "nearest"], list(KnowledgeSystem), ("Find a mug.",), seeds=2
     )
     keys = [key for household in found for key in household.keys]

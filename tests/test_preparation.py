@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from conftest import ontology
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Message, RankRequest, Replied, Scored, Usage

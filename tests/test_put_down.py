@@ -9,13 +9,13 @@ from conftest import four_rooms
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.app import Session
-from executive.command import EnglishInterpreter
-from executive.composition import near_person
+from executive.app.parts import near_person
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Inbox
-from executive.put_down import HELD, to_put_down
-from executive.replay import replay
+from executive.language.grammar import EnglishInterpreter
+from executive.language.put_down import HELD, to_put_down
+from executive.replay.replay import replay
 from executive.types import DELIVERY, SOMETHING, DriveTo, Goal, Kind, PutDown, Status
 from executive.user import Scripted
 from sim.fake import FakeWorld

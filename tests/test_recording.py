@@ -10,7 +10,7 @@ from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 from rerun.chunk import RrdReader
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.types import Outcome
 

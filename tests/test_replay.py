@@ -12,12 +12,12 @@ from py_trees.common import Status as NodeStatus
 from sample_mission import STARTED, mission
 from test_outcomes import CASES, Case, favouring
 
-import executive.replay
-from executive.app import Session
+import executive.replay.replay
+from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
-from executive.replay import replay
+from executive.replay.replay import replay
 from executive.types import DriveTo, Goal, Kind, LookAt, Pick, PutDown, Status
 from executive.user import Console, Scripted
 from kb import ontology
@@ -222,7 +222,7 @@ def test_a_mission_replays_with_the_ontology_of_its_day(
     today = tmp_path / "defaults.owl"
     today.write_bytes(ontology.DEFAULTS.read_bytes().replace(b"shelf_lobby", b"desk"))
     monkeypatch.setattr(ontology, "DEFAULTS", today)
-    executive.replay._ontology.cache_clear()
+    executive.replay.replay._ontology.cache_clear()
     assert replay(run).parting is None
 
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from executive import households
-from executive.app import Session
+from executive.app.session import Session
+from executive.campaign import blocks
+from executive.campaign.policies import POLICIES
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
-from executive.policies import POLICIES
-from executive.replay import replay
+from executive.replay.replay import replay
 from executive.types import Box, Detection, Goal, LookAt, Pick, Saw, Status
 from kb.prompts import TEXTS
 from kb.scripted import Scripted as ScriptedModel
@@ -77,10 +77,10 @@ def test_what_was_seen_on_furniture_behind_a_place_is_remembered_there(tmp_path:
 @pytest.mark.parametrize("policy", ["nearest", "random", "true-first", "always-asks"])
 def test_a_mission_of_any_policy_replays(policy: str, tmp_path: Path) -> None:
     given = {**OKB, "knowledge": KnowledgeSystem.OKB_LLM, "defaults": False, "runs": tmp_path}
-    household = households.Household(
+    household = blocks.Household(
         load_settings(**given), ("Take a mug.", "Find the hammer"), policy, recorded=True
     )
-    for entry in households.run(household):
+    for entry in blocks.run(household):
         run = Path(entry.row.run_dir)
         assert Run(run).metadata["policy"] == policy
         assert replay(run).parting is None

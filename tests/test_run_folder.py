@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from executive.app.run_folder import new_folder, write
 from executive.errors import InputError
-from executive.runs import new_folder, write
 
 NOW = datetime(2026, 11, 25, 12, tzinfo=UTC)
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from executive.perception import locate
-from executive.segmentation import segment
+from executive.perception.pipeline import locate
+from executive.perception.segmentation import segment
 from executive.types import Box, Detection, Frame, Intrinsics, Pose
 
 LENS = Intrinsics(width=160, height=120, fx=150.0, fy=150.0, cx=79.5, cy=59.5)

@@ -10,7 +10,7 @@ import httpx2
 import pytest
 from llama_server import ALIAS, llama_server
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, Replied, Result, Status

@@ -2,7 +2,7 @@
 
 import pytest
 
-from executive.statistics import holm, pairwise, signed_rank, stars, summarize
+from executive.campaign.report.statistics import holm, pairwise, signed_rank, stars, summarize
 
 
 def test_mean_and_sd_are_of_all_missions() -> None:

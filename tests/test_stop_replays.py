@@ -7,7 +7,7 @@ import pytest
 from test_replay import recorded
 
 from executive.events import Ended, Inbox
-from executive.replay import replay
+from executive.replay.replay import replay
 from executive.types import Result
 
 

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from onnx import TensorProto, helper
 from test_detector import APPLE, MUG, NAMES, SIZE, frame, known, v5, v8, write_model
 
-from executive import onnx_file, onnx_trial
-from executive.detector import OnnxDetector
 from executive.errors import InputError
-from executive.onnx_file import read_onnx
-from executive.yolo import Layout, layout_of, read
+from executive.perception import onnx_file, onnx_trial
+from executive.perception.detector import OnnxDetector
+from executive.perception.onnx_file import read_onnx
+from executive.perception.yolo import Layout, layout_of, read
 
 Change = Callable[[onnx.ModelProto], object]
 

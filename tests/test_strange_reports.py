@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from executive.document import Link, Table, to_html, to_markdown
-from executive.experiment import not_counted, report
-from executive.journal import Row
+from executive.campaign.journal import Row
+from executive.campaign.report.document import Link, Table, to_html, to_markdown
+from executive.campaign.report.report import not_counted, report
 
 pytestmark = pytest.mark.usefixtures("no_plots")
 

@@ -43,8 +43,8 @@ def test_a_refused_option_reaches_the_terminal_spelled_out(
 
 DOORS = {
     "executive.__main__": "",
-    "executive.campaign": "",
-    "executive.evaluation": "",
+    "executive.campaign.__main__": "",
+    "sim.learning.evaluation": "",
     "kb.__main__": "check",
     "logs.__main__": "why run",
     "sim.__main__": "check home",

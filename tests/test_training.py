@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from executive.detector import OnnxDetector
+from executive.perception.detector import OnnxDetector
 
 torch = pytest.importorskip("torch", reason="the train extra is not installed")
 

@@ -9,10 +9,10 @@ import pytest
 from conftest import four_rooms, run_mission
 
 import trees.robot
-from executive.journal import Row
-from executive.observed import ACTIVITIES
-from executive.routes import Routes
-from executive.truth import completed, shortest_m, whereabouts
+from executive.campaign.journal import Row
+from executive.campaign.observer import ACTIVITIES
+from executive.campaign.routes import Routes
+from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.types import Kind, Pick, PutDown
 from sim.navigation import OccupancyGrid, plan
 from trees.nodes import Action

@@ -9,7 +9,7 @@ from conftest import Run, run_mission
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import load_settings
 from executive.looks import Looks
 from executive.records import Utterance

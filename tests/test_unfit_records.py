@@ -142,7 +142,7 @@ def test_records_from_any_thread_at_any_time_break_nothing(tmp_path: Path) -> No
 FULL_DISK = """
 import io, resource, sys
 from pathlib import Path
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import Settings
 resource.setrlimit(resource.RLIMIT_FSIZE, (75_000, 75_000))
 settings = Settings(world="fake", knowledge="okb", user="oracle", runs=Path(sys.argv[1]))

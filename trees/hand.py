@@ -3,7 +3,7 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.put_down import HELD
+from executive.language.put_down import HELD
 from executive.types import DELIVERY, SOMETHING, Kind
 from trees.nodes import Step, fallback, sequence
 from trees.person import AskToPutDown, Report, full_hand, the

@@ -19,7 +19,7 @@ from scipy.stats import binomtest
 from executive.clock import SimulatedClock
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.perception import locate
+from executive.perception.pipeline import locate
 from executive.records import Record
 from executive.types import Detection, DriveTo, Failed, Goal, LookAt, Pick, PutDown, Result
 from sim.home import load_home

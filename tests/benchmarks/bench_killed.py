@@ -17,7 +17,7 @@ from pathlib import Path
 
 from rerun.chunk import RrdReader
 
-from executive.replay import replay
+from executive.replay.replay import replay
 from logs.reader import Run
 from logs.recovery import recover
 
@@ -25,7 +25,7 @@ LONGEST_S = 5.0
 MISSION = r"""
 import io, os, sys, time
 from pathlib import Path
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import Settings
 from executive.records import EventTaken, Tick, Transforms
 session = Session(

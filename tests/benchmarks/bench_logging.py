@@ -15,7 +15,7 @@ from pathlib import Path
 
 from mcap.reader import make_reader
 
-from executive import app
+from executive.app import session
 from executive.config import Settings
 from executive.records import Record
 from logs.recorder import Sink
@@ -26,7 +26,7 @@ COMMAND = "Bring a sugar_box"
 class RecordTimes:
     """Times a recorder's `record`, by the kind of record."""
 
-    def __init__(self, session: app.Session) -> None:
+    def __init__(self, session: session.Session) -> None:
         self.seconds: dict[str, list[float]] = defaultdict(list)
         self._record = session.recorder.record
         session.recorder.record = self.record  # type: ignore[method-assign]
@@ -44,14 +44,14 @@ def settings(runs: Path) -> Settings:
 
 def mission(runs: Path, *, logged: bool) -> tuple[float, dict[str, list[float]], Path]:
     """Wall time (s), time of each record by kind (s), and the run's folder."""
-    working = app.working
+    working = session.working
     if not logged:
-        app.working = lambda *makers: list[Sink]()
-    session = app.Session(settings(runs), out=io.StringIO())
-    watch = RecordTimes(session)
-    outcome = session.run(COMMAND)
-    session.close()
-    app.working = working
+        session.working = lambda *makers: list[Sink]()
+    ours = session.Session(settings(runs), out=io.StringIO())
+    watch = RecordTimes(ours)
+    outcome = ours.run(COMMAND)
+    ours.close()
+    session.working = working
     return outcome.wall_time_s, watch.seconds, Path(outcome.run_dir or "")
 
 

@@ -27,9 +27,9 @@ def whole_command(words: str, runs: Path) -> float:
 def parts(words: str, runs: Path) -> tuple[dict[str, float], float]:
     """Seconds of each part of a mission in this process, and its mission time."""
     import sim.camera
-    from executive.app import Session
+    from executive.app.session import Session
     from executive.config import load_settings
-    from executive.detector import OnnxDetector
+    from executive.perception.detector import OnnxDetector
 
     watch = Stopwatch()
     watch.around(sim.camera, "render", "rendering")

@@ -7,7 +7,7 @@ import time
 
 from executive.clock import SimulatedClock
 from executive.events import Inbox
-from executive.perception import locate
+from executive.perception.pipeline import locate
 from executive.records import Record
 from executive.types import DriveTo, Goal, LookAt, Pick, PutDown
 from sim.home import load_home

@@ -13,9 +13,9 @@ from pathlib import Path
 from stopwatch import Stopwatch
 
 import sim.camera
-from executive.app import Session
+from executive.app.run_folder import new_folder
+from executive.app.session import Session
 from executive.config import load_settings
-from executive.runs import new_folder
 from executive.types import DriveTo
 from sim.laser import Laser
 

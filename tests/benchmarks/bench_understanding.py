@@ -9,8 +9,8 @@ import argparse
 from collections import Counter
 from pathlib import Path
 
-from executive.command import EnglishInterpreter
 from executive.events import Ended, Inbox
+from executive.language.grammar import EnglishInterpreter
 from executive.types import Kind, Scored
 from kb.advisor import PlaceAdvisor
 from kb.llama import LlamaCpp, embedded_model

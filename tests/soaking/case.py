@@ -17,11 +17,11 @@ from typing import Any
 
 from mcap.reader import make_reader
 
-from executive.app import Session
+from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
-from executive.replay import replay, replay_text
+from executive.replay.replay import replay, replay_text
 from executive.text import printable
 from executive.types import FLOOR, Kind, Outcome, Status
 from logs.reader import Run

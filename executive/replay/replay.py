@@ -17,14 +17,14 @@ from typing import TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from executive.composition import OURS, Advise, Grounds, build_advisor, build_team
+from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_team
 from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import Tree
 from executive.loop import Executive
-from executive.recorded import Absent, RecordedTime
 from executive.records import Record, Tick, TreeShape
+from executive.replay.stand_ins import Absent, RecordedTime
 from executive.situation import Situation
 from executive.text import printable
 from executive.types import Place
@@ -210,7 +210,9 @@ def _advise(run: Run) -> Advise:
     name = run.metadata.get("policy", OURS)
     if name == OURS:
         return build_advisor
-    from executive.policies import POLICIES  # whose packages a replay of ours does not need
+    from executive.campaign.policies import (
+        POLICIES,  # whose packages a replay of ours does not need
+    )
 
     if name not in POLICIES:
         raise InputError(str(run.path), f"was made with the policy {name!r}, unknown here")

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
+from executive.campaign.routes import Routes
 from executive.interfaces import SimulatedHome
-from executive.routes import Routes
 from executive.types import DELIVERY, Kind, Outcome, Status
 from sim.home import PERSON, Home
 

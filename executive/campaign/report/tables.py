@@ -5,14 +5,21 @@ from os.path import relpath
 from pathlib import Path
 from statistics import fmean
 
-from executive import paper
+from executive.campaign.journal import Row
+from executive.campaign.report import paper
+from executive.campaign.report.document import Cell, Link, Table
+from executive.campaign.report.paper import Condition
+from executive.campaign.report.statistics import Comparison, Summary, compare, pairwise, stars
+from executive.campaign.report.variants import (
+    Column,
+    Variant,
+    by_command,
+    by_mission,
+    of,
+    summary_of,
+)
 from executive.config import KnowledgeSystem
-from executive.document import Cell, Link, Table
-from executive.journal import Row
-from executive.paper import Condition
-from executive.statistics import Comparison, Summary, compare, pairwise, stars
 from executive.types import Status
-from executive.variants import Column, Variant, by_command, by_mission, of, summary_of
 
 Lines = list[list[str]]
 

@@ -14,10 +14,10 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TextIO
 
+from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_team
+from executive.app.run_folder import new_folder, to_json, write
 from executive.clock import SimulatedClock
-from executive.composition import OURS, Advise, Grounds, build_advisor, build_team
 from executive.config import Settings
-from executive.control import control
 from executive.errors import InputError
 from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
 from executive.guards import GuardedModel, GuardedRecorder, GuardedRobot, in_words
@@ -31,10 +31,10 @@ from executive.interfaces import (
     SimulatedHome,
     User,
 )
+from executive.language.control import control
 from executive.loop import Executive, who_interrupts
-from executive.perception import Eyes
+from executive.perception.pipeline import Eyes
 from executive.records import EventTaken, Finished
-from executive.runs import new_folder, to_json, write
 from executive.situation import Situation
 from executive.text import one_line, too_long, writable
 from executive.types import Answered, Halt, Outcome, Status
@@ -382,7 +382,7 @@ def build_simulation(
         camera, detector = FakeCamera(instant), FakeDetector(instant)
         camera = FaultyCamera(camera, mishaps) if mishaps else camera
     else:
-        from executive.detector import LEARNED, OnnxDetector
+        from executive.perception.detector import LEARNED, OnnxDetector
         from sim.world import PhysicsWorld
 
         models = load_objects()

@@ -4,10 +4,10 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from statistics import fmean
 
+from executive.campaign.journal import Row
+from executive.campaign.report.paper import Condition
+from executive.campaign.report.statistics import Summary, grouped, summarize
 from executive.config import KnowledgeSystem
-from executive.journal import Row
-from executive.paper import Condition
-from executive.statistics import Summary, grouped, summarize
 from executive.types import Kind
 
 OKB = KnowledgeSystem.OKB

@@ -2,7 +2,7 @@
 
 import re
 
-from executive.put_down import to_put_down
+from executive.language.put_down import to_put_down
 from executive.text import LONGEST, one_line, too_long
 from executive.types import Command, Kind
 

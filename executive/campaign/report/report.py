@@ -4,10 +4,18 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from executive import paper, tables
-from executive.document import Heading, Part, Table, Text, to_html, to_markdown, write_pictures
-from executive.journal import CRASHED, Row
-from executive.variants import Variant, variants
+from executive.campaign.journal import CRASHED, Row
+from executive.campaign.report import paper, tables
+from executive.campaign.report.document import (
+    Heading,
+    Part,
+    Table,
+    Text,
+    to_html,
+    to_markdown,
+    write_pictures,
+)
+from executive.campaign.report.variants import Variant, variants
 
 PICTURES = "plots"
 """Folder of the plots, beside the report."""
@@ -115,7 +123,7 @@ COMPARED = (
 def _plots(found: Sequence[Variant]) -> Iterator[tuple[str, Sequence[Part]]]:
     """The figures by the section that they belong to; none without matplotlib."""
     try:
-        from executive import plots
+        from executive.campaign.report import plots
     except ImportError:
         return
     if found:

@@ -4,12 +4,12 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from executive.command import EnglishInterpreter
+from executive.app.rules import rules
 from executive.config import Settings
 from executive.events import Inbox
 from executive.guards import GuardedEyes, GuardedRecorder, GuardedRobot, GuardedUser
 from executive.interfaces import Advisor, Clock, Eyes, LanguageModel, Recorder, Robot, User
-from executive.rules import rules
+from executive.language.grammar import EnglishInterpreter
 from executive.situation import Situation
 from executive.types import DELIVERY, Vector3
 from kb.advisor import PlaceAdvisor

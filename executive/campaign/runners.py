@@ -11,10 +11,10 @@ from concurrent.futures.process import BrokenProcessPool
 from multiprocessing.synchronize import Event
 from typing import Protocol
 
-from executive import households
+from executive.campaign import blocks
+from executive.campaign.blocks import Household
+from executive.campaign.journal import Entry, Journal
 from executive.errors import ExecutiveError
-from executive.households import Household
-from executive.journal import Entry, Journal
 from executive.shell import leave_stopping_to_the_parent
 
 POLL_S = 0.5
@@ -46,7 +46,7 @@ class Here:
         """Run what is left."""
         before = journal.entries()
         for household in campaign:
-            for entry in households.run(household, own(household, before)):
+            for entry in blocks.run(household, own(household, before)):
                 journal.append(entry)
                 progress()
 
@@ -128,7 +128,7 @@ def work(household: Household, before: Sequence[Entry], journal: Journal) -> Non
     """Run a household until it ends or all shall stop."""
     if _stop and _stop.is_set():
         return
-    for entry in households.run(household, before):
+    for entry in blocks.run(household, before):
         journal.append(entry)
         if _stop and _stop.is_set():
             return

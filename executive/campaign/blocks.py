@@ -15,16 +15,16 @@ from math import dist
 from pathlib import Path
 from typing import Any
 
-from executive.app import Session
-from executive.composition import Grounds
+from executive.app.parts import Grounds
+from executive.app.session import Session
+from executive.campaign.journal import CRASHED, Entry, Key, Row
+from executive.campaign.observer import Observed
+from executive.campaign.policies import POLICIES
+from executive.campaign.routes import routes_in
+from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
 from executive.interfaces import Advisor
-from executive.journal import CRASHED, Entry, Key, Row
-from executive.observed import Observed
-from executive.policies import POLICIES
-from executive.routes import routes_in
-from executive.truth import completed, shortest_m, whereabouts
 from executive.types import ChatRequest, Message, Outcome
 
 

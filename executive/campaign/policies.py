@@ -13,12 +13,12 @@ from itertools import chain
 from types import MappingProxyType
 from typing import Any
 
-from executive.app import build_model
-from executive.composition import Advise, Grounds, build_advisor
+from executive.app.parts import Advise, Grounds, build_advisor
+from executive.app.session import build_model
+from executive.campaign.routes import routes_of
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
 from executive.interfaces import Advisor, LanguageModel
-from executive.routes import routes_of
 from executive.types import (
     ChatRequest,
     Failed,

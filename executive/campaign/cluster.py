@@ -15,11 +15,11 @@ from dataclasses import dataclass
 
 from distributed import Client, Future, KilledWorker, wait
 
-from executive import households
-from executive.engines import POLL_S, own
+from executive.campaign import blocks
+from executive.campaign.blocks import Household
+from executive.campaign.journal import Entry, Journal
+from executive.campaign.runners import POLL_S, own
 from executive.errors import ExecutiveError, InputError
-from executive.households import Household
-from executive.journal import Entry, Journal
 
 CONNECTING_S = 20
 
@@ -119,7 +119,7 @@ def _result(future: Future[Entry], turns: _Turns) -> Entry:
     except KilledWorker:
         assert turns.next is not None
         error = ExecutiveError("its worker process died, and so did those of other attempts")
-        return Entry(households.crash(turns.next, turns.household.keys[turns.next], error))
+        return Entry(blocks.crash(turns.next, turns.household.keys[turns.next], error))
     except CancelledError:
         raise ExecutiveError("the scheduler is lost; the same command goes on from here") from None
 
@@ -139,6 +139,6 @@ def next_mission(household: Household, before: Sequence[Entry]) -> Entry:
         if _missions is None or (household, len(before)) != (_household, _so_far):
             if _missions:
                 _missions.close()
-            _missions = households.run(household, before)
+            _missions = blocks.run(household, before)
         _household, _so_far = household, len(before) + 1
         return next(_missions)

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from executive.errors import InputError
 from executive.files import read_text
-from executive.onnx_file import read_onnx
-from executive.onnx_trial import network, pictures, run, try_out
-from executive.segmentation import segment
+from executive.perception.onnx_file import read_onnx
+from executive.perception.onnx_trial import network, pictures, run, try_out
+from executive.perception.segmentation import segment
+from executive.perception.yolo import Boxes, Floats, check_probabilities, layout_of, read
 from executive.text import printable
 from executive.types import Box, Detection, Frame
-from executive.yolo import Boxes, Floats, check_probabilities, layout_of, read
 
 log = logging.getLogger(__name__)
 

@@ -15,7 +15,7 @@ from typing import get_type_hints
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from executive.appending import append_line, cut_half_line
+from executive.campaign.appending import append_line, cut_half_line
 from executive.config import KnowledgeSystem
 from executive.errors import InputError
 from executive.text import writable
@@ -42,7 +42,7 @@ class Row:
     """How one mission of a campaign went; times in seconds. What is not known is 0 or empty."""
 
     policy: str
-    """Who says where to look, as `executive.policies` names it."""
+    """Who says where to look, as `executive.campaign.policies` names it."""
     home: str
     llm: str
     """The language model as the settings name it; `none` where none is asked."""
@@ -58,7 +58,7 @@ class Row:
     """done, not_done, not_understood, stopped, or crashed."""
     reason: str = ""
     completed: bool = False
-    """Done by the world's truth, as `executive.truth` has it; `status` is what the robot said."""
+    """Done by the world's truth, as `truth.py` has it; `status` is what the robot said."""
     truth: str = ""
     """Where the thing truly was when the mission ended: furniture, `hand`, or nowhere."""
     source: str = ""

@@ -15,13 +15,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.patches import Patch
 
-from executive import paper
+from executive.campaign.journal import Row
+from executive.campaign.report import paper
+from executive.campaign.report.document import Figure
+from executive.campaign.report.statistics import Summary, stars
+from executive.campaign.report.tables import ACTIVITIES, MEASURES, name, situation, system_tests
+from executive.campaign.report.variants import Variant, of, summary_of
 from executive.config import KnowledgeSystem
-from executive.document import Figure
-from executive.journal import Row
-from executive.statistics import Summary, stars
-from executive.tables import ACTIVITIES, MEASURES, name, situation, system_tests
-from executive.variants import Variant, of, summary_of
 
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7",

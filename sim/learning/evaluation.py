@@ -1,4 +1,4 @@
-"""How good a detector is in scenes that it never learned from: `python -m executive.evaluation`.
+"""How good a detector is in scenes that it never learned from: `python -m sim.learning.evaluation`.
 
 Renders scenes of seeds that training may not use, and prints a report in Markdown; `--picture`
 draws which things are taken for which. `--validation` takes other such scenes: those that choose
@@ -23,17 +23,17 @@ from pathlib import Path
 
 import numpy as np
 
-from executive.detector import LEARNED, LEAST_CONFIDENCE, Found, OnnxDetector
 from executive.errors import InputError
-from executive.metrics import ClassReport, Ints, Judged, by_class, confusion, match
-from executive.perception import locate
-from executive.segmentation import segment
+from executive.perception.detector import LEARNED, LEAST_CONFIDENCE, Found, OnnxDetector
+from executive.perception.pipeline import locate
+from executive.perception.segmentation import segment
 from executive.shell import DONE, entry_point
 from executive.terminal import show_over
 from executive.text import printable
 from executive.types import Box, Detection, Frame
 from executive.usage import Parser
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
+from sim.learning.metrics import ClassReport, Ints, Judged, by_class, confusion, match
 from sim.learning.scenes import Scene, SceneMaker
 from sim.objects import load_objects
 from sim.registration import locate as fit
@@ -212,7 +212,7 @@ def draw_confusion(table: Ints, names: Sequence[str]) -> str:
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Judge a detector."""
-    parser = Parser(prog="python -m executive.evaluation", description=__doc__)
+    parser = Parser(prog="python -m sim.learning.evaluation", description=__doc__)
     parser.add_argument("--detector", default="learned", help="learned (default), or a FILE.onnx")
     parser.add_argument("--scenes", type=int, default=500, metavar="N", help="default: 500")
     parser.add_argument("--validation", action="store_true", help="scenes to choose a network by")

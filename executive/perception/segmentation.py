@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from executive.perception import back_project_grid
+from executive.perception.pipeline import back_project_grid
 from executive.types import Box, Frame
 
 Floats = NDArray[np.float64]

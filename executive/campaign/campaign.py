@@ -1,9 +1,4 @@
-"""Many missions: `python -m executive.campaign` runs the paper's experiment and tabulates it."""
-
-from executive.start import begin
-
-if __name__ == "__main__":
-    begin()
+"""A grid of missions: which there are, which have ended, and the folder that keeps them."""
 
 import argparse
 import json
@@ -19,20 +14,19 @@ from pathlib import Path
 from types import FrameType
 from typing import TextIO
 
-from executive import households, paper
-from executive.app import PACKAGES
-from executive.claim import lock_folder
+from executive.app.session import PACKAGES
+from executive.campaign import blocks
+from executive.campaign.claim import lock_folder
+from executive.campaign.journal import CRASHED, Entry, Journal, in_order, write_tables
+from executive.campaign.report import paper
+from executive.campaign.report.report import not_counted, write_report
+from executive.campaign.runners import Engine, Here, Pool
 from executive.config import KnowledgeSystem, Settings, load_settings
-from executive.engines import Engine, Here, Pool
 from executive.errors import InputError
-from executive.experiment import not_counted, write_report
 from executive.files import read_text
-from executive.journal import CRASHED, Entry, Journal, in_order, write_tables
-from executive.policies import POLICIES
-from executive.shell import DONE, NOT_DONE, STOPPED, entry_point, on_stop_signals
+from executive.shell import DONE, NOT_DONE, STOPPED, on_stop_signals
 from executive.terminal import show_over
 from executive.text import printable
-from executive.usage import Parser
 
 OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
 """Settings that the campaign itself varies."""
@@ -40,12 +34,6 @@ SHOWN_EVERY_S = 0.5
 LONGEST_COMMAND = 1000
 MOST_MISSIONS = 1_000_000
 """Of one campaign."""
-
-
-@entry_point
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run what is left of a campaign, write its tables, return the exit code."""
-    return Campaign(parser().parse_args(arguments)).run()
 
 
 class Campaign:
@@ -65,7 +53,7 @@ class Campaign:
         most = options.seeds * len(commands) * len(settings) * len(self._policies)
         if most > MOST_MISSIONS:
             raise InputError("--seeds", f"more than {MOST_MISSIONS:,} missions", "give fewer")
-        self._households = households.grid(
+        self._households = blocks.grid(
             settings,
             self._policies,
             [KnowledgeSystem(name) for name in options.systems],
@@ -219,14 +207,14 @@ def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
         ("--home", {settings.home for settings in found}),
         ("--llm", {settings.llm for settings in found}),
     ):
-        if len(names) > len({households.short(name) for name in names}):
+        if len(names) > len({blocks.short(name) for name in names}):
             raise InputError(option, f"two of {', '.join(sorted(names))} are called the same")
     return found
 
 
 def at_any_folder(name_or_file: str) -> str:
     """A file as other processes find it, too; the name of anything else as it is."""
-    is_file = households.short(name_or_file) != name_or_file
+    is_file = blocks.short(name_or_file) != name_or_file
     return str(Path(name_or_file).resolve()) if is_file else name_or_file
 
 
@@ -237,7 +225,7 @@ def cluster(address: str) -> Engine:
         InputError: if Dask is not installed.
     """
     try:
-        from executive.cluster import Cluster
+        from executive.campaign.cluster import Cluster
     except ImportError:
         raise InputError(
             "--cluster", "Dask is not installed", "pip install 'robot-executive[campaign]'"
@@ -316,84 +304,3 @@ def read_commands(file: Path) -> tuple[str, ...]:
             right = f"up to {LONGEST_COMMAND} characters, all of them visible"
             raise InputError(f"--commands {file}", what, right)
     return commands
-
-
-def parser() -> argparse.ArgumentParser:
-    """The command line."""
-    p = Parser(
-        prog="python -m executive.campaign",
-        description="Run the paper's experiment with a simulated person, and tabulate it. "
-        "Stopped with Ctrl-C, the same command goes on.",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog="policies:\n"
-        + "".join(f"  {name:<17} {policy.description}\n" for name, policy in POLICIES.items())
-        + "\nexit: 0 all missions have ended, 1 some had no working model, 2 bad usage or input, "
-        "130 stopped",
-    )
-    setting = p.add_mutually_exclusive_group()
-    setting.add_argument(
-        "--ideal",
-        dest="setting",
-        action="store_const",
-        const="ideal",
-        help="instant world, recognition and action always succeed (default)",
-    )
-    setting.add_argument(
-        "--physics", dest="setting", action="store_const", const="physics", help="PyBullet"
-    )
-    p.set_defaults(setting="ideal")
-    p.add_argument("--seeds", type=_count, default=10, metavar="N", help="0 to N-1 (default: 10)")
-    p.add_argument(
-        "--systems",
-        nargs="+",
-        choices=[str(s) for s in KnowledgeSystem],
-        default=[str(s) for s in KnowledgeSystem],
-        help="which of the paper's systems (default: all)",
-    )
-    p.add_argument(
-        "--commands", type=Path, metavar="FILE", help="one a line (default: the paper's)"
-    )
-    p.add_argument("--out", type=Path, metavar="DIR", help="default: campaigns/ideal or /physics")
-    p.add_argument("--runs", type=Path, metavar="DIR", help="record each mission there")
-    workers = p.add_mutually_exclusive_group()
-    workers.add_argument(
-        "--workers", type=_count, default=1, metavar="N", help="processes (default: 1)"
-    )
-    workers.add_argument(
-        "--cluster", metavar="ADDRESS", help="of a Dask scheduler; its workers run the missions"
-    )
-    p.add_argument(
-        "--policy",
-        action="append",
-        choices=list(POLICIES),
-        metavar="NAME",
-        help="who says where to look; may be repeated (default: ours)",
-    )
-    p.add_argument("--home", action="append", metavar="NAME or FILE.toml", help="may be repeated")
-    p.add_argument(
-        "--llm",
-        action="append",
-        metavar="embedded, FILE.gguf, http://host:port/v1 or none",
-        help="may be repeated",
-    )
-    p.add_argument(
-        "--elicit",
-        choices=["generate", "rank"],
-        help="default: rank for the embedded model, else generate",
-    )
-    p.add_argument(
-        "--top", type=_count, metavar="N", help="places of a ranking worth a visit (default: 5)"
-    )
-    p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
-    return p
-
-
-def _count(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError("should be 1 or more")
-    return number
-
-
-if __name__ == "__main__":
-    sys.exit(main())

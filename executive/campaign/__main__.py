@@ -1,0 +1,104 @@
+"""Many missions: `python -m executive.campaign` runs the paper's experiment and tabulates it."""
+
+from executive.start import begin
+
+if __name__ == "__main__":
+    begin()
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from executive.campaign.campaign import Campaign
+from executive.campaign.policies import POLICIES
+from executive.config import KnowledgeSystem
+from executive.shell import entry_point
+from executive.usage import Parser
+
+
+@entry_point
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run what is left of a campaign, write its tables, return the exit code."""
+    return Campaign(parser().parse_args(arguments)).run()
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = Parser(
+        prog="python -m executive.campaign",
+        description="Run the paper's experiment with a simulated person, and tabulate it. "
+        "Stopped with Ctrl-C, the same command goes on.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="policies:\n"
+        + "".join(f"  {name:<17} {policy.description}\n" for name, policy in POLICIES.items())
+        + "\nexit: 0 all missions have ended, 1 some had no working model, 2 bad usage or input, "
+        "130 stopped",
+    )
+    setting = p.add_mutually_exclusive_group()
+    setting.add_argument(
+        "--ideal",
+        dest="setting",
+        action="store_const",
+        const="ideal",
+        help="instant world, recognition and action always succeed (default)",
+    )
+    setting.add_argument(
+        "--physics", dest="setting", action="store_const", const="physics", help="PyBullet"
+    )
+    p.set_defaults(setting="ideal")
+    p.add_argument("--seeds", type=_count, default=10, metavar="N", help="0 to N-1 (default: 10)")
+    p.add_argument(
+        "--systems",
+        nargs="+",
+        choices=[str(s) for s in KnowledgeSystem],
+        default=[str(s) for s in KnowledgeSystem],
+        help="which of the paper's systems (default: all)",
+    )
+    p.add_argument(
+        "--commands", type=Path, metavar="FILE", help="one a line (default: the paper's)"
+    )
+    p.add_argument("--out", type=Path, metavar="DIR", help="default: campaigns/ideal or /physics")
+    p.add_argument("--runs", type=Path, metavar="DIR", help="record each mission there")
+    workers = p.add_mutually_exclusive_group()
+    workers.add_argument(
+        "--workers", type=_count, default=1, metavar="N", help="processes (default: 1)"
+    )
+    workers.add_argument(
+        "--cluster", metavar="ADDRESS", help="of a Dask scheduler; its workers run the missions"
+    )
+    p.add_argument(
+        "--policy",
+        action="append",
+        choices=list(POLICIES),
+        metavar="NAME",
+        help="who says where to look; may be repeated (default: ours)",
+    )
+    p.add_argument("--home", action="append", metavar="NAME or FILE.toml", help="may be repeated")
+    p.add_argument(
+        "--llm",
+        action="append",
+        metavar="embedded, FILE.gguf, http://host:port/v1 or none",
+        help="may be repeated",
+    )
+    p.add_argument(
+        "--elicit",
+        choices=["generate", "rank"],
+        help="default: rank for the embedded model, else generate",
+    )
+    p.add_argument(
+        "--top", type=_count, metavar="N", help="places of a ranking worth a visit (default: 5)"
+    )
+    p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
+    return p
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError("should be 1 or more")
+    return number
+
+
+if __name__ == "__main__":
+    sys.exit(main())
