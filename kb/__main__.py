@@ -20,7 +20,7 @@ from executive.text import printable
 from executive.usage import Parser
 from kb.facts import FactStore
 from kb.ontology import Ontology
-from sim.home import load_home
+from sim.home.home import load_home
 
 
 def show(ontology: Ontology, words: str) -> int:

@@ -25,15 +25,15 @@ from executive.shell import DONE, entry_point
 from executive.text import printable
 from executive.types import Intrinsics, Pose
 from executive.usage import Parser
-from sim.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
-from sim.camera import render
-from sim.catalogue import contact_sheet
-from sim.checking import check_home
-from sim.client import connect
-from sim.generation import generate_home
-from sim.home import Home, load_home
-from sim.objects import ObjectModel, load_objects
-from sim.ycb import with_scans
+from sim.bullet.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
+from sim.bullet.camera import render
+from sim.bullet.client import connect
+from sim.home.home import Home, load_home
+from sim.objects.objects import ObjectModel, load_objects
+from sim.objects.ycb import with_scans
+from sim.tools.catalogue import contact_sheet
+from sim.tools.checking import check_home
+from sim.tools.generation import generate_home
 
 WIDTH, HEIGHT = 1280, 1080
 DISTANCE = 4.35

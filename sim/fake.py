@@ -32,7 +32,7 @@ from executive.types import (
     Result,
     Succeeded,
 )
-from sim.home import Home
+from sim.home.home import Home
 
 SPEED_M_S = 0.8
 """Nominal driving speed."""

@@ -19,16 +19,16 @@ from executive.types import (
     Succeeded,
     Vector3,
 )
-from sim.arm import hold
-from sim.driving import CARRYING, FREE, brake
-from sim.hand import LostError
-from sim.hardware import Hardware
-from sim.home import FLOOR_VIEWS, PERSON, Home
-from sim.looking import hold_head, look_at
-from sim.manipulation import Manipulator
-from sim.navigation import Unreachable
-from sim.navigator import Navigator
-from sim.skill import CannotError, Skill, Thinker, pause, wait_until
+from sim.body.arm import hold
+from sim.body.base import CARRYING, FREE, brake
+from sim.body.hardware import Hardware
+from sim.body.head import hold_head, look_at
+from sim.body.skill import CannotError, Skill, Thinker, pause, wait_until
+from sim.home.home import FLOOR_VIEWS, PERSON, Home
+from sim.manipulation.hand import LostError
+from sim.manipulation.manipulator import Manipulator
+from sim.navigation.grid import Unreachable
+from sim.navigation.navigator import Navigator
 
 log = logging.getLogger(__name__)
 

@@ -6,8 +6,8 @@ from pybullet_utils.bullet_client import BulletClient
 
 from executive.records import Transform
 from executive.types import Pose
-from sim.bodies import MAP, frame_pose
-from sim.hardware import Hardware
+from sim.body.hardware import Hardware
+from sim.bullet.bodies import MAP, frame_pose
 
 _MOVED = 1e-4
 """Smaller changes (metres, parts of the quaternion) do not count."""

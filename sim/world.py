@@ -11,24 +11,24 @@ from executive.events import Inbox
 from executive.interfaces import Camera, Recorder
 from executive.records import Picture, Scene, Transforms
 from executive.types import Pose
-from sim.bodies import build_home, frame_pose, home_entities, place_objects
-from sim.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
-from sim.client import aim_window, connect
-from sim.contacts import FreshContacts
-from sim.faulty_hardware import FaultyHardware
-from sim.hardware import Floats, Hardware
-from sim.home import Home
-from sim.laser import Laser
-from sim.manipulation import Manipulator
-from sim.mishaps import FaultyCamera, Mishaps
-from sim.model import describe_robot, robot_entities
-from sim.navigation import OccupancyGrid
-from sim.navigator import Navigator
-from sim.objects import ObjectModel
-from sim.planning import PlanningWorld
-from sim.poltergeist import Poltergeist
+from sim.body.description import describe_robot, robot_entities
+from sim.body.hardware import Floats, Hardware
+from sim.body.laser import Laser
+from sim.body.skill import CONTROL_S, Thinker
+from sim.bullet.bodies import build_home, frame_pose, home_entities, place_objects
+from sim.bullet.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
+from sim.bullet.client import aim_window, connect
+from sim.bullet.contacts import FreshContacts
+from sim.faults.hardware import FaultyHardware
+from sim.faults.injector import FaultyCamera, Mishaps
+from sim.faults.world import Poltergeist
+from sim.home.home import Home
+from sim.manipulation.manipulator import Manipulator
+from sim.manipulation.planning import PlanningWorld
+from sim.navigation.grid import OccupancyGrid
+from sim.navigation.navigator import Navigator
+from sim.objects.objects import ObjectModel
 from sim.robot import SimulatedRobot
-from sim.skill import CONTROL_S, Thinker
 from sim.transforms import FrameTree
 
 COARSE_STEPS, FINE_STEPS = 2, 4

@@ -23,10 +23,10 @@ from kb.advisor import PlaceAdvisor
 from kb.ontology import Ontology
 from kb.scripted import Scripted as ScriptedModel
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
-from sim.faults import parse_faults
-from sim.faulty_fake import FaultyFakeRobot
-from sim.home import Home, load_home
-from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
+from sim.faults.fake import FaultyFakeRobot
+from sim.faults.injector import FaultyCamera, FaultyDetector, Mishaps
+from sim.faults.orders import parse_faults
+from sim.home.home import Home, load_home
 from trees.mission import mission
 from trees.team import NoFacts, Rules, Team
 from trees.tree import MissionTree

@@ -10,11 +10,17 @@ from scipy.spatial.transform import Rotation
 from executive.perception.pipeline import locate, rays, transform
 from executive.types import Pose, Vector3
 from sim.__main__ import HEIGHT, WIDTH, main
-from sim.bodies import build_home, frame_pose, place_objects
-from sim.camera import GLANCING, KEPT_SEGMENTATIONS, SimulatedCamera, SimulatedDetector, render
-from sim.client import connect
-from sim.home import load_home
-from sim.objects import load_objects
+from sim.bullet.bodies import build_home, frame_pose, place_objects
+from sim.bullet.camera import (
+    GLANCING,
+    KEPT_SEGMENTATIONS,
+    SimulatedCamera,
+    SimulatedDetector,
+    render,
+)
+from sim.bullet.client import connect
+from sim.home.home import load_home
+from sim.objects.objects import load_objects
 
 pytestmark = pytest.mark.physics
 

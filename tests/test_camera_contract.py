@@ -8,9 +8,9 @@ from contracts.camera import CameraBench, CameraContract
 
 from executive.events import Inbox
 from sim.fake import FakeCamera, FakeWorld
-from sim.faults import parse_fault
-from sim.mishaps import FaultyCamera, Mishaps
-from sim.objects import load_objects
+from sim.faults.injector import FaultyCamera, Mishaps
+from sim.faults.orders import parse_fault
+from sim.objects.objects import load_objects
 
 START = four_rooms().robot_start[:2]
 

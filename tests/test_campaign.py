@@ -24,8 +24,8 @@ from executive.config import KnowledgeSystem, load_settings
 from executive.events import Inbox
 from executive.types import Outcome
 from kb.scripted import Scripted
-from sim.generation import generate_home
-from sim.home import home_text
+from sim.home.home import home_text
+from sim.tools.generation import generate_home
 
 pytestmark = pytest.mark.usefixtures("no_plots")
 

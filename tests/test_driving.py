@@ -13,12 +13,12 @@ from executive.clock import SimulatedClock
 from executive.events import Inbox
 from executive.records import Path, Shape, Transforms
 from executive.types import DriveTo, Failed, Pose, Succeeded
-from sim.bodies import create_body
-from sim.costmap import Costmap
-from sim.driving import BRAKING, CARRYING, FREE
-from sim.laser import RANGE_M, RAYS, Laser, Scan
-from sim.navigation import OccupancyGrid
-from sim.objects import load_objects
+from sim.body.base import BRAKING, CARRYING, FREE
+from sim.body.laser import RANGE_M, RAYS, Laser, Scan
+from sim.bullet.bodies import create_body
+from sim.navigation.costmap import Costmap
+from sim.navigation.grid import OccupancyGrid
+from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
 pytestmark = pytest.mark.physics

@@ -16,8 +16,8 @@ from executive.events import Inbox
 from executive.records import Mishap
 from executive.types import Frame
 from sim.fake import FakeCamera, FakeDetector, FakeWorld
-from sim.faults import FAULTS, Blind, Fault, Miss, Moved, Span, parse_fault, parse_faults
-from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
+from sim.faults.injector import FaultyCamera, FaultyDetector, Mishaps
+from sim.faults.orders import FAULTS, Blind, Fault, Miss, Moved, Span, parse_fault, parse_faults
 
 HOME = four_rooms()
 TIMES = st.sampled_from(["", "@0", "@12", "@3.5", "@5-60", "@0-0.5"])

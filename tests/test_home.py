@@ -4,9 +4,9 @@ from pathlib import Path
 import pytest
 
 from executive.errors import InputError
-from sim.bodies import home_entities
-from sim.home import DELIVERY, PERSON, STAND_OFF_M, Home, load_home
-from sim.objects import load_objects
+from sim.bullet.bodies import home_entities
+from sim.home.home import DELIVERY, PERSON, STAND_OFF_M, Home, load_home
+from sim.objects.objects import load_objects
 
 PAPER_COMMANDS = {
     "apple": "dining_table",

@@ -13,12 +13,12 @@ from executive.__main__ import main as executive
 from executive.types import Place
 from kb.ontology import Ontology
 from sim.__main__ import main
-from sim.checking import check_home, way_faults
-from sim.flaws import home_flaws
-from sim.furniture import FORM_OF_KIND
-from sim.generation import FURNITURE_OF_ROOM, generate_home
-from sim.home import Home, load_home
-from sim.objects import load_objects
+from sim.home.furniture import FORM_OF_KIND
+from sim.home.home import Home, load_home
+from sim.home.validation import home_flaws
+from sim.objects.objects import load_objects
+from sim.tools.checking import check_home, way_faults
+from sim.tools.generation import FURNITURE_OF_ROOM, generate_home
 
 
 @pytest.fixture

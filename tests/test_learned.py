@@ -10,10 +10,10 @@ from executive.events import Inbox
 from executive.perception.detector import LEARNED, OnnxDetector
 from executive.perception.pipeline import locate
 from executive.types import Detection, DriveTo, Frame, Goal, LookAt, Succeeded
-from sim.home import load_home
+from sim.home.home import load_home
 from sim.learning.frames import class_names
-from sim.objects import load_objects
-from sim.registration import locate as fit
+from sim.manipulation.registration import locate as fit
+from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
 pytestmark = pytest.mark.physics

@@ -11,7 +11,7 @@ from executive.errors import InputError
 from sim.learning import __main__ as door
 from sim.learning.frames import VALIDATION_SEED, class_names, make_shards, read_shard, shards
 from sim.learning.scenes import Scene, SceneMaker, Truth, extent
-from sim.objects import load_objects
+from sim.objects.objects import load_objects
 
 physics = pytest.mark.physics
 

@@ -9,16 +9,16 @@ from scipy.spatial.transform import Rotation
 from executive.events import Inbox
 from executive.perception.pipeline import locate as locate_pixels
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, Pose, PutDown, Succeeded
-from sim.clutter import CELL_M, Column
-from sim.grasps import WIDEST, HandPose, find_grasps, varied
-from sim.home import Home
-from sim.objects import load_objects
-from sim.placing import free_spots
-from sim.planning import PlanningWorld
-from sim.reaching import COMFORT
-from sim.registration import locate
-from sim.skill import CannotError, Skill
-from sim.solids import sample_surface, signed_distance
+from sim.body.skill import CannotError, Skill
+from sim.home.home import Home
+from sim.manipulation.clutter import CELL_M, Column
+from sim.manipulation.grasps import WIDEST, HandPose, find_grasps, varied
+from sim.manipulation.placing import free_spots
+from sim.manipulation.planning import PlanningWorld
+from sim.manipulation.reaching import COMFORT
+from sim.manipulation.registration import locate
+from sim.objects.objects import load_objects
+from sim.objects.solids import sample_surface, signed_distance
 from sim.world import PhysicsWorld
 
 pytestmark = pytest.mark.physics

@@ -4,8 +4,8 @@ from itertools import pairwise, permutations
 import numpy as np
 import pytest
 
-from sim.home import DELIVERY, PERSON, Home, load_home
-from sim.navigation import FOOTPRINT_M, OccupancyGrid, Unreachable, plan
+from sim.home.home import DELIVERY, PERSON, Home, load_home
+from sim.navigation.grid import FOOTPRINT_M, OccupancyGrid, Unreachable, plan
 
 HOME = load_home("four_rooms")
 GRID = OccupancyGrid.from_home(HOME)

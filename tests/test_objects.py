@@ -13,13 +13,13 @@ from scipy.spatial.transform import Rotation
 from executive.errors import InputError
 from executive.records import Shape
 from sim.__main__ import main
-from sim.bodies import home_entities
-from sim.catalogue import portrait
+from sim.bullet.bodies import home_entities
 from sim.modelling.__main__ import RECIPES
 from sim.modelling.__main__ import main as make
-from sim.objects import ASSETS, load_objects
-from sim.solids import signed_distance
-from sim.ycb import MESH, aligned, with_scans
+from sim.objects.objects import ASSETS, load_objects
+from sim.objects.solids import signed_distance
+from sim.objects.ycb import MESH, aligned, with_scans
+from sim.tools.catalogue import portrait
 
 MODELS = load_objects()
 YCB_SIZES_MM = {

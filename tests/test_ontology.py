@@ -17,7 +17,7 @@ from executive.types import Place
 from kb.__main__ import main
 from kb.names import PlaceNames, stem, words_of
 from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
-from sim.home import home_text
+from sim.home.home import home_text
 
 PAPERS_OBJECTS = [
     *("adjustable_wrench", "apple", "banana", "bleach_cleanser", "colored_wood_blocks"),

@@ -15,9 +15,9 @@ from executive.events import Inbox
 from executive.perception.pipeline import locate
 from executive.records import Mishap, Path, Scene, Transforms
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, PutDown, Succeeded
-from sim.faults import parse_faults
-from sim.mishaps import Mishaps
-from sim.objects import load_objects
+from sim.faults.injector import Mishaps
+from sim.faults.orders import parse_faults
+from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
 pytestmark = pytest.mark.physics

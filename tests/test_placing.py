@@ -7,12 +7,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
-from sim.forms import forms
-from sim.home import load_home
-from sim.objects import load_objects
-from sim.placing import RIM_M, TIGHT_M, free_spots, stands
-from sim.registration import locate_fallen
-from sim.solids import Floats, sample_surface
+from sim.home.home import load_home
+from sim.manipulation.placing import RIM_M, TIGHT_M, free_spots, stands
+from sim.manipulation.registration import locate_fallen
+from sim.objects.objects import load_objects
+from sim.objects.resting import forms
+from sim.objects.solids import Floats, sample_surface
 
 MODELS = load_objects()
 EYE = np.array([1.2, 1.0, 1.4])

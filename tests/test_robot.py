@@ -11,10 +11,10 @@ from scipy.spatial.transform import Rotation
 from executive.events import Inbox
 from executive.records import Path, Picture, Scene, Shape, Transforms
 from executive.types import DriveTo, Failed, LookAt, Pose, Succeeded
-from sim.bodies import create_body
-from sim.client import connect
-from sim.hardware import Hardware
-from sim.objects import load_objects
+from sim.body.hardware import Hardware
+from sim.bullet.bodies import create_body
+from sim.bullet.client import connect
+from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
 pytestmark = pytest.mark.physics

@@ -8,7 +8,7 @@ from contracts.robot import Bench, RobotContract
 
 from executive.events import Inbox
 from sim.fake import FakeRobot, FakeWorld
-from sim.objects import load_objects
+from sim.objects.objects import load_objects
 
 
 class TestFakeRobot(RobotContract):

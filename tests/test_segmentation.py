@@ -86,7 +86,7 @@ def test_boxes_at_the_edge_of_the_picture_have_masks_of_their_size(box: Box) -> 
 @pytest.mark.physics
 def test_things_are_located_within_millimetres_of_the_renderers_truth() -> None:
     from sim.learning.scenes import SceneMaker
-    from sim.objects import load_objects
+    from sim.objects.objects import load_objects
 
     errors = []
     with tempfile.TemporaryDirectory() as folder:

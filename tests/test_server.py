@@ -18,7 +18,7 @@ from kb import asking
 from kb.advisor import PlaceAdvisor
 from kb.ontology import Ontology
 from kb.server import Server
-from sim.home import load_home
+from sim.home.home import load_home
 
 pytestmark = pytest.mark.llm
 

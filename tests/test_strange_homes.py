@@ -15,10 +15,10 @@ from test_home import FLAT
 from executive.errors import InputError
 from executive.text import printable
 from sim.__main__ import main
-from sim.checking import way_faults
-from sim.home import MOST_TOLD, home_text, inspect_home, load_home
-from sim.naming import name_fault, usable
-from sim.overlaps import overlapping
+from sim.home.home import MOST_TOLD, home_text, inspect_home, load_home
+from sim.home.naming import name_fault, usable
+from sim.home.overlaps import overlapping
+from sim.tools.checking import way_faults
 
 
 @pytest.fixture

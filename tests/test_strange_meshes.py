@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 from test_objects import MODELS, scan
 
 from executive.errors import InputError
-from sim import ycb
-from sim.ycb import with_scans
+from sim.objects import ycb
+from sim.objects.ycb import with_scans
 
 
 @pytest.fixture

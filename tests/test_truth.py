@@ -14,7 +14,7 @@ from executive.campaign.observer import ACTIVITIES
 from executive.campaign.routes import Routes
 from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.types import Kind, Pick, PutDown
-from sim.navigation import OccupancyGrid, plan
+from sim.navigation.grid import OccupancyGrid, plan
 from trees.nodes import Action
 
 

@@ -16,7 +16,7 @@ from kb.advisor import PlaceAdvisor
 from kb.facts import FactStore
 from kb.ontology import Ontology
 from kb.prompts import Prompts
-from sim.home import Furniture, Home
+from sim.home.home import Furniture, Home
 from trees.team import Team
 
 OURS = "ours"

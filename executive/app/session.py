@@ -48,12 +48,12 @@ from kb.server import Server
 from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
-from sim.faults import parse_faults, refuse_physical
-from sim.faulty_fake import FaultyFakeRobot
-from sim.home import Home, home_text, load_home
-from sim.mishaps import FaultyCamera, FaultyDetector, Mishaps
-from sim.objects import load_objects
-from sim.ycb import with_scans
+from sim.faults.fake import FaultyFakeRobot
+from sim.faults.injector import FaultyCamera, FaultyDetector, Mishaps
+from sim.faults.orders import parse_faults, refuse_physical
+from sim.home.home import Home, home_text, load_home
+from sim.objects.objects import load_objects
+from sim.objects.ycb import with_scans
 from trees.mission import mission
 from trees.tree import MissionTree
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 from executive.records import LlmCall, Record, Tick, Transforms, TreeShape, Verified
 from executive.types import Replied, Scored
 from logs.recorder import Stamp
-from sim.navigation import Point
+from sim.navigation.grid import Point
 
 ACTIVITIES = {
     "DriveToCandidate": "driving",

@@ -6,8 +6,8 @@ from math import dist, inf
 
 import numpy as np
 
-from sim.home import Home, load_home
-from sim.navigation import Floats, OccupancyGrid, Point, Unreachable, plan
+from sim.home.home import Home, load_home
+from sim.navigation.grid import Floats, OccupancyGrid, Point, Unreachable, plan
 
 
 class Lengths(OccupancyGrid):

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from executive.campaign.routes import Routes
 from executive.interfaces import SimulatedHome
 from executive.types import DELIVERY, Kind, Outcome, Status
-from sim.home import PERSON, Home
+from sim.home.home import PERSON, Home
 
 HAND = "hand"
 

@@ -41,7 +41,7 @@ from logs.difference import (
     tick_aspects,
 )
 from logs.reader import Run
-from sim.home import Home, load_home
+from sim.home.home import Home, load_home
 from trees.mission import mission
 from trees.team import Team
 from trees.tree import MissionTree

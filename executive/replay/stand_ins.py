@@ -7,7 +7,7 @@ from executive.records import Tick
 from executive.situation import Situation
 from executive.types import FLOOR, ChatRequest, Goal, Halt, Question, RankRequest, Succeeded
 from logs.reader import Turn
-from sim.home import FLOOR_VIEWS, Home
+from sim.home.home import FLOOR_VIEWS, Home
 
 
 class RecordedTime:

@@ -12,7 +12,7 @@ from PIL import Image
 from pybullet_utils.bullet_client import BulletClient
 
 from executive.types import Color
-from sim.camera import Light
+from sim.bullet.camera import Light
 
 PATTERN = 64
 """Side of a pattern (pixels); the renderer stretches it over each face."""

@@ -35,8 +35,8 @@ from executive.usage import Parser
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.metrics import ClassReport, Ints, Judged, by_class, confusion, match
 from sim.learning.scenes import Scene, SceneMaker
-from sim.objects import load_objects
-from sim.registration import locate as fit
+from sim.manipulation.registration import locate as fit
+from sim.objects.objects import load_objects
 
 LEAST_REPORTED = 0.02
 """Confidence from which boxes count for average precision."""

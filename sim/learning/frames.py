@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from executive.errors import InputError
 from executive.shell import leave_stopping_to_the_parent
 from sim.learning.scenes import Scene, SceneMaker
-from sim.objects import ObjectModel, load_objects
-from sim.ycb import with_scans
+from sim.objects.objects import ObjectModel, load_objects
+from sim.objects.ycb import with_scans
 
 SHARD = 50
 """Pictures in a file."""

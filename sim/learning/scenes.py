@@ -16,16 +16,16 @@ from scipy.spatial.transform import Rotation
 
 from executive.records import Shape
 from executive.types import Box, Frame, Pose, Vector3
-from sim.bodies import PERSON_SHAPES, create_body, create_object
-from sim.camera import LOOKING, Rendering, pinhole, render
-from sim.client import connect
-from sim.furniture import Furniture, Surface, box
-from sim.generation import SIZES
-from sim.hardware import Hardware
-from sim.home import STAND_OFF_M, VIEW_DEPTH_M, VIEW_HEIGHT_M
+from sim.body.hardware import Hardware
+from sim.body.head import aim
+from sim.bullet.bodies import PERSON_SHAPES, create_body, create_object
+from sim.bullet.camera import LOOKING, Rendering, pinhole, render
+from sim.bullet.client import connect
+from sim.home.furniture import Furniture, Surface, box
+from sim.home.home import STAND_OFF_M, VIEW_DEPTH_M, VIEW_HEIGHT_M
 from sim.learning.decor import draw_light, dress, through_the_lens, write_patterns
-from sim.looking import aim
-from sim.objects import ObjectModel
+from sim.objects.objects import ObjectModel
+from sim.tools.generation import SIZES
 
 FEWEST_PIXELS = 120
 """A thing of which fewer pixels show is not asked for."""

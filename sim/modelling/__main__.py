@@ -7,7 +7,7 @@ from executive.usage import Parser
 from sim.modelling import fruit, household, packages, tools
 from sim.modelling.assembly import assemble, write
 from sim.modelling.parts import Part
-from sim.objects import ASSETS, load_objects
+from sim.objects.objects import ASSETS, load_objects
 
 RECIPES: dict[str, Callable[[], list[Part]]] = {
     recipe.__name__: recipe

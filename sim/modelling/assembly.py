@@ -12,7 +12,7 @@ from trimesh.visual import TextureVisuals
 from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
 from sim.modelling.parts import Floats, Part
-from sim.objects import ObjectModel
+from sim.objects.objects import ObjectModel
 
 _GLTF_FROM_OURS = np.array([[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1]], dtype=float)
 """glTF 2.0 has y up and looks along z; ours has z up and x to the front."""

@@ -17,12 +17,12 @@ from scipy.sparse.csgraph import dijkstra
 
 from executive.events import Inbox
 from executive.records import Record
-from sim.driving import FREE
-from sim.generation import generate_home
-from sim.home import Home, load_home
-from sim.navigation import OccupancyGrid, Unreachable, reachable
-from sim.objects import load_objects
-from sim.skill import Skill
+from sim.body.base import FREE
+from sim.body.skill import Skill
+from sim.home.home import Home, load_home
+from sim.navigation.grid import OccupancyGrid, Unreachable, reachable
+from sim.objects.objects import load_objects
+from sim.tools.generation import generate_home
 from sim.world import PhysicsWorld
 
 HOMES = ("four_rooms", "generated")

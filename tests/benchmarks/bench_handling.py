@@ -22,8 +22,8 @@ from executive.events import Inbox
 from executive.perception.pipeline import locate
 from executive.records import Record
 from executive.types import Detection, DriveTo, Failed, Goal, LookAt, Pick, PutDown, Result
-from sim.home import load_home
-from sim.objects import load_objects
+from sim.home.home import load_home
+from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
 HOME = load_home("four_rooms")

@@ -26,13 +26,13 @@ def whole_command(words: str, runs: Path) -> float:
 
 def parts(words: str, runs: Path) -> tuple[dict[str, float], float]:
     """Seconds of each part of a mission in this process, and its mission time."""
-    import sim.camera
+    import sim.bullet.camera
     from executive.app.session import Session
     from executive.config import load_settings
     from executive.perception.detector import OnnxDetector
 
     watch = Stopwatch()
-    watch.around(sim.camera, "render", "rendering")
+    watch.around(sim.bullet.camera, "render", "rendering")
     watch.around(OnnxDetector, "detect", "recognition")
     session = Session(load_settings(user="oracle", runs=runs))
     watch.around(session.world._client, "stepSimulation", "physics")

@@ -10,8 +10,8 @@ from executive.events import Inbox
 from executive.perception.pipeline import locate
 from executive.records import Record
 from executive.types import DriveTo, Goal, LookAt, Pick, PutDown
-from sim.home import load_home
-from sim.objects import load_objects
+from sim.home.home import load_home
+from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
 THING = "sugar_box"

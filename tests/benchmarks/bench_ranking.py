@@ -23,7 +23,7 @@ from executive.types import ChatRequest, Failed, RankRequest, Usage
 from kb.advisor import PlaceAdvisor
 from kb.llama import LlamaCpp, embedded_model
 from kb.ontology import Ontology
-from sim.home import load_home
+from sim.home.home import load_home
 
 Ask = Callable[[str], int]
 """From an object to the request that asks for its places."""

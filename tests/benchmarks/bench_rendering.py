@@ -14,12 +14,12 @@ from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
-from sim.bodies import build_home, create_body
-from sim.camera import pinhole, render
-from sim.client import connect
-from sim.home import load_home
-from sim.objects import ObjectModel, load_objects
-from sim.ycb import with_scans
+from sim.bullet.bodies import build_home, create_body
+from sim.bullet.camera import pinhole, render
+from sim.bullet.client import connect
+from sim.home.home import load_home
+from sim.objects.objects import ObjectModel, load_objects
+from sim.objects.ycb import with_scans
 
 HOME = load_home("four_rooms")
 PLACES = "counter_wagon", "desk", "high_table"

@@ -12,12 +12,12 @@ from pathlib import Path
 
 from stopwatch import Stopwatch
 
-import sim.camera
+import sim.bullet.camera
 from executive.app.run_folder import new_folder
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.types import DriveTo
-from sim.laser import Laser
+from sim.body.laser import Laser
 
 TOUR = ("desk", "counter_wagon", "sideboard", "delivery")
 SETUPS = ((False, 0.0), (True, 0.0), (True, 1.0), (True, 5.0))
@@ -28,8 +28,8 @@ def tour(logged: bool, camera_hz: float, runs: Path) -> str:
     """Drive from place to place; a line of the table."""
     settings = load_settings(user="oracle", llm="none", runs=runs, camera_hz=camera_hz)
     session, watch = Session(settings, recorded=logged), Stopwatch()
-    render, scan = sim.camera.render, Laser.scan
-    watch.around(sim.camera, "render", "rendering")
+    render, scan = sim.bullet.camera.render, Laser.scan
+    watch.around(sim.bullet.camera, "render", "rendering")
     watch.around(Laser, "scan", "laser")
     watch.around(session.world._client, "stepSimulation", "physics")
     watch.around(session.recorder, "record", "handing to the logs")
@@ -45,7 +45,7 @@ def tour(logged: bool, camera_hz: float, runs: Path) -> str:
     wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
     session.recorder.close()
     session.close()
-    sim.camera.render, Laser.scan = render, scan  # type: ignore[method-assign]
+    sim.bullet.camera.render, Laser.scan = render, scan  # type: ignore[method-assign]
     mission = session.clock.now()
     parts = ", ".join(f"{part} {1e3 * s / mission:.1f}" for part, s in watch.seconds.items())
     name = f"{'logs' if logged else 'no logs'}, {camera_hz:g} pictures/s"

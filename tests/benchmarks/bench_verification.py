@@ -28,7 +28,7 @@ from kb.names import spoken
 from kb.ontology import Ontology
 from kb.scripted import Scripted
 from kb.verification import Reply
-from sim.home import load_home
+from sim.home.home import load_home
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 

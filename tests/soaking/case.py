@@ -25,10 +25,10 @@ from executive.replay.replay import replay, replay_text
 from executive.text import printable
 from executive.types import FLOOR, Kind, Outcome, Status
 from logs.reader import Run
-from sim.faults import parse_faults
-from sim.floorplan import doors_between
-from sim.generation import generate_home
-from sim.home import Home, load_home
+from sim.faults.orders import parse_faults
+from sim.home.floorplan import doors_between
+from sim.home.home import Home, load_home
+from sim.tools.generation import generate_home
 from soaking.chaos import Chaos, ChaosEyes, ChaosModel, ChaosRobot, ChaosSink
 from soaking.claims import Notes, Witness, false_searches, looked_at, ticked_after_stop
 from soaking.people import Person, words

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 from executive.events import Inbox
 from executive.types import Answered, Failed, Question, QuestionKind
-from sim.home import Home
+from sim.home.home import Home
 from soaking.chaos import HOSTILE, Chaos
 
 ODD_WORDS = (

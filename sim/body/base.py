@@ -1,0 +1,231 @@
+"""Driving the omnidirectional base along a path, with bounded speed and acceleration."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.body.hardware import Floats, Hardware
+from sim.body.skill import CONTROL_S, CannotError, Skill
+
+BRAKING = 2.0
+TURN_BRAKING = 4.0
+"""m/s2, rad/s2: for stops that nobody planned."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """How fast the base may be, and become: m/s, m/s2, rad/s, rad/s2."""
+
+    speed: float
+    acceleration: float
+    turn_rate: float
+    turn_acceleration: float
+
+
+FREE = Limits(0.8, 0.8, 1.2, 2.0)
+CARRYING = Limits(0.5, 0.5, 0.8, 1.2)
+"""With something in the hand."""
+CREEPING = Limits(0.35, 0.5, 0.8, 1.2)
+"""While the arm is out or the furniture near."""
+
+RADIUS_M = 0.31
+"""Of the base."""
+NEAR = 0.008
+NEAR_ANGLE = np.radians(0.8)
+"""How well it arrives (metres, radians)."""
+_LOOKAHEAD_S = 0.2
+_SHORTEST_LOOKAHEAD = 0.08
+_NEXT_BIT = np.arange(0.0, 0.3, 0.01)
+"""Lengths of path ahead (metres) among which the nearest point to the robot is looked for."""
+_FACE_TRAVEL_BEYOND = 0.9
+"""Farther than this from the end (metres), the robot faces where it goes."""
+_OFF_THE_WAY_M = 0.03
+"""How far it may swing out in a corner (metres)."""
+_CORNER_M = 0.12
+"""So far before and after a corner it is taken slowly (metres)."""
+_CHECKED_M = 0.1
+_STUCK_S = 1.5
+_STUCK_DISTANCE, _STUCK_ANGLE = 0.02, 0.03
+
+
+class BlockedError(CannotError):
+    """Something is in the way, seen or met: if met, `bump` (2,) is where in `map` (metres)."""
+
+    def __init__(self, bump: Floats | None = None) -> None:
+        """Say so."""
+        super().__init__("the way is blocked")
+        self.bump = bump
+
+
+def drive(
+    hardware: Hardware,
+    path: Sequence[tuple[float, float]],
+    yaw: float,
+    limits: Limits = FREE,
+    blocked: Callable[[Floats], bool] = lambda way: False,
+) -> Skill:
+    """Follow way-points (metres, in `map`) and park at the last one, facing `yaw`.
+
+    Args:
+        hardware: the robot.
+        path: the way-points.
+        yaw: to face at the end (radians, in `map`).
+        limits: of speed and acceleration.
+        blocked: asked once per control period whether the points (n, 2) ahead are; the robot then
+            brakes.
+
+    Raises:
+        BlockedError: if it does not get ahead, or the way is blocked.
+    """
+    follower = _Follower(np.array([hardware.base_pose[:2], *path]), yaw, limits)
+    progress = _Progress()
+    while not follower.arrived(hardware.base_pose, hardware.base_velocity):
+        velocity = follower.velocity(hardware.base_pose)
+        hardware.command_base(velocity)
+        yield
+        if blocked(follower.ahead()):
+            yield from brake(hardware)
+            raise BlockedError
+        if progress.stuck(*follower.left(hardware.base_pose)):
+            bump = _rim(hardware.base_pose, velocity)
+            yield from brake(hardware)
+            raise BlockedError(bump)
+    hardware.park()
+
+
+def brake(hardware: Hardware) -> Skill:
+    """Bring the base to rest and park it."""
+    velocity = hardware.base_velocity
+    while np.abs(velocity).max() > 1e-3:
+        velocity = _toward(velocity, np.zeros(3), BRAKING, TURN_BRAKING)
+        hardware.command_base(velocity)
+        yield
+    hardware.park()
+
+
+def _rim(pose: Floats, velocity: Floats) -> Floats:
+    """The point (2,) of the robot's rim in `map` that is foremost on its way."""
+    speed = max(float(np.linalg.norm(velocity[:2])), 1e-6)
+    rim: Floats = pose[:2] + RADIUS_M * velocity[:2] / speed
+    return rim
+
+
+class _Progress:
+    """Notices when the way that is left gets no shorter and the robot does not turn either."""
+
+    def __init__(self) -> None:
+        self._way, self._turn, self._since = np.inf, 0.0, 0.0
+
+    def stuck(self, way: float, turn: float) -> bool:
+        """Whether there was no progress for a while; called once per control period."""
+        self._since += CONTROL_S
+        if way < self._way - _STUCK_DISTANCE:
+            self._way, self._since = way, 0.0
+        if abs(turn - self._turn) > _STUCK_ANGLE:
+            self._turn, self._since = turn, 0.0
+        return self._since > _STUCK_S
+
+
+class _Follower:
+    """Pursues a point that runs ahead on the path."""
+
+    def __init__(self, points: Floats, yaw: float, limits: Limits) -> None:
+        self._points = points
+        self._yaw = yaw
+        self._limits = limits
+        self._lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+        self._ends = np.concatenate(([0.0], np.cumsum(self._lengths)))
+        self._corner_speeds = _corner_speeds(points, limits.acceleration)
+        self._done = 0.0
+        self._command = np.zeros(3)
+
+    def arrived(self, pose: Floats, velocity: Floats) -> bool:
+        """Whether it stands at the end."""
+        off = np.linalg.norm(pose[:2] - self._points[-1])
+        still = np.abs(velocity).max() < 0.03
+        return bool(still and off < NEAR and abs(_turn(pose[2], self._yaw)) < NEAR_ANGLE)
+
+    def left(self, pose: Floats) -> tuple[float, float]:
+        """How far it is to the end along the path (metres), and the turn to its yaw (radians)."""
+        way = self._ends[-1] - self._done + np.linalg.norm(self._at(self._done) - pose[:2])
+        return float(way), abs(_turn(pose[2], self._yaw))
+
+    def ahead(self) -> Floats:
+        """Points (n, 2) of the way that is left, _CHECKED_M apart."""
+        lengths = np.append(np.arange(self._done, self._ends[-1], _CHECKED_M), self._ends[-1])
+        return np.column_stack([np.interp(lengths, self._ends, axis) for axis in self._points.T])
+
+    def velocity(self, pose: Floats) -> Floats:
+        """The next velocity command in `map`."""
+        self._advance(pose[:2])
+        ahead = max(_SHORTEST_LOOKAHEAD, _LOOKAHEAD_S * float(np.linalg.norm(self._command[:2])))
+        toward = self._at(self._done + ahead) - pose[:2]
+        distance = float(np.linalg.norm(toward))
+        left = self._ends[-1] - self._done
+        if left < ahead:
+            left = distance
+        limits, wanted = self._limits, np.zeros(3)
+        if distance > 1e-6:
+            fastest = min(limits.speed, self._before_corners())
+            wanted[:2] = toward / distance * _slowing(left, fastest, limits.acceleration)
+        turn = _turn(pose[2], self._heading(toward, left))
+        wanted[2] = np.sign(turn) * _slowing(abs(turn), limits.turn_rate, limits.turn_acceleration)
+        self._command = _toward(
+            self._command, wanted, limits.acceleration, limits.turn_acceleration
+        )
+        return self._command
+
+    def _before_corners(self) -> float:
+        """The speed (m/s) from which one can still slow down for the corners that are ahead."""
+        ways = self._ends[1:-1] - self._done
+        near = ways > -_CORNER_M
+        ways = (ways[near] - _CORNER_M).clip(min=0.0)
+        squares = self._corner_speeds[near] ** 2 + 1.6 * self._limits.acceleration * ways
+        return float(np.sqrt(squares.min(initial=np.inf)))
+
+    def _heading(self, toward: Floats, left: float) -> float:
+        if left > _FACE_TRAVEL_BEYOND:
+            return float(np.arctan2(toward[1], toward[0]))
+        return self._yaw
+
+    def _advance(self, position: Floats) -> None:
+        """Move the done length on to the nearest point of the next bit of path."""
+        ahead = np.minimum(self._done + _NEXT_BIT, self._ends[-1])
+        spots = np.column_stack([np.interp(ahead, self._ends, axis) for axis in self._points.T])
+        self._done = float(ahead[np.argmin(np.linalg.norm(spots - position, axis=1))])
+
+    def _at(self, length: float) -> Floats:
+        return np.array([np.interp(length, self._ends, axis) for axis in self._points.T])
+
+
+def _corner_speeds(points: Floats, acceleration: float) -> Floats:
+    """How fast (m/s) each corner between the ends can be taken without leaving the way too far."""
+    ways = np.diff(points, axis=0)
+    headings = np.arctan2(ways[:, 1], ways[:, 0])
+    turns = np.abs(np.remainder(np.diff(headings) + np.pi, 2 * np.pi) - np.pi)
+    sharpness = np.sin(turns / 2).clip(min=1e-3)
+    speeds: Floats = np.sqrt(2 * acceleration * _OFF_THE_WAY_M) / sharpness
+    return speeds
+
+
+def _slowing(distance: float, fastest: float, deceleration: float) -> float:
+    """The speed from which one can still stop within a distance, gentler for the last bit."""
+    return float(min(fastest, 0.9 * np.sqrt(2 * deceleration * distance), 4.0 * distance))
+
+
+def _toward(now: Floats, wanted: Floats, acceleration: float, turn_acceleration: float) -> Floats:
+    """The wanted velocity, or as near to it as one control period allows."""
+    change = wanted - now
+    size = float(np.linalg.norm(change[:2]))
+    if size > acceleration * CONTROL_S:
+        change[:2] *= acceleration * CONTROL_S / size
+    most = turn_acceleration * CONTROL_S
+    change[2] = np.clip(change[2], -most, most)
+    next_velocity: Floats = now + change
+    return next_velocity
+
+
+def _turn(start: float, end: float) -> float:
+    """The shorter turn from one yaw to another (radians)."""
+    return float(np.remainder(end - start + np.pi, 2 * np.pi) - np.pi)

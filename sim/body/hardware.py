@@ -1,0 +1,241 @@
+"""The robot's motors, encoders and touch: all that the skills may use to act and to feel.
+
+Nothing here sets a position. Motors have the torque and speed limits of the description, and the
+world's physics decides what comes of a command.
+"""
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pybullet as p
+from numpy.typing import NDArray
+from pybullet_utils.bullet_client import BulletClient
+
+from executive.types import Pose
+from sim.body.description import write_description
+
+Floats = NDArray[np.float64]
+
+ARM = ("lift", *(f"panda_joint{i}" for i in range(1, 8)))
+"""The joints that move the hand: the lift (metres), then the arm's seven (radians)."""
+BASE = ("base_x", "base_y", "base_yaw")
+_DRIVE_LINKS = ("drive_x", "drive_y")
+"""How the simulator moves the base; no part of the robot."""
+FINGERS = ("panda_finger_joint1", "panda_finger_joint2")
+HEAD = ("head_pan", "head_tilt")
+
+FOLDED: Floats = np.array([0.08, 0.0, -0.5, 0.0, -3.0, 0.0, 2.5, 0.785])
+"""The arm over the base, hand pointing down, a thing in it upright: how the robot drives."""
+
+FINGER_FORCE = 70.0
+"""The most that each finger presses (newtons), as with the real hand."""
+FINGER_TRAVEL = 0.04
+"""How far each finger opens from the middle (metres)."""
+
+STILL = {"base": 5e-3, "arm": 2e-2, "fingers": 2e-3, "head": 2e-2}
+"""A part whose joints are all slower than this is at rest (m/s, rad/s)."""
+
+
+class Hardware:
+    """A robot standing in a PyBullet world."""
+
+    def __init__(self, client: BulletClient, start: tuple[float, float, float]) -> None:
+        """Put the robot, folded, at (x, y, yaw) in `map`."""
+        self._client = client
+        with tempfile.TemporaryDirectory() as directory:
+            path = write_description(Path(directory))
+            self.body: int = client.loadURDF(str(path), useFixedBase=True)
+        self._joints: dict[str, int] = {}
+        self.links: dict[str, int] = {"map": -1}
+        self.parents: dict[str, str] = {}
+        self._force: dict[str, float] = {}
+        self._speed: dict[str, float] = {}
+        self._read_joints()
+        self._arm, self._base, self._fingers, self._head = (
+            [self._joints[name] for name in names] for names in (ARM, BASE, FINGERS, HEAD)
+        )
+        self._couple_fingers()
+        self._client.enableJointForceTorqueSensor(self.body, self.links["panda_hand"], True)
+        self._reset(start)
+
+    def _read_joints(self) -> None:
+        """Index links and joints by name, with the joints' limits and what carries each link."""
+        carriers = {-1: "map"}
+        for index in range(self._client.getNumJoints(self.body)):
+            info = self._client.getJointInfo(self.body, index)
+            name, link = info[1].decode(), info[12].decode()
+            self._joints[name], self.links[link], carriers[index] = index, index, link
+            self._force[name], self._speed[name] = info[10], info[11]
+            self.parents[link] = carriers[info[16]]
+        for inner in _DRIVE_LINKS:
+            del self.parents[inner]
+        self.parents["base_link"] = "map"
+
+    def _couple_fingers(self) -> None:
+        """Make the fingers mirror each other, as the gear in the real hand does."""
+        gear = self._client.createConstraint(
+            self.body,
+            self._fingers[0],
+            self.body,
+            self._fingers[1],
+            jointType=p.JOINT_GEAR,
+            jointAxis=[1, 0, 0],
+            parentFramePosition=[0, 0, 0],
+            childFramePosition=[0, 0, 0],
+        )
+        self._client.changeConstraint(gear, gearRatio=-1, erp=0.1, maxForce=2 * FINGER_FORCE)
+
+    def _reset(self, start: tuple[float, float, float]) -> None:
+        """Set up the pose that the world begins with, and hold it."""
+        for joints, positions in ((self._base, start), (self._arm, FOLDED)):
+            for joint, position in zip(joints, positions, strict=True):
+                self._client.resetJointState(self.body, joint, position)
+        self.park()
+        self.command_arm(FOLDED, np.zeros(len(ARM)))
+        self.command_head(0.0, 0.4)
+        self.open_fingers(0.0)
+
+    # --- encoders ---
+
+    @property
+    def base_pose(self) -> Floats:
+        """(x, y, yaw) of `base_link` in `map`; yaw counts on past pi."""
+        return self._states(self._base)[0]
+
+    @property
+    def base_velocity(self) -> Floats:
+        """(m/s, m/s, rad/s) in `map`."""
+        return self._states(self._base)[1]
+
+    @property
+    def arm_positions(self) -> Floats:
+        """Where the joints of `ARM` are."""
+        return self._states(self._arm)[0]
+
+    @property
+    def arm_speed_limits(self) -> Floats:
+        """What the joints of `ARM` can do (m/s, rad/s)."""
+        return np.array([self._speed[name] for name in ARM])
+
+    @property
+    def fingers_still(self) -> bool:
+        """Whether neither finger moves any more."""
+        return bool(np.abs(self._states(self._fingers)[1]).max() < STILL["fingers"])
+
+    @property
+    def gap(self) -> float:
+        """How far the pads are from each other (metres)."""
+        return float(self._states(self._fingers)[0].sum())
+
+    def moving(self) -> tuple[str, ...]:
+        """Which parts move: of base, arm, fingers and head."""
+        parts = (self._base, self._arm, self._fingers, self._head)
+        return tuple(
+            name
+            for (name, most), joints in zip(STILL.items(), parts, strict=True)
+            if np.abs(self._states(joints)[1]).max() > most
+        )
+
+    @property
+    def head_positions(self) -> Floats:
+        """(pan, tilt) in radians."""
+        return self._states(self._head)[0]
+
+    def link_pose(self, link: str) -> Pose:
+        """Where a link's frame is in `map`."""
+        state = self._client.getLinkState(self.body, self.links[link], computeForwardKinematics=1)
+        return Pose(tuple(state[4]), tuple(state[5]))
+
+    def link_poses(self) -> dict[str, Pose]:
+        """Where every link's frame is in `map`."""
+        names = list(self.links)[1:]
+        states = self._client.getLinkStates(
+            self.body, [self.links[name] for name in names], computeForwardKinematics=1
+        )
+        poses = {n: Pose(tuple(s[4]), tuple(s[5])) for n, s in zip(names, states, strict=True)}
+        return {"map": Pose(), **poses}
+
+    # --- touch ---
+
+    def touched(self) -> set[int]:
+        """The bodies that both fingers touch."""
+        left, right = (
+            {c[2] for c in self._client.getContactPoints(bodyA=self.body, linkIndexA=finger)}
+            for finger in self._fingers
+        )
+        return (left & right) - {self.body}
+
+    @property
+    def weight(self) -> float:
+        """What the force sensor in the wrist carries: the hand and what is in it (newtons)."""
+        force = self._client.getJointState(self.body, self.links["panda_hand"])[2][:3]
+        return float(np.linalg.norm(force))
+
+    # --- motors ---
+
+    def command_base(self, velocity: Floats) -> None:
+        """Drive with this velocity (m/s, m/s, rad/s) in `map`."""
+        self._command(self._base, BASE, p.VELOCITY_CONTROL, targetVelocities=list(velocity))
+
+    def park(self) -> None:
+        """Hold the base where it is."""
+        positions = list(self.base_pose)
+        self._command(self._base, BASE, p.POSITION_CONTROL, targetPositions=positions)
+
+    def command_arm(self, positions: Floats, velocities: Floats) -> None:
+        """Servo the joints of `ARM` to positions, with the velocities fed forward."""
+        self._command(
+            self._arm,
+            ARM,
+            p.POSITION_CONTROL,
+            targetPositions=list(positions),
+            targetVelocities=list(velocities),
+            positionGains=[0.2] * len(ARM),
+        )
+
+    def command_head(self, pan: float, tilt: float) -> None:
+        """Turn the camera to pan (left) and tilt (down), radians."""
+        for joint, name, position in zip(self._head, HEAD, (pan, tilt), strict=True):
+            self._client.setJointMotorControl2(
+                self.body,
+                joint,
+                p.POSITION_CONTROL,
+                targetPosition=position,
+                force=self._force[name],
+                maxVelocity=self._speed[name],
+            )
+
+    def open_fingers(self, gap: float) -> None:
+        """Move the fingers to this gap between the pads (metres)."""
+        for joint in self._fingers:
+            self._client.setJointMotorControl2(
+                self.body,
+                joint,
+                p.POSITION_CONTROL,
+                targetPosition=gap / 2,
+                force=FINGER_FORCE,
+                maxVelocity=0.1,
+            )
+
+    def squeeze(self, force: float) -> None:
+        """Close the fingers until something stops them, and keep pressing (newtons each)."""
+        for joint in self._fingers:
+            self._client.setJointMotorControl2(
+                self.body,
+                joint,
+                p.VELOCITY_CONTROL,
+                targetVelocity=-0.05,
+                force=min(force, FINGER_FORCE),
+            )
+
+    # --- helpers ---
+
+    def _states(self, joints: list[int]) -> tuple[Floats, Floats]:
+        states = self._client.getJointStates(self.body, joints)
+        return np.array([s[0] for s in states]), np.array([s[1] for s in states])
+
+    def _command(self, joints: list[int], names: tuple[str, ...], mode: int, **how: Any) -> None:
+        forces = [self._force[name] for name in names]
+        self._client.setJointMotorControlArray(self.body, joints, mode, forces=forces, **how)

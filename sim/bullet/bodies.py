@@ -1,0 +1,181 @@
+"""Home and objects as PyBullet bodies, and as entities for the viewer."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Literal
+
+import pybullet as p
+from pybullet_utils.bullet_client import BulletClient
+from scipy.spatial.transform import Rotation
+
+from executive.records import Entity, Shape
+from executive.types import Color, Pose, Vector3
+from sim.home.furniture import box
+from sim.home.home import PERSON, Home
+from sim.objects.objects import ObjectModel, packaged_mesh
+
+MAP = "map"
+WALL_COLOR: Color = (0.93, 0.91, 0.86, 1.0)
+FLOOR_COLOR: Color = (0.62, 0.60, 0.56, 1.0)
+FLOOR_COLORS: dict[str, Color] = {
+    "Kitchen": (0.78, 0.79, 0.77, 1.0),
+    "LivingRoom": (0.70, 0.55, 0.38, 1.0),
+    "Bedroom": (0.58, 0.62, 0.68, 1.0),
+    "Lobby": (0.66, 0.60, 0.52, 1.0),
+}
+FLOOR_THICKNESS_M = 0.1
+VIEWED_WALL_HEIGHT_M = 0.5
+"""Walls are cut off at this height for the viewer, who looks in from above."""
+FURNITURE_FRICTION = 0.8
+ROLLING_FRICTION = 5e-4
+"""Resistance of round things (metres, as PyBullet has it): a ball left alone comes to rest."""
+SETTLING_STEPS = 120
+
+PERSON_SHAPES = (
+    Shape("cylinder", (0.30, 0.30, 0.80), (0.22, 0.25, 0.33, 1.0), Pose((0.0, 0.0, 0.40))),
+    Shape("cylinder", (0.38, 0.38, 0.62), (0.30, 0.48, 0.42, 1.0), Pose((0.0, 0.0, 1.11))),
+    Shape("sphere", (0.23, 0.23, 0.23), (0.85, 0.66, 0.53, 1.0), Pose((0.0, 0.0, 1.55))),
+)
+_SHAPE_TYPES = {"box": p.GEOM_BOX, "cylinder": p.GEOM_CYLINDER, "sphere": p.GEOM_SPHERE}
+
+
+def create_body(
+    client: BulletClient,
+    shapes: Sequence[Shape],
+    pose: Pose,
+    mass: float = 0.0,
+    friction: float = FURNITURE_FRICTION,
+    center_of_mass: Vector3 = (0.0, 0.0, 0.0),
+    look: Shape | None = None,
+) -> int:
+    """Build one rigid body out of shapes and return its id.
+
+    Args:
+        client: the world.
+        shapes: at most 16 (PyBullet's limit), in the body's frame; no meshes.
+        pose: the body's frame in `map`.
+        mass: kilograms; 0 for what never moves.
+        friction: lateral friction coefficient.
+        center_of_mass: in the body's frame. PyBullet reports this point as the body's position:
+            `frame_pose` gives the frame.
+        look: the mesh that is drawn instead of the shapes.
+    """
+    body: int = client.createMultiBody(
+        mass,
+        client.createCollisionShapeArray(**_arrays(shapes, "collision")),
+        _mesh(client, look) if look else client.createVisualShapeArray(**_arrays(shapes, "visual")),
+        pose.position,
+        pose.orientation,
+        baseInertialFramePosition=center_of_mass,
+    )
+    for index, shape in enumerate((look,) if look else shapes):
+        client.changeVisualShape(
+            body, -1, shapeIndex=index, rgbaColor=shape.color, specularColor=(0.1, 0.1, 0.1)
+        )
+    client.changeDynamics(
+        body,
+        -1,
+        lateralFriction=friction,
+        rollingFriction=ROLLING_FRICTION,
+        spinningFriction=ROLLING_FRICTION,
+    )
+    return body
+
+
+def _arrays(shapes: Sequence[Shape], purpose: Literal["collision", "visual"]) -> dict[str, Any]:
+    """Primitives as PyBullet takes them."""
+    return {
+        "shapeTypes": [_SHAPE_TYPES[shape.kind] for shape in shapes],
+        "halfExtents": [[length / 2 for length in shape.size] for shape in shapes],
+        "radii": [shape.size[0] / 2 for shape in shapes],
+        "lengths": [shape.size[2] for shape in shapes],
+        f"{purpose}FramePositions": [shape.pose.position for shape in shapes],
+        f"{purpose}FrameOrientations": [shape.pose.orientation for shape in shapes],
+    }
+
+
+def _mesh(client: BulletClient, look: Shape) -> int:
+    """A visual shape with the texture that the OBJ file's material names."""
+    mesh: int = client.createVisualShape(
+        p.GEOM_MESH,
+        fileName=look.mesh,
+        meshScale=look.size,
+        visualFramePosition=look.pose.position,
+        visualFrameOrientation=look.pose.orientation,
+    )
+    return mesh
+
+
+def frame_pose(client: BulletClient, body: int) -> Pose:
+    """Where the frame of a body made by `create_body` is in `map`."""
+    position, orientation = client.getBasePositionAndOrientation(body)
+    center_of_mass = client.getDynamicsInfo(body, -1)[3]
+    origin = position - Rotation.from_quat(orientation).apply(center_of_mass)
+    return Pose(tuple(origin.tolist()), tuple(orientation))
+
+
+def build_home(client: BulletClient, home: Home) -> dict[int, str]:
+    """Put up floors, walls, furniture and the person; returns each body's name by its id."""
+    return {create_body(client, shapes, pose): name for name, shapes, pose in _fixtures(home)}
+
+
+def place_objects(
+    client: BulletClient, home: Home, models: Mapping[str, ObjectModel]
+) -> dict[int, str]:
+    """Put the home's objects where they are at the start and let them settle.
+
+    Returns:
+        Each object's name by its body id.
+    """
+    names = {}
+    for name in home.objects:
+        names[create_object(client, models[name], home.object_pose(name))] = name
+    for _ in range(SETTLING_STEPS):
+        client.stepSimulation()
+    return names
+
+
+def create_object(client: BulletClient, model: ObjectModel, pose: Pose) -> int:
+    """Build one of the objects, its frame at `pose` in `map`, and return its id."""
+    return create_body(
+        client,
+        model.shapes,
+        pose,
+        model.mass_kg,
+        model.friction,
+        model.center_of_mass,
+        model.look,
+    )
+
+
+def home_entities(home: Home, models: Mapping[str, ObjectModel]) -> tuple[Entity, ...]:
+    """The home for the viewer: what is fixed in `map`, each object in a frame of its own name."""
+    low = home.model_copy(update={"wall_height": min(home.wall_height, VIEWED_WALL_HEIGHT_M)})
+    fixed = [Entity(name, MAP, _moved(shapes, pose)) for name, shapes, pose in _fixtures(low)]
+    movable = [Entity(name, name, (packaged_mesh(name, "glb"),)) for name in home.objects]
+    return (*fixed, *movable)
+
+
+def _fixtures(home: Home) -> Iterator[tuple[str, tuple[Shape, ...], Pose]]:
+    """Name, shapes and pose of everything in the home that never moves."""
+    for room in home.rooms:
+        left, lower, right, upper = room.rectangle
+        color = FLOOR_COLORS.get(room.kind, FLOOR_COLOR)
+        size = (right - left, upper - lower, FLOOR_THICKNESS_M)
+        middle = ((left + right) / 2, (lower + upper) / 2, -FLOOR_THICKNESS_M / 2)
+        yield f"floor_{room.name}", (box(size, (0.0, 0.0, 0.0), color),), Pose(middle)
+    for number, wall in enumerate(home.walls(), start=1):
+        shape = box((*wall.size, home.wall_height), (0.0, 0.0, home.wall_height / 2), WALL_COLOR)
+        yield f"wall_{number}", (shape,), Pose((*wall.center, 0.0))
+    for piece in (*home.furniture, home.delivery):
+        yield piece.name, piece.shapes(), piece.frame()
+    yield PERSON, PERSON_SHAPES, Pose((home.person[0], home.person[1], 0.0))
+
+
+def _moved(shapes: Sequence[Shape], pose: Pose) -> tuple[Shape, ...]:
+    """Shapes of a frame that is at `pose`, seen from the parent frame."""
+    turn = Rotation.from_quat(pose.orientation)
+    positions = turn.apply([shape.pose.position for shape in shapes]) + pose.position
+    turned = turn * Rotation.from_quat([shape.pose.orientation for shape in shapes])
+    poses = map(Pose, map(tuple, positions.tolist()), map(tuple, turned.as_quat().tolist()))
+    return tuple(replace(shape, pose=at) for shape, at in zip(shapes, poses, strict=True))

@@ -1,0 +1,92 @@
+"""The robot of the instant world with mishaps: the same faults, as far as they make sense there."""
+
+from collections.abc import Callable
+
+from executive.types import FLOOR, DriveTo, Failed, Goal, Pick, PutDown, Result
+from sim.fake import FakeRobot, FakeWorld
+from sim.faults.injector import Mishaps
+from sim.faults.orders import Blocked, Drop, Moved, Slip, Stuck
+from sim.home.floorplan import doors_between
+
+
+class FaultyFakeRobot(FakeRobot):
+    """Implements Robot in an instant world that misbehaves whenever a goal ends."""
+
+    def __init__(self, world: FakeWorld, mishaps: Mishaps) -> None:
+        """Stand where the world says."""
+        super().__init__(world)
+        self._mishaps = mishaps
+
+    def _plan(self, goal: Goal) -> tuple[float, Callable[[], Result]]:
+        delay, effect = super()._plan(goal)
+
+        def troubled() -> Result:
+            self._move_things()
+            return self._trouble(goal) or effect()
+
+        return delay, troubled
+
+    def _move_things(self) -> None:
+        for fault in self._mishaps.due(Moved):
+            if self._world.held == fault.thing:
+                self._mishaps.strike(fault, f"the robot has the {fault.thing}: it stays")
+            else:
+                self._mishaps.strike(fault, f"the {fault.thing} is taken to {fault.place}")
+                self._world.things[fault.thing] = fault.place
+
+    def _trouble(self, goal: Goal) -> Failed | None:
+        match goal:
+            case DriveTo(place):
+                return self._dropped() or self._shut_out(place)
+            case Pick(detection):
+                return self._stuck() or self._slipped(detection.label)
+            case PutDown():
+                return self._stuck()
+            case _:
+                return None
+
+    def _dropped(self) -> Failed | None:
+        held = self._world.held
+        due = self._mishaps.due(Drop) if held else ()
+        if not (held and due):
+            return None
+        self._mishaps.strike(due[0], "the hand lets go")
+        self._world.held = None
+        self._world.things[held] = FLOOR
+        return Failed(f"the {held} fell from my hand", lost=True)
+
+    def _shut_out(self, place: str) -> Failed | None:
+        """Whether shut doors leave no way; where the robot comes by, they count as struck."""
+        shut = self._mishaps.active(Blocked)
+        here = self._room_at(self._world.pose[:2])
+        there = self._room_at(self._world.home.stand(place)[:2])
+        if not shut or there in self._rooms_from(here, shut):
+            return None
+        for fault in shut:
+            self._mishaps.strike(fault, f"the door {fault.value} is shut")
+        return Failed(f"the way to the {place} is blocked")
+
+    def _slipped(self, name: str) -> Failed | None:
+        if self._world.held or not self._mishaps.draw(Slip, "the fingers slip"):
+            return None
+        return Failed(f"the {name} slipped from my fingers")
+
+    def _stuck(self) -> Failed | None:
+        for fault in self._mishaps.active(Stuck):
+            self._mishaps.strike(fault, f"{fault.joint} of the arm is stuck")
+            return Failed(f"my arm does not follow: {fault.joint} is stuck")
+        return None
+
+    def _room_at(self, point: tuple[float, float]) -> str | None:
+        rooms = self._world.home.rooms
+        return next((room.name for room in rooms if room.holds(*point)), None)
+
+    def _rooms_from(self, start: str | None, shut: tuple[Blocked, ...]) -> set[str | None]:
+        """The rooms to which open doors lead."""
+        home, closed = self._world.home, [set(fault.rooms) for fault in shut]
+        open_ways = [set(rooms) for rooms in doors_between(home.rooms, home.doors).values()]
+        open_ways = [rooms for rooms in open_ways if rooms not in closed]
+        reached: set[str | None] = {start}
+        while new := {r for rooms in open_ways if rooms & reached for r in rooms} - reached:
+            reached |= new
+        return reached

@@ -1,0 +1,67 @@
+"""A robot whose joints get stuck, whose fingers slip, and whose hand lets go."""
+
+import numpy as np
+from pybullet_utils.bullet_client import BulletClient
+
+from sim.body.base import CARRYING, CREEPING
+from sim.body.hardware import FINGER_TRAVEL, Floats, Hardware
+from sim.faults.injector import Mishaps
+from sim.faults.orders import Drop, Slip, Stuck
+
+GREASY = 0.01
+"""Lateral friction of a pad that slips."""
+_ON_THE_WAY_M_S = (CREEPING.speed + CARRYING.speed) / 2
+"""Faster than this with a thing in the hand, the robot is on its way with it."""
+
+
+class FaultyHardware(Hardware):
+    """Hardware with mishaps."""
+
+    def __init__(
+        self, client: BulletClient, start: tuple[float, float, float], mishaps: Mishaps
+    ) -> None:
+        """Put the robot, folded, at (x, y, yaw) in `map`."""
+        self._mishaps = mishaps
+        self._stuck_at: dict[Stuck, float] = {}
+        super().__init__(client, start)
+        self._friction = [client.getDynamicsInfo(self.body, pad)[1] for pad in self._fingers]
+
+    def suffer(self) -> None:
+        """What happens by itself; called once per control period."""
+        self._stick()
+        for fault in self._mishaps.due(Drop):
+            if self.touched() and np.hypot(*self.base_velocity[:2]) > _ON_THE_WAY_M_S:
+                self._mishaps.strike(fault, "the hand lets go")
+                super().open_fingers(2 * FINGER_TRAVEL)
+
+    def command_arm(self, positions: Floats, velocities: Floats) -> None:
+        """Servo the joints that are not stuck."""
+        positions, velocities = positions.copy(), velocities.copy()
+        for fault, position in self._stuck_at.items():
+            positions[fault.index], velocities[fault.index] = position, 0.0
+        super().command_arm(positions, velocities)
+
+    def squeeze(self, force: float) -> None:
+        """Close the fingers; now and then there is grease on them."""
+        if self._mishaps.draw(Slip, "the fingers slip"):
+            self._use_friction([GREASY] * len(self._fingers))
+        super().squeeze(force)
+
+    def open_fingers(self, gap: float) -> None:
+        """Move the fingers to this gap, and wipe them."""
+        if hasattr(self, "_friction"):
+            self._use_friction(self._friction)
+        super().open_fingers(gap)
+
+    def _stick(self) -> None:
+        active = self._mishaps.active(Stuck)
+        for fault in active:
+            if fault not in self._stuck_at:
+                self._stuck_at[fault] = float(self.arm_positions[fault.index])
+                self._mishaps.strike(fault, f"{fault.joint} of the arm is stuck")
+        for fault in [old for old in self._stuck_at if old not in active]:
+            del self._stuck_at[fault]
+
+    def _use_friction(self, frictions: list[float]) -> None:
+        for pad, friction in zip(self._fingers, frictions, strict=True):
+            self._client.changeDynamics(self.body, pad, lateralFriction=friction)

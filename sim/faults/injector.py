@@ -1,0 +1,132 @@
+"""Faults at work: when they strike, and how senses, motors and the world then behave.
+
+Everything here wraps a part that knows nothing of faults. Whatever strikes is recorded as a
+`Mishap`, for the reader of the log; nobody on the robot hears of it.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TypeVar
+
+import numpy as np
+
+from executive.computing import afterwards
+from executive.interfaces import Camera, Detector, Recorder
+from executive.records import Mishap
+from executive.types import Detection, Frame
+from sim.faults.orders import Blind, Confuse, Fault, Miss, Noise, Rated
+
+F = TypeVar("F", bound=Fault)
+R = TypeVar("R", bound=Rated)
+
+
+class Mishaps:
+    """Which faults are at work now. Each draws from chances of its own, which the seed sets."""
+
+    def __init__(
+        self, faults: Sequence[Fault], recorder: Recorder, now: Callable[[], float], seed: int = 0
+    ) -> None:
+        """Have these faults strike, by mission time as `now` tells it (s)."""
+        self._recorder = recorder
+        self._now = now
+        self._chances = {
+            fault: np.random.default_rng((seed, index)) for index, fault in enumerate(faults)
+        }
+        self._struck: set[Fault] = set()
+
+    def begin(self) -> None:
+        """A mission begins: what strikes once may strike again."""
+        self._struck.clear()
+
+    def ordered(self, kind: type[F]) -> tuple[F, ...]:
+        """All faults of a kind, whenever they are."""
+        return tuple(fault for fault in self._chances if isinstance(fault, kind))
+
+    def active(self, kind: type[F]) -> tuple[F, ...]:
+        """Those that are at work now."""
+        time = self._now()
+        return tuple(fault for fault in self.ordered(kind) if time in fault.during)
+
+    def due(self, kind: type[F]) -> tuple[F, ...]:
+        """Those at work that have not struck in this mission."""
+        return tuple(fault for fault in self.active(kind) if fault not in self._struck)
+
+    def draw(self, kind: type[R], what: str) -> R | None:
+        """Whether one that strikes by chance does so now, upon `what`."""
+        for fault in self.active(kind):
+            if self._chances[fault].random() < fault.rate:
+                self.strike(fault, what)
+                return fault
+        return None
+
+    def chance(self, fault: Fault) -> np.random.Generator:
+        """Where a fault draws its chances from."""
+        return self._chances[fault]
+
+    def strike(self, fault: Fault, what: str) -> None:
+        """Record what a fault does, and that it has struck."""
+        self._struck.add(fault)
+        afterwards(partial(self._recorder.record, Mishap(str(fault), what)))
+
+
+class FaultyCamera:
+    """A Camera that may be blind or noisy."""
+
+    def __init__(self, camera: Camera, mishaps: Mishaps) -> None:
+        """Spoil the pictures of `camera`."""
+        self._camera = camera
+        self._mishaps = mishaps
+
+    def capture(self) -> Frame:
+        """The picture of this moment, as far as there is one."""
+        frame = self._camera.capture()
+        for fault in (*self._mishaps.due(Blind), *self._mishaps.due(Noise)):
+            self._mishaps.strike(fault, "the camera's pictures are spoilt")
+        if self._mishaps.active(Blind):
+            return _black(frame)
+        for noise in self._mishaps.active(Noise):
+            frame = _noisy(frame, noise.deviation, self._mishaps.chance(noise))
+        return frame
+
+
+class FaultyDetector:
+    """A Detector that may overlook and confuse things, and sees nothing where the camera is blind.
+
+    What it takes a thing for is one of `names`.
+    """
+
+    def __init__(self, detector: Detector, mishaps: Mishaps, names: Sequence[str]) -> None:
+        """Spoil what `detector` finds."""
+        self._detector = detector
+        self._mishaps = mishaps
+        self._names = names
+
+    def detect(self, frame: Frame) -> tuple[Detection, ...]:
+        """What it makes of the picture."""
+        if self._mishaps.active(Blind):
+            return ()
+        seen = (d for d in self._detector.detect(frame) if not self._overlooks(d))
+        return tuple(self._confused(detection) for detection in seen)
+
+    def _overlooks(self, detection: Detection) -> bool:
+        what = f"the {detection.label} is overlooked"
+        return self._mishaps.draw(Miss, what) is not None
+
+    def _confused(self, detection: Detection) -> Detection:
+        fault = self._mishaps.draw(Confuse, f"the {detection.label} is taken for something else")
+        if fault is None:
+            return detection
+        others = [name for name in self._names if name != detection.label]
+        return replace(detection, label=str(self._mishaps.chance(fault).choice(others)))
+
+
+def _black(frame: Frame) -> Frame:
+    depth = np.full_like(frame.depth, np.inf)
+    return replace(frame, color=np.zeros_like(frame.color), depth=depth)
+
+
+def _noisy(frame: Frame, deviation: float, chance: np.random.Generator) -> Frame:
+    color = frame.color + chance.normal(0.0, 255.0 * deviation, frame.color.shape)
+    depth = frame.depth + chance.normal(0.0, deviation, frame.depth.shape).astype(np.float32)
+    return replace(frame, color=color.clip(0, 255).astype(np.uint8), depth=depth.clip(0.01, None))

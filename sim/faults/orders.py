@@ -1,0 +1,379 @@
+"""What can be told to go wrong in the world, and when: `moved=mug:desk@12`, `blind@20-40`.
+
+    WORD[=VALUE][@FROM[-TO]]        times in seconds of the mission; without any: always
+
+Here they are only words and values. `injector` has them strike, on the world, the senses and the
+motors. The behaviour tree never hears of a fault, only of what comes of it.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import KW_ONLY, dataclass
+from typing import ClassVar, Self
+
+from executive.errors import InputError
+from executive.types import Pose
+from sim.home.arrangement import NoRoomError, Spot
+from sim.home.floorplan import doors_between
+from sim.home.home import DELIVERY, Home
+
+JOINTS = ("lift", *(f"joint{i}" for i in range(1, 8)))
+"""What can be stuck, in the order of `sim.body.hardware.ARM`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """From when to when (mission time, s)."""
+
+    start: float = 0.0
+    end: float = math.inf
+
+    @classmethod
+    def parse(cls, text: str) -> Self:
+        """Read `12` or `12-40`.
+
+        Raises:
+            ValueError: if it is neither.
+        """
+        start, dash, end = text.partition("-")
+        span = cls(_number(start), _number(end) if dash else math.inf)
+        if not 0 <= span.start < span.end:
+            raise ValueError(f"{text} is no time from 0 on, or none that ends after it begins")
+        return span
+
+    def __contains__(self, time_s: float) -> bool:
+        """Whether a time is within."""
+        return self.start <= time_s < self.end
+
+    def __str__(self) -> str:
+        """As it is parsed; empty if it is always."""
+        end = "" if self.end == math.inf else f"-{self.end:g}"
+        return f"@{self.start:g}{end}" if self != Span() else ""
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Something that goes wrong by order.
+
+    `word` and `example` say how it is written; what is `physical` is not in the instant world.
+    """
+
+    word: ClassVar[str]
+    example: ClassVar[str]
+    physical: ClassVar[bool] = False
+    _: KW_ONLY
+    during: Span = Span()
+
+    @property
+    def value(self) -> str:
+        """What is written after the equals sign; empty if nothing is."""
+        return ""
+
+    @classmethod
+    def parse(cls, value: str, during: Span) -> Self:
+        """Read the value.
+
+        Raises:
+            ValueError: if it is no value of this fault.
+        """
+        if value:
+            raise ValueError(f"{cls.word} takes no value")
+        return cls(during=during)
+
+    def check(self, home: Home) -> None:
+        """See whether the home has what the fault is about.
+
+        Raises:
+            ValueError: if it has not, saying what it has.
+        """
+
+    def __str__(self) -> str:
+        """As it is parsed."""
+        equals = f"={self.value}" if self.value else ""
+        return f"{self.word}{equals}{self.during}"
+
+
+# --- the world ---
+
+
+@dataclass(frozen=True, slots=True)
+class Moved(Fault):
+    """Someone takes a thing elsewhere, unless the robot has it."""
+
+    word: ClassVar[str] = "moved"
+    example: ClassVar[str] = "moved=mug:desk@12"
+    thing: str
+    place: str
+
+    @property
+    def value(self) -> str:
+        """Thing and place."""
+        return f"{self.thing}:{self.place}"
+
+    @classmethod
+    def parse(cls, value: str, during: Span) -> Self:
+        """Read `mug:desk`."""
+        thing, colon, place = value.partition(":")
+        if not (thing and colon and place):
+            raise ValueError("should name a thing and a place")
+        return cls(thing, place, during=during)
+
+    def check(self, home: Home) -> None:
+        """Both must exist, and the thing fit there."""
+        if self.thing not in home.objects:
+            raise ValueError(f"there is no {self.thing} in this home; there is {_of(home.objects)}")
+        places = (*(piece.name for piece in home.furniture), DELIVERY)
+        if self.place not in places:
+            raise ValueError(f"there is no {self.place} in this home; there is {_of(places)}")
+        try:
+            self.pose(home)
+        except NoRoomError as error:
+            raise ValueError(str(error)) from None
+
+    def pose(self, home: Home) -> Pose:
+        """Where the thing is put, in `map`: on a spot that none of the others has at the start.
+
+        Raises:
+            NoRoomError: if there is none.
+        """
+        others = {name: spot for name, spot in home.objects.items() if name != self.thing}
+        objects = {**others, self.thing: Spot(furniture=self.place)}
+        return home.model_copy(update={"objects": objects}).object_pose(self.thing)
+
+
+@dataclass(frozen=True, slots=True)
+class Blocked(Fault):
+    """The door between two rooms is shut."""
+
+    word: ClassVar[str] = "blocked"
+    example: ClassVar[str] = "blocked=kitchen-lobby@5-60"
+    rooms: tuple[str, str]
+
+    @property
+    def value(self) -> str:
+        """Both rooms."""
+        return "-".join(self.rooms)
+
+    @classmethod
+    def parse(cls, value: str, during: Span) -> Self:
+        """Read `kitchen-lobby`."""
+        one, dash, other = value.partition("-")
+        if not (one and dash and other):
+            raise ValueError("should name the two rooms of a door")
+        return cls((one, other), during=during)
+
+    def check(self, home: Home) -> None:
+        """There must be a door between them."""
+        doors = doors_between(home.rooms, home.doors)
+        if not any(set(self.rooms) == set(rooms) for rooms in doors.values()):
+            known = _of("-".join(rooms) for rooms in doors.values())
+            raise ValueError(f"there is no door {self.value}; there is {known}")
+
+
+@dataclass(frozen=True, slots=True)
+class Crate(Fault):
+    """Someone puts a crate down on the floor, at a point of `map` (metres)."""
+
+    word: ClassVar[str] = "crate"
+    example: ClassVar[str] = "crate=2.5,4.5@5-60"
+    physical: ClassVar[bool] = True
+    x: float
+    y: float
+
+    @property
+    def value(self) -> str:
+        """The point."""
+        return f"{self.x:g},{self.y:g}"
+
+    @classmethod
+    def parse(cls, value: str, during: Span) -> Self:
+        """Read `2.5,4.5`."""
+        x, _, y = value.partition(",")
+        return cls(_number(x), _number(y), during=during)
+
+    def check(self, home: Home) -> None:
+        """It must be in a room."""
+        if not any(room.holds(self.x, self.y) for room in home.rooms):
+            raise ValueError(f"({self.value}) is in no room")
+
+
+# --- hand and arm ---
+
+
+@dataclass(frozen=True, slots=True)
+class Rated(Fault):
+    """Strikes with a probability, each time anew."""
+
+    rate: float
+
+    @property
+    def value(self) -> str:
+        """The probability."""
+        return f"{self.rate:g}"
+
+    @classmethod
+    def parse(cls, value: str, during: Span) -> Self:
+        """Read `0.3`."""
+        return cls(_up_to_one(value, "a probability"), during=during)
+
+
+@dataclass(frozen=True, slots=True)
+class Slip(Rated):
+    """The fingers find no friction on what they close on."""
+
+    word: ClassVar[str] = "slip"
+    example: ClassVar[str] = "slip=0.3"
+
+
+@dataclass(frozen=True, slots=True)
+class Drop(Fault):
+    """The hand lets go, once, of what it carries at this time or picks up after it."""
+
+    word: ClassVar[str] = "drop"
+    example: ClassVar[str] = "drop@45"
+
+
+@dataclass(frozen=True, slots=True)
+class Stuck(Fault):
+    """A joint of the arm, or its lift, does not move."""
+
+    word: ClassVar[str] = "stuck"
+    example: ClassVar[str] = "stuck=joint3@20"
+    joint: str
+
+    @property
+    def value(self) -> str:
+        """The joint, without the maker's prefix."""
+        return self.joint
+
+    @classmethod
+    def parse(cls, value: str, during: Span) -> Self:
+        """Read `joint3` or `lift`."""
+        if value not in JOINTS:
+            raise ValueError(f"there is no joint {value!r}; there is {_of(JOINTS)}")
+        return cls(value, during=during)
+
+    @property
+    def index(self) -> int:
+        """Its place in `sim.body.hardware.ARM`."""
+        return JOINTS.index(self.joint)
+
+
+# --- the senses ---
+
+
+@dataclass(frozen=True, slots=True)
+class Blind(Fault):
+    """The camera gives black pictures without depth."""
+
+    word: ClassVar[str] = "blind"
+    example: ClassVar[str] = "blind@20-40"
+
+
+@dataclass(frozen=True, slots=True)
+class Noise(Fault):
+    """The camera's pictures are noisy.
+
+    `deviation` is the standard deviation of the depth (metres) and of the colours (of full scale).
+    """
+
+    word: ClassVar[str] = "noise"
+    example: ClassVar[str] = "noise=0.02"
+    deviation: float
+
+    @property
+    def value(self) -> str:
+        """The standard deviation."""
+        return f"{self.deviation:g}"
+
+    @classmethod
+    def parse(cls, value: str, during: Span) -> Self:
+        """Read `0.02`."""
+        return cls(_up_to_one(value, "a standard deviation in metres"), during=during)
+
+
+@dataclass(frozen=True, slots=True)
+class Miss(Rated):
+    """The detector overlooks a thing in a picture."""
+
+    word: ClassVar[str] = "miss"
+    example: ClassVar[str] = "miss=0.2"
+
+
+@dataclass(frozen=True, slots=True)
+class Confuse(Rated):
+    """The detector takes a thing in a picture for another one of the home."""
+
+    word: ClassVar[str] = "confuse"
+    example: ClassVar[str] = "confuse=0.1"
+
+
+FAULTS: dict[str, type[Fault]] = {
+    kind.word: kind
+    for kind in (Moved, Blocked, Crate, Slip, Drop, Stuck, Blind, Noise, Miss, Confuse)
+}
+"""Every kind, by its word."""
+
+
+def parse_fault(text: str) -> Fault:
+    """Read one fault.
+
+    Raises:
+        InputError: if it is none, with an example of what would be right.
+    """
+    what, at, when = text.partition("@")
+    word, _, value = what.partition("=")
+    if word not in FAULTS:
+        raise InputError(f"--fault {text}", f"there is no fault {word!r}", f"known: {_of(FAULTS)}")
+    kind = FAULTS[word]
+    try:
+        return kind.parse(value, Span.parse(when) if at else Span())
+    except ValueError as error:
+        raise InputError(f"--fault {text}", str(error), f"as in {kind.example}") from None
+
+
+def parse_faults(texts: Iterable[str], home: Home) -> tuple[Fault, ...]:
+    """Read faults, and see whether the home has what they are about.
+
+    Raises:
+        InputError: names the first that is wrong.
+    """
+    faults = tuple(parse_fault(text) for text in texts)
+    for fault in faults:
+        try:
+            fault.check(home)
+        except ValueError as error:
+            raise InputError(f"--fault {fault}", str(error)) from None
+    return faults
+
+
+def refuse_physical(faults: Iterable[Fault]) -> None:
+    """Let only those pass that the instant world knows, too.
+
+    Raises:
+        InputError: names the first that takes physics.
+    """
+    for fault in faults:
+        if fault.physical:
+            raise InputError(f"--fault {fault}", "this needs --world physics")
+
+
+def _number(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"{text!r} is no number")
+    return number
+
+
+def _up_to_one(value: str, what: str) -> float:
+    number = _number(value)
+    if not 0 < number <= 1:
+        raise ValueError(f"should be {what}: more than 0, at most 1")
+    return number
+
+
+def _of(names: Iterable[str]) -> str:
+    return ", ".join(names)

@@ -1,0 +1,165 @@
+"""Moves things, shuts doors and puts crates down in the physics world, as faults order it."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+import pybullet
+from pybullet_utils.bullet_client import BulletClient
+from scipy.spatial.transform import Rotation
+
+from executive.records import Entity, Shape
+from executive.types import Color, Pose
+from sim.body.skill import CONTROL_S
+from sim.bullet.bodies import create_body, frame_pose
+from sim.faults.hardware import FaultyHardware
+from sim.faults.injector import Mishaps
+from sim.faults.orders import Blocked, Crate, Moved
+from sim.home.floorplan import Door, doors_between, wall_axis, wall_lines
+from sim.home.furniture import box
+from sim.home.home import Home
+
+DOOR_HEIGHT_M, DOOR_THICKNESS_M = 2.0, 0.04
+DOOR_COLOR: Color = (0.62, 0.45, 0.28, 1.0)
+DOOR_SPEED_M_S = 1.0
+CRATE_M = (0.5, 0.5, 0.6)
+CRATE_COLOR: Color = (0.80, 0.62, 0.30, 1.0)
+CLEAR_M = 1.0
+"""Doors are not shut and crates not put down where the robot is nearer than this."""
+_CELLAR = Pose((0.0, 0.0, -3.0))
+"""Where crates wait that are not there yet."""
+
+
+class Poltergeist:
+    """What happens in the world that no sensor or motor does."""
+
+    def __init__(
+        self,
+        client: BulletClient,
+        home: Home,
+        things: Mapping[int, str],
+        hardware: FaultyHardware,
+        mishaps: Mishaps,
+    ) -> None:
+        """Hang the doors that will be shut, open, and keep the crates ready.
+
+        Args:
+            client: the world.
+            home: its plan.
+            things: names of the movable things by body id.
+            hardware: the robot, which is not to be hit.
+            mishaps: what to do, and when.
+        """
+        self._client = client
+        self._home = home
+        self._bodies = {name: body for body, name in things.items()}
+        self._hardware = hardware
+        self._mishaps = mishaps
+        self._slide = DOOR_SPEED_M_S * CONTROL_S
+        self._shapes: dict[str, Shape] = {}
+        self._doors = {f: self._hang(f) for f in mishaps.ordered(Blocked)}
+        self._crates = {f: self._store(f) for f in mishaps.ordered(Crate)}
+
+    def bodies(self) -> dict[int, str]:
+        """Names of doors and crates by body id."""
+        doors = {leaf.body: _name(fault) for fault, leaf in self._doors.items()}
+        return {**doors, **{body: _name(fault) for fault, body in self._crates.items()}}
+
+    def entities(self) -> Iterator[Entity]:
+        """Doors and crates for the viewer, each in a frame of its own name."""
+        return (Entity(name, name, (shape,)) for name, shape in self._shapes.items())
+
+    def act(self) -> None:
+        """Do what is due; called once per control period."""
+        self._hardware.suffer()
+        for moved in self._mishaps.due(Moved):
+            self._mishaps.strike(moved, self._move(moved))
+        for fault, leaf in self._doors.items():
+            self._slide_door(fault, leaf)
+        for crate, body in self._crates.items():
+            self._place_crate(crate, body)
+
+    # --- things ---
+
+    def _move(self, fault: Moved) -> str:
+        body = self._bodies[fault.thing]
+        if body in self._hardware.touched():
+            return f"the robot has the {fault.thing}: it stays"
+        pose = fault.pose(self._home)
+        offset = self._client.getDynamicsInfo(body, -1)[3]
+        middle = Rotation.from_quat(pose.orientation).apply(offset) + pose.position
+        self._client.resetBasePositionAndOrientation(body, middle, pose.orientation)
+        self._client.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))
+        self._client.changeDynamics(body, -1, activationState=pybullet.ACTIVATION_STATE_WAKE_UP)
+        return f"the {fault.thing} is taken to {fault.place}"
+
+    # --- doors ---
+
+    def _hang(self, fault: Blocked) -> "_Leaf":
+        doors = doors_between(self._home.rooms, self._home.doors)
+        door = next(door for door, rooms in doors.items() if set(rooms) == set(fault.rooms))
+        return _Leaf(door, self._build(fault, *_leaf_shape(self._home, door)))
+
+    def _slide_door(self, fault: Blocked, leaf: "_Leaf") -> None:
+        shut = fault in self._mishaps.active(Blocked)
+        if shut and leaf.open == leaf.door.width:
+            if self._robot_is_at(leaf.door.position):
+                return
+            self._mishaps.strike(fault, f"the door {fault.value} is shut")
+        left = np.clip((0.0 if shut else leaf.door.width) - leaf.open, -self._slide, self._slide)
+        if left:
+            leaf.open += float(left)
+            self._put(leaf.body, _leaf_pose(self._home, leaf.door, leaf.open))
+
+    # --- crates ---
+
+    def _store(self, fault: Crate) -> int:
+        middle = (0.0, 0.0, CRATE_M[2] / 2)
+        return self._build(fault, box(CRATE_M, middle, CRATE_COLOR), _CELLAR)
+
+    def _place_crate(self, fault: Crate, body: int) -> None:
+        there = frame_pose(self._client, body) != _CELLAR
+        wanted = fault in self._mishaps.active(Crate)
+        if wanted == there or (wanted and self._robot_is_at((fault.x, fault.y))):
+            return
+        if wanted:
+            self._mishaps.strike(fault, f"a crate stands at {fault.value}")
+        self._put(body, Pose((fault.x, fault.y, 0.0)) if wanted else _CELLAR)
+
+    # --- helpers ---
+
+    def _build(self, fault: Blocked | Crate, shape: Shape, pose: Pose) -> int:
+        self._shapes[_name(fault)] = shape
+        return create_body(self._client, (shape,), pose)
+
+    def _put(self, body: int, pose: Pose) -> None:
+        self._client.resetBasePositionAndOrientation(body, pose.position, pose.orientation)
+
+    def _robot_is_at(self, point: tuple[float, float]) -> bool:
+        x, y, _ = self._hardware.base_pose
+        return bool(np.hypot(x - point[0], y - point[1]) < CLEAR_M)
+
+
+class _Leaf:
+    """A door that slides into the wall beside it; `open` is how far (metres)."""
+
+    def __init__(self, door: Door, body: int) -> None:
+        self.door = door
+        self.body = body
+        self.open = door.width
+
+
+def _name(fault: Blocked | Crate) -> str:
+    return f"{fault.word}_{fault.value}"
+
+
+def _leaf_shape(home: Home, door: Door) -> tuple[Shape, Pose]:
+    lengths = [door.width, door.width, DOOR_HEIGHT_M]
+    lengths[wall_axis(door, wall_lines(home.rooms)) or 0] = DOOR_THICKNESS_M
+    leaf = box((lengths[0], lengths[1], lengths[2]), (0.0, 0.0, DOOR_HEIGHT_M / 2), DOOR_COLOR)
+    return leaf, _leaf_pose(home, door, door.width)
+
+
+def _leaf_pose(home: Home, door: Door, opened: float) -> Pose:
+    x, y = door.position
+    along_y = wall_axis(door, wall_lines(home.rooms)) == 0
+    return Pose((x + opened * (not along_y), y + opened * along_y, 0.0))

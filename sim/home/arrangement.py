@@ -1,0 +1,154 @@
+"""Where things stand on furniture at the start: as the home file says, or side by side."""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, NonNegativeInt
+
+from sim.home.floorplan import Coordinate
+from sim.home.furniture import Degrees, Surface
+from sim.objects.objects import ObjectModel
+
+GAP_M = 0.12
+"""Between the outlines of neighbours, for the fingers of a hand."""
+FRONT_M = 0.13
+"""From the front edge to the middle of a thing, for the reach of an arm."""
+MARGIN_M = 0.02
+"""From the outline of a thing to the edge of its surface."""
+SIDE_M = 0.5
+"""How far the row reaches to the left and right of the middle, before which its user stands."""
+STEP_M = 0.01
+HEADROOM_M = 0.05
+
+
+class Spot(BaseModel):
+    """Where an object is: on which furniture and, if it matters, where on it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    furniture: str
+    surface: NonNegativeInt | None = None
+    """Counts the furniture's surfaces, the handiest first; the first that fits if not given."""
+    at: tuple[Coordinate, Coordinate] | None = None
+    """From the middle of the surface to the front and to the left (metres)."""
+    yaw: Annotated[Degrees, AfterValidator(math.radians)] = 0.0
+    """Turn of the object (degrees in the file, radians here)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """An object's frame in the frame of its furniture (metres, radians)."""
+
+    surface: int
+    x: float
+    y: float
+    z: float
+    yaw: float
+
+
+class NoRoomError(Exception):
+    """There is no spot for an object on its furniture."""
+
+    def __init__(self, name: str, reason: str) -> None:
+        """Say for which object and why."""
+        super().__init__(reason)
+        self.name = name
+
+
+@dataclass(frozen=True, slots=True)
+class _Outline:
+    """The rectangle that something takes up, seen from above (metres)."""
+
+    back: float
+    front: float
+    right: float
+    left: float
+
+    def moved(self, x: float, y: float) -> "_Outline":
+        return _Outline(self.back + x, self.front + x, self.right + y, self.left + y)
+
+    def holds(self, other: "_Outline") -> bool:
+        return (
+            self.back <= other.back
+            and other.front <= self.front
+            and self.right <= other.right
+            and other.left <= self.left
+        )
+
+    def is_apart(self, other: "_Outline", gap: float) -> bool:
+        return (
+            max(self.back - other.front, other.back - self.front) >= gap
+            or max(self.right - other.left, other.right - self.left) >= gap
+        )
+
+
+def arrange(
+    spots: Mapping[str, Spot],
+    surfaces: Mapping[str, tuple[Surface, ...]],
+    models: Mapping[str, ObjectModel],
+) -> dict[str, Standing]:
+    """Give every object its place.
+
+    Objects with `at` stand there. The others follow in their order: each takes the free spot that
+    is nearest to the middle of the front of the first surface that has one, so that moving one
+    object leaves those before it where they are.
+
+    Raises:
+        NoRoomError: if an object does not fit.
+    """
+    standing: dict[str, Standing] = {}
+    taken: dict[tuple[str, int], list[_Outline]] = defaultdict(list)
+    for name, spot in sorted(spots.items(), key=lambda item: item[1].at is None):
+        outline = _outline(models[name], spot.yaw)
+        height = models[name].size[2]
+        gap = GAP_M if spot.at is None else 0.0
+        for place in _candidates(spot, surfaces[spot.furniture], outline, height):
+            row = taken[spot.furniture, place.surface]
+            there = outline.moved(place.x, place.y)
+            if all(there.is_apart(other, gap) for other in row):
+                row.append(there)
+                standing[name] = place
+                break
+        else:
+            where = "no spot is left for it" if spot.at is None else f"it does not fit at {spot.at}"
+            raise NoRoomError(name, f"{where} on {spot.furniture}")
+    return standing
+
+
+def _candidates(
+    spot: Spot, surfaces: tuple[Surface, ...], outline: _Outline, height: float
+) -> Iterator[Standing]:
+    """Where an object may stand if nothing else did, best first."""
+    for index, surface in enumerate(surfaces):
+        if spot.surface not in (None, index) or surface.clearance < height + HEADROOM_M:
+            continue
+        x, y, z = surface.center
+        half_x, half_y = surface.length_x / 2, surface.length_y / 2 - MARGIN_M
+        area = _Outline(x - half_x, x + half_x, y - half_y, y + half_y)
+        if spot.at is not None:
+            positions = [(x + spot.at[0], y + spot.at[1])]
+        else:
+            inset = max(FRONT_M, outline.front + MARGIN_M)
+            positions = [(area.front - inset, offset) for offset in _middle_out(outline)]
+        for position in positions:
+            if area.holds(outline.moved(*position)):
+                yield Standing(index, *position, z, spot.yaw)
+
+
+def _middle_out(outline: _Outline) -> Iterator[float]:
+    """Offsets to the left that keep the outline within SIDE_M, nearest to the middle first."""
+    for step in range(int(SIDE_M / STEP_M) + 1):
+        for offset in (step * STEP_M, -step * STEP_M):
+            if outline.right + offset >= -SIDE_M and outline.left + offset <= SIDE_M:
+                yield offset
+
+
+def _outline(model: ObjectModel, yaw: float) -> _Outline:
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    (x0, y0, _), (x1, y1, _) = model.lower, model.upper
+    corners = [(x * cos - y * sin, x * sin + y * cos) for x in (x0, x1) for y in (y0, y1)]
+    along, across = zip(*corners, strict=True)
+    return _Outline(min(along), max(along), min(across), max(across))

@@ -1,0 +1,247 @@
+"""The home: rooms, doors, furniture, and where things, the person and the robot are in it.
+
+A home is a TOML file; `homes/four_rooms.toml` shows every key. Its frame is `map`.
+"""
+
+import math
+from collections.abc import Mapping
+from importlib.resources import files
+from itertools import islice
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic_core import ErrorDetails
+
+from executive.errors import InputError
+from executive.files import decoded, read_bytes
+from executive.toml_file import MOST_BYTES, parse_toml
+from executive.types import DELIVERY, Place, Pose, Vector3
+from sim.home.arrangement import Spot, Standing, arrange
+from sim.home.floorplan import Door, Length, Room, Wall, walls
+from sim.home.furniture import Furniture, PlanarPose, PoseInDegrees, Surface
+from sim.home.naming import PERSON, usable
+from sim.home.validation import home_flaws, object_flaws, spot_flaws
+from sim.objects.objects import load_objects
+
+__all__ = ["DELIVERY", "PERSON", "Furniture", "Home", "PlanarPose", "Surface", "load_home"]
+
+STAND_OFF_M = 0.62
+"""From the front edge of a piece of furniture to the middle of the robot that uses it."""
+TALKING_DISTANCE_M = 0.9
+"""From the middle of the person to the middle of the robot that talks to them."""
+FLOOR_VIEWS = 5
+"""How many looks it takes to see the floor all around the robot."""
+FACE_HEIGHT_M = 1.55
+MOST_TOLD = 100
+"""So many things that are wrong are told of one file."""
+_SHOWN = 80
+"""So many characters of a value that is wrong are told."""
+VIEW_DEPTH_M = 0.17
+"""Behind the front edge of a surface, where the camera looks."""
+VIEW_HEIGHT_M = 0.06
+"""Above a surface, where the camera looks."""
+
+
+def _as_spot(value: Any) -> Any:
+    return {"furniture": value} if isinstance(value, str) else value
+
+
+class Home(BaseModel):
+    """A home as its file describes it; made by `load_home`."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    name: str
+    wall_height: Length = 2.4
+    wall_thickness: Annotated[Length, Field(le=1.0)] = 0.1
+    robot_start: PoseInDegrees
+    person: PoseInDegrees
+    """Where the person is, and where they look."""
+    rooms: Annotated[tuple[Room, ...], Field(min_length=1, max_length=200)]
+    doors: Annotated[tuple[Door, ...], Field(max_length=600)] = ()
+    furniture: Annotated[tuple[Furniture, ...], Field(max_length=5000)]
+    delivery: Furniture
+    """The table where brought things go; it is not searched."""
+    objects: dict[str, Annotated[Spot, BeforeValidator(_as_spot)]] = Field(default_factory=dict)
+
+    @property
+    def placement(self) -> dict[str, str]:
+        """Name of the furniture that each object is on, in the file's order."""
+        return {name: spot.furniture for name, spot in self.objects.items()}
+
+    def places(self) -> tuple[Place, ...]:
+        """The searchable furniture, in the file's order."""
+        kinds = {room.name: room.kind for room in self.rooms}
+        return tuple(Place(f.name, f.kind, f.room, kinds[f.room]) for f in self.furniture)
+
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, lower, right and upper edge of all rooms, in `map` (metres)."""
+        left, lower, right, upper = zip(*(room.rectangle for room in self.rooms), strict=True)
+        return min(left), min(lower), max(right), max(upper)
+
+    def walls(self) -> tuple[Wall, ...]:
+        """The walls without the doors' gaps, in `map`."""
+        return walls(self.rooms, self.doors, self.wall_thickness)
+
+    def furniture_named(self, name: str) -> Furniture:
+        """A piece of furniture, or the delivery table.
+
+        Raises:
+            InputError: if there is none of this name.
+        """
+        pieces = (*self.furniture, self.delivery)
+        for piece in pieces:
+            if piece.name == name:
+                return piece
+        known = "it has " + ", ".join(piece.name for piece in pieces)
+        raise InputError(f"home {self.name}", f"there is no furniture {name!r}", known)
+
+    def stand(self, place: str) -> PlanarPose:
+        """Where the robot stands to use a piece of furniture, or to talk to the `person`.
+
+        It faces the front of the furniture, STAND_OFF_M away from the edge.
+
+        Raises:
+            InputError: if there is no such place.
+        """
+        if place == PERSON:
+            (x, y, yaw), ahead = self.person, TALKING_DISTANCE_M
+        else:
+            piece = self.furniture_named(place)
+            (x, y, yaw), ahead = piece.pose, piece.size[0] / 2 + STAND_OFF_M
+        facing = math.remainder(yaw + math.pi, math.tau)
+        return x + ahead * math.cos(yaw), y + ahead * math.sin(yaw), facing
+
+    def object_pose(self, name: str) -> Pose:
+        """Where an object's frame is in `map` at the start.
+
+        Raises:
+            InputError: if the object is not in this home.
+        """
+        if name not in self.objects:
+            known = "it has " + ", ".join(self.objects)
+            raise InputError(f"home {self.name}", f"there is no object {name!r}", known)
+        piece = self.furniture_named(self.objects[name].furniture)
+        standing = self.arrangement()[name]
+        yaw = piece.pose[2] + standing.yaw
+        position = piece.to_map((standing.x, standing.y, standing.z))
+        return Pose(position, (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+
+    def view_targets(self, place: str) -> tuple[Vector3, ...]:
+        """Points to look at, from where the robot stands, to see all that stands on a place.
+
+        One for each of its surfaces, the handiest first; for the `person`, their face.
+
+        Raises:
+            InputError: if there is no such place.
+        """
+        if place == PERSON:
+            return ((self.person[0], self.person[1], FACE_HEIGHT_M),)
+        piece = self.furniture_named(place)
+        return tuple(
+            piece.to_map((x + surface.length_x / 2 - VIEW_DEPTH_M, 0.0, z + VIEW_HEIGHT_M))
+            for surface in piece.surfaces()
+            for x, _, z in (surface.center,)
+        )
+
+    def with_placement(self, placement: Mapping[str, str]) -> Self:
+        """This home with some objects on other furniture.
+
+        Raises:
+            InputError: if an object or a piece of furniture is unknown, or there is no room for it.
+        """
+        spots = {name: Spot(furniture=where) for name, where in placement.items()}
+        home = self.model_copy(update={"objects": {**self.objects, **spots}})
+        for flaw in (*object_flaws(home), *spot_flaws(home)):
+            raise InputError("--place", *flaw)
+        return home
+
+    def arrangement(self) -> dict[str, Standing]:
+        """Where each object's frame is in the frame of its furniture at the start."""
+        surfaces = {f.name: f.surfaces() for f in (*self.furniture, self.delivery)}
+        return arrange(self.objects, surfaces, load_objects())
+
+
+def load_home(name_or_path: str) -> Home:
+    """Read a home: the name of a packaged one, or a TOML file.
+
+    Raises:
+        InputError: if there is no such home or something in it is wrong, naming file and key.
+    """
+    home, faults = inspect_home(name_or_path)
+    if home is None or faults:
+        raise faults[0]
+    return home
+
+
+def inspect_home(name_or_path: str) -> tuple[Home | None, tuple[InputError, ...]]:
+    """Read a home and all that is wrong in its file; no home if it does not have the right form.
+
+    Raises:
+        InputError: if there is no such home or it is not TOML.
+    """
+    content, where = _read(name_or_path)
+    data = {"name": usable(Path(where).stem), **parse_toml(content, where)}
+    try:
+        home = Home.model_validate(data)
+    except ValidationError as error:
+        found = islice(error.errors(include_url=False), MOST_TOLD)
+        return None, tuple(_input_error(where, data, fault) for fault in found)
+    flaws = islice(home_flaws(home), MOST_TOLD)
+    return home, tuple(InputError(where, *flaw) for flaw in flaws)
+
+
+def home_text(name_or_path: str) -> str:
+    """The file of a home, as `load_home` reads it.
+
+    Raises:
+        InputError: if there is no such home.
+    """
+    return decoded(*_read(name_or_path))
+
+
+def packaged_homes() -> tuple[str, ...]:
+    """Names of the homes that come with the project."""
+    entries = files("sim").joinpath("homes").iterdir()
+    return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
+
+
+def _read(name_or_path: str) -> tuple[bytes, str]:
+    """The file of a home, and what to call it in messages."""
+    known = f"packaged are {', '.join(packaged_homes())}"
+    if name_or_path.endswith(".toml"):
+        return read_bytes(Path(name_or_path), MOST_BYTES, right=known), name_or_path
+    if name_or_path in packaged_homes():
+        file = files("sim").joinpath("homes", f"{name_or_path}.toml")
+        return file.read_bytes(), file.name
+    known += "; or give the path of a .toml file"
+    raise InputError(f"home {name_or_path[:_SHOWN]}", "there is no home of this name", known)
+
+
+def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
+    """One of pydantic's complaints, with the key as the file has it."""
+    key = _key(data, fault["loc"])
+    if fault["type"] == "extra_forbidden":
+        return InputError(where, f"there is no key {key}", "see sim/homes/four_rooms.toml")
+    if fault["type"] == "missing":
+        return InputError(where, f"{key} is missing", "see sim/homes/four_rooms.toml")
+    return InputError(where, f"{key} is {_shown(fault['input'])}", fault["msg"].lower())
+
+
+def _key(data: Any, path: tuple[str | int, ...]) -> str:
+    """A path into the file as a person would put it: `furniture.desk.size.0`."""
+    words = []
+    for part in path:
+        try:
+            data = data[part]
+        except (KeyError, IndexError, TypeError):
+            data = None
+        name = data.get("name") if isinstance(part, int) and isinstance(data, dict) else None
+        words.append(str(part if name is None else name)[:_SHOWN])
+    return ".".join(words)
+
+
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."

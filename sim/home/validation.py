@@ -1,0 +1,166 @@
+"""All that is wrong with a home that has the right form: names, plan, what stands where."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from executive.types import DELIVERY
+from sim.home.arrangement import NoRoomError
+from sim.home.floorplan import wall_axis, wall_lines
+from sim.home.furniture import FORM_OF_KIND
+from sim.home.naming import LONGEST, RULE, alike, folded, is_taken, name_fault
+from sim.home.overlaps import overlapping
+from sim.objects.objects import load_objects
+
+if TYPE_CHECKING:
+    from sim.home.home import Home
+
+Flaw = tuple[str, str]
+"""What is wrong, and what would be right."""
+
+LARGEST_M = 200.0
+"""A home that is longer was not meant in metres."""
+_SHOWN = 30
+"""So many names are listed at most."""
+
+
+def home_flaws(home: "Home") -> Iterator[Flaw]:
+    """All that is wrong; what follows only from an earlier flaw is left out."""
+    unspeakable = list(_name_flaws(home))
+    yield from unspeakable
+    if unspeakable:
+        return
+    unbuildable = [*_room_flaws(home), *_furniture_flaws(home)]
+    yield from unbuildable
+    yield from _layout_flaws(home)
+    yield from object_flaws(home)
+    if not unbuildable:
+        yield from spot_flaws(home)
+
+
+def _name_flaws(home: "Home") -> Iterator[Flaw]:
+    """Names and kinds that are none, as all else would be told by them."""
+    pieces = (*home.furniture, home.delivery)
+    named = [("home", "name", home.name)]
+    named += [("room", "name", room.name) for room in home.rooms]
+    named += [("room", "kind", room.kind) for room in home.rooms]
+    named += [("furniture", "name", piece.name) for piece in pieces]
+    named += [("furniture", "kind", piece.kind) for piece in pieces]
+    for what, key, name in named:
+        if fault := name_fault(name):
+            yield f"{what} {_cut(name)}: its {key} {fault}", RULE
+
+
+def _room_flaws(home: "Home") -> Iterator[Flaw]:
+    yield from _taken("room", [room.name for room in home.rooms])
+    for room in home.rooms:
+        left, lower, right, upper = room.rectangle
+        if left >= right or lower >= upper:
+            yield f"room {room.name} has no area", "give left, lower, right and upper edge"
+    left, lower, right, upper = home.extent()
+    if max(right - left, upper - lower) > LARGEST_M:
+        yield f"the rooms span more than {LARGEST_M:g} m", "give metres"
+    lines = wall_lines(home.rooms)
+    for door in home.doors:
+        if wall_axis(door, lines) is None:
+            on_edge = "put its middle on the edge of a room, away from the corners"
+            yield f"the door at {door.position} is not in a wall", on_edge
+    for who, (x, y, _) in (("robot_start", home.robot_start), ("person", home.person)):
+        if not any(room.holds(x, y) for room in home.rooms):
+            yield f"{who}: ({x:g}, {y:g}) is outside of all rooms", "give a point in a room"
+
+
+def _taken(what: str, names: Sequence[str]) -> Iterator[Flaw]:
+    """Names that mean something else already, or that more than one goes by."""
+    things = {folded(name) for name in load_objects()}
+    for name in names:
+        if is_taken(name):
+            yield f"{what} {name!r}: this name has a meaning of its own", "give another name"
+        elif folded(name) in things:
+            yield f"{what} {name!r}: this is the name of an object", "give another name"
+    for same in alike(names):
+        right = "give each its own name"
+        if len(set(same)) == 1:
+            yield f"{what} {same[0]!r} is there twice", right
+        else:
+            few = " and ".join(sorted(set(same))[:4])
+            yield f"{what} {few} differ too little to be kept apart", right
+
+
+def _furniture_flaws(home: "Home") -> Iterator[Flaw]:
+    rooms = {room.name for room in home.rooms}
+    spoken = {folded(name): name for name in rooms}
+    yield from _taken("furniture", [piece.name for piece in home.furniture])
+    if home.delivery.name != DELIVERY:
+        yield f"the delivery table is named {home.delivery.name}", f"name it {DELIVERY}"
+    for piece in (*home.furniture, home.delivery):
+        of = f"furniture {piece.name}"
+        if room := spoken.get(folded(piece.name)):
+            yield f"{of}: room {room} is called the same", f"name it as in {piece.name}_table"
+        if piece.room not in rooms:
+            yield f"{of}: no room {_cut(piece.room)}", f"rooms: {_some(r.name for r in home.rooms)}"
+        if piece.form is None and piece.kind not in FORM_OF_KIND:
+            known = f"known are {', '.join(FORM_OF_KIND)}; or give its form"
+            yield f"{of}: cannot build kind {piece.kind!r}", known
+        elif max(piece.boards, default=0.0) >= piece.size[2]:
+            yield f"{of}: a board is above its top", f"below {piece.size[2]} m"
+        elif min(length for shape in piece.shapes() for length in shape.size) <= 0:
+            yield f"{of}: too small or too low to be built", "make it larger"
+        elif not piece.surfaces():
+            yield f"{of}: nothing can stand on it", "give its boards"
+
+
+def _layout_flaws(home: "Home") -> Iterator[Flaw]:
+    for room, neighbour in combinations(home.rooms, 2):
+        if room.overlaps(neighbour):
+            yield f"room {room.name} and {neighbour.name} overlap", "let them share an edge at most"
+    rooms = {room.name: room for room in home.rooms}
+    pieces = (*home.furniture, home.delivery)
+    outlines = [piece.corners() for piece in pieces]
+    for piece, corners in zip(pieces, outlines, strict=True):
+        here = rooms.get(piece.room)
+        if here and not all(here.holds(x, y) for x, y in corners):
+            yield f"furniture {piece.name}: it sticks out of room {here.name}", "move it inside"
+    for one, other in overlapping(outlines):
+        names = f"{pieces[one].name} and {pieces[other].name}"
+        yield f"furniture {names} overlap", "move one of them"
+
+
+def object_flaws(home: "Home") -> Iterator[Flaw]:
+    """Objects that do not exist, or are on furniture that does not."""
+    models = load_objects()
+    furniture = _surfaces_of(home)
+    for name, spot in home.objects.items():
+        if name not in models:
+            yield f"there is no object {_cut(name)}", f"objects: {', '.join(models)}"
+        if spot.furniture not in furniture:
+            what = f"{_cut(name)}: there is no furniture {_cut(spot.furniture)}"
+            yield what, f"furniture: {_some(furniture)}"
+
+
+def spot_flaws(home: "Home") -> Iterator[Flaw]:
+    """Objects for which there is no room; those named otherwise are left out."""
+    furniture, models = _surfaces_of(home), load_objects()
+    left = {n: s for n, s in home.objects.items() if n in models and s.furniture in furniture}
+    while True:
+        try:
+            home.model_copy(update={"objects": left}).arrangement()
+        except NoRoomError as error:
+            yield f"{error.name}: {error}", "choose another place for it"
+            del left[error.name]
+        else:
+            return
+
+
+def _surfaces_of(home: "Home") -> dict[str, None]:
+    """Names of all furniture that things can be on, in the file's order."""
+    return dict.fromkeys([*(piece.name for piece in home.furniture), DELIVERY])
+
+
+def _some(names: Iterable[str]) -> str:
+    listed = list(names)
+    return ", ".join([*listed[:_SHOWN], *(["..."] if len(listed) > _SHOWN else [])])
+
+
+def _cut(name: str) -> str:
+    return repr(name if len(name) <= LONGEST else f"{name[:LONGEST]}...")

@@ -1,0 +1,165 @@
+"""Where the hand is for given joints, and which joints bring it somewhere.
+
+Computed on a second robot in a PyBullet world of its own, where nothing moves by itself.
+"""
+
+import numpy as np
+from pybullet_utils.bullet_client import BulletClient
+from scipy.spatial.transform import Rotation
+
+from executive.computing import still_wanted
+from sim.body.hardware import ARM, BASE, Floats, Hardware
+from sim.bullet.client import connect
+from sim.manipulation.grasps import HandPose
+
+POSITION_TOLERANCE = 0.002
+ANGLE_TOLERANCE = 0.02
+_MILLIMETRE, _HALF_DEGREE = 1e-3, 1e-2
+"""Units in which the solver weighs position against orientation."""
+_STAY_WEIGHT = 0.03
+_DAMPING, _EVALUATIONS, _LEAST_GAIN = 0.1, 40, 0.003
+"""Of the solver: its first damping, its patience, and the share of the error that a step takes off
+at least, or it was the last."""
+_DIAGONAL = np.diag_indices(len(ARM))
+_HAND = "panda_grasptarget"
+
+
+class Kinematics:
+    """The arm on its base."""
+
+    def __init__(self) -> None:
+        """Make a world with nothing but the robot."""
+        self._client: BulletClient = connect()
+        self._robot = Hardware(self._client, (0.0, 0.0, 0.0))
+        joints = [
+            self._client.getJointInfo(self._robot.body, i)
+            for i in self._robot.links.values()
+            if i >= 0
+        ]
+        movable = [j for j in joints if j[3] >= 0]
+        index = {j[1].decode(): j[0] for j in movable}
+        column = {j[1].decode(): k for k, j in enumerate(sorted(movable, key=lambda j: j[3]))}
+        self._moved = [index[name] for name in (*BASE, *ARM)]
+        self._columns = [column[name] for name in (*BASE, *ARM)]
+        limits = {j[1].decode(): (j[8], j[9]) for j in movable}
+        self._lower = np.array([limits[name][0] for name in ARM]) + 0.01
+        self._upper = np.array([limits[name][1] for name in ARM]) - 0.01
+        self._all = np.zeros(len(movable))
+
+    @property
+    def limits(self) -> tuple[Floats, Floats]:
+        """The lowest and the highest positions of the joints of `ARM`."""
+        return self._lower, self._upper
+
+    def close(self) -> None:
+        """Free the world."""
+        self._client.disconnect()
+
+    def hand(self, base: Floats, arm: Floats) -> HandPose:
+        """Where the hand is for a base pose (x, y, yaw) and positions of the joints of `ARM`."""
+        self._assume(base, arm)
+        return self._hand()
+
+    def solve(self, base: Floats, target: HandPose, near: Floats) -> Floats | None:
+        """Joints of `ARM`, near `near`, that bring the hand to the target; None if none are found.
+
+        Levenberg-Marquardt within the joint limits.
+        """
+        near = np.clip(near, self._lower, self._upper)
+        joints, damping = near, _DAMPING
+        error = self._error(base, target, joints, near)
+        for _ in range(_EVALUATIONS):
+            jacobian = self._jacobian()
+            hessian = jacobian.T @ jacobian
+            hessian[_DIAGONAL] *= 1 + damping
+            low, high = self._lower - joints, self._upper - joints
+            moved = joints + _bounded_step(hessian, jacobian.T @ error, low, high)
+            new_error = self._error(base, target, moved, near)
+            gain = 1.0 - float(new_error @ new_error) / float(error @ error)
+            if gain > 0:
+                joints, error, damping = moved, new_error, damping / 3
+            else:
+                damping *= 10
+                self._assume(base, joints)
+            if abs(gain) < _LEAST_GAIN:
+                break
+        off = np.linalg.norm(error[:3]) * _MILLIMETRE
+        turned = np.linalg.norm(error[3:6]) * _HALF_DEGREE
+        return joints if off < POSITION_TOLERANCE and turned < ANGLE_TOLERANCE else None
+
+    def line(
+        self, base: Floats, start: Floats, goal: HandPose, step: float = 0.03
+    ) -> list[Floats] | None:
+        """Joints that move the hand straight to a pose from where `start` has it; None if none."""
+        hand = self.hand(base, start)
+        turns = (goal.rotation * hand.rotation.inv()).as_rotvec()
+        way = goal.position - hand.position
+        count = max(1, int(np.ceil(np.linalg.norm(way) / step)))
+        path = [start]
+        for part in np.linspace(0, 1, count + 1)[1:]:
+            rotation = Rotation.from_rotvec(part * turns) * hand.rotation
+            found = self.solve(base, HandPose(hand.position + part * way, rotation), path[-1])
+            if found is None or np.abs(found - path[-1])[1:].max() > 0.6:
+                return None
+            path.append(found)
+        return path
+
+    # --- helpers ---
+
+    def _hand(self) -> HandPose:
+        pose = self._robot.link_pose(_HAND)
+        return HandPose(np.array(pose.position), Rotation.from_quat(pose.orientation))
+
+    def _assume(self, base: Floats, arm: Floats) -> None:
+        still_wanted()
+        values = np.concatenate((base, arm))
+        self._client.resetJointStatesMultiDof(
+            self._robot.body, self._moved, values[:, np.newaxis].tolist()
+        )
+        self._all[self._columns] = values
+
+    def _error(self, base: Floats, target: HandPose, arm: Floats, near: Floats) -> Floats:
+        """How far the hand is off (position, orientation), and how far the arm went (14,)."""
+        hand = self.hand(base, arm)
+        turn = (hand.rotation * target.rotation.inv()).as_rotvec()
+        return np.concatenate(
+            (
+                (hand.position - target.position) / _MILLIMETRE,
+                turn / _HALF_DEGREE,
+                _STAY_WEIGHT * (arm - near),
+            )
+        )
+
+    def _jacobian(self) -> Floats:
+        """Of the error (14, 8), where the joints are assumed now."""
+        zeros = [0.0] * len(self._all)
+        linear, angular = self._client.calculateJacobian(
+            self._robot.body,
+            self._robot.links[_HAND],
+            [0.0, 0.0, 0.0],
+            list(self._all),
+            zeros,
+            zeros,
+        )
+        columns = self._columns[len(BASE) :]
+        return np.vstack(
+            (
+                np.array(linear)[:, columns] / _MILLIMETRE,
+                np.array(angular)[:, columns] / _HALF_DEGREE,
+                _STAY_WEIGHT * np.eye(len(ARM)),
+            )
+        )
+
+
+def _bounded_step(hessian: Floats, gradient: Floats, low: Floats, high: Floats) -> Floats:
+    """About the lowest point of a quadratic form within bounds: what would leave them stays."""
+    step, free = np.zeros(len(gradient)), np.ones(len(gradient), dtype=bool)
+    while free.any():
+        pull = gradient[free] + hessian[np.ix_(free, ~free)] @ step[~free]
+        step[free] = -np.linalg.solve(hessian[np.ix_(free, free)], pull)
+        outside = free & ((step < low) | (step > high))
+        step = np.clip(step, low, high)
+        if not outside.any():
+            break
+        free &= ~outside
+    return step

@@ -1,0 +1,92 @@
+"""Getting the base to a pose through the home, around what is in the way and not on the map."""
+
+from collections.abc import Callable, Generator
+
+from executive.interfaces import Recorder
+from executive.records import Path
+from sim.body.base import BlockedError, Limits, drive
+from sim.body.hardware import Floats, Hardware
+from sim.body.laser import Laser
+from sim.body.skill import Skill, Thinker, pause
+from sim.home.home import PlanarPose
+from sim.navigation.costmap import Costmap
+from sim.navigation.grid import OccupancyGrid, Point, Unreachable, plan
+
+SCAN_EVERY = 10
+"""Control periods between turns of the laser: six a second."""
+WAYS_TRIED = 8
+"""How often something new may be in the way of one drive."""
+PATIENCE_S = 3.0
+"""How long the robot waits for what blocks the only way to go away."""
+
+
+class Navigator:
+    """Plans on the map and what the laser sees, follows the way, and plans anew when it must."""
+
+    def __init__(
+        self,
+        hardware: Hardware,
+        laser: Laser,
+        grid: OccupancyGrid,
+        recorder: Recorder,
+        now: Callable[[], float],
+        thinker: Thinker,
+    ) -> None:
+        """Use these parts; `now` gives the robot's time (s)."""
+        self._hardware = hardware
+        self._laser = laser
+        self._costmap = Costmap(grid)
+        self._recorder = recorder
+        self._now = now
+        self._thinker = thinker
+        self._periods = 0
+
+    def go(self, goal: PlanarPose, limits: Limits) -> Skill:
+        """Drive to a pose in `map`.
+
+        Raises:
+            Unreachable: if there is no way, or too often something new is in it.
+        """
+        for _ in range(WAYS_TRIED):
+            way = yield from self._plan(goal[:2])
+            self._recorder.record(Path(tuple((x, y, 0.0) for x, y in way)))
+            try:
+                yield from drive(self._hardware, way, goal[2], limits, self._blocked)
+                return
+            except BlockedError as blocked:
+                if blocked.bump is not None:
+                    self._costmap.bump(blocked.bump, self._now())
+        raise Unreachable("the way to the {place} is blocked")
+
+    def _plan(self, goal: Point) -> Generator[None, None, tuple[Point, ...]]:
+        """A way; if only what was seen leaves none, wait a little, have another look, try again."""
+        self._look()
+        try:
+            return (yield from self._way(goal))
+        except Unreachable:
+            if self._costmap.is_empty:
+                raise
+        self._costmap.forget(self._now())
+        yield from pause(PATIENCE_S)
+        self._look()
+        return (yield from self._way(goal))
+
+    def _way(self, goal: Point) -> Generator[None, None, tuple[Point, ...]]:
+        here = self._here
+        return (yield from self._thinker.compute(lambda: plan(self._costmap.grid(), here, goal)))
+
+    def _blocked(self, way: Floats) -> bool:
+        """Look now and then whether something is in the way."""
+        self._periods += 1
+        if self._periods % SCAN_EVERY:
+            return False
+        self._look()
+        return self._costmap.blocks(way, self._hardware.base_pose[:2])
+
+    def _look(self) -> None:
+        self._costmap.take(self._laser.scan(), self._now())
+
+    @property
+    def _here(self) -> Point:
+        x, y, _ = self._hardware.base_pose
+        return float(x), float(y)

@@ -1,0 +1,157 @@
+"""The things in the home: their mass, shape and how a two-finger hand takes them."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, TypeAdapter
+from scipy.spatial.transform import Rotation
+
+from executive.records import Shape
+from executive.toml_file import parse_toml
+from executive.types import Color, Pose, Vector3
+
+Grasp = Literal["top", "rim", "handle"]
+TUBE_WALLS = 12
+ASSETS = Path(__file__).parents[1] / "assets" / "objects"
+"""A folder for each object, with its mesh as `textured.obj` and as `textured.glb`."""
+WHITE: Color = (1.0, 1.0, 1.0, 1.0)
+"""Leaves the colours of a texture as they are."""
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectModel:
+    """One object, standing as it is put down.
+
+    Attributes:
+        name: as in the ontology.
+        mass_kg: its mass.
+        friction: lateral friction coefficient (the simulator multiplies those of both bodies).
+        grasp: `top` (fingers straddle the narrow horizontal side from above), `rim` (one finger
+            inside) or `handle`.
+        shapes: what it collides with, in the object frame, whose origin is the middle of the
+            resting base.
+        look: the textured mesh that is drawn of it, in the object frame.
+        lower: lowest corner of the bounding box in the object frame (metres).
+        upper: highest corner of the bounding box.
+        center_of_mass: in the object frame, all shapes taken as equally dense.
+    """
+
+    name: str
+    mass_kg: float
+    friction: float
+    grasp: Grasp
+    shapes: tuple[Shape, ...]
+    look: Shape
+    lower: Vector3
+    upper: Vector3
+    center_of_mass: Vector3
+
+    @property
+    def size(self) -> Vector3:
+        """Lengths of the bounding box along x, y and z (metres)."""
+        x, y, z = (high - low for low, high in zip(self.lower, self.upper, strict=True))
+        return x, y, z
+
+
+@cache
+def load_objects() -> dict[str, ObjectModel]:
+    """The objects of the paper (objects.toml), by name."""
+    content = files("sim").joinpath("objects.toml").read_bytes()
+    rows = TypeAdapter(dict[str, _Row]).validate_python(parse_toml(content, "objects.toml"))
+    return {name: row.model(name) for name, row in rows.items()}
+
+
+def packaged_mesh(name: str, form: Literal["obj", "glb"]) -> Shape:
+    """The mesh of an object that `python -m sim.modelling` made, in the object frame."""
+    path = ASSETS / name / f"textured.{form}"
+    return Shape("mesh", (1.0, 1.0, 1.0), WHITE, mesh=str(path))
+
+
+class _Part(BaseModel):
+    """A shape as the file writes it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    kind: Literal["box", "cylinder", "sphere", "tube"]
+    size: Vector3
+    at: Vector3
+    rpy: Vector3 = (0.0, 0.0, 0.0)
+
+    def shapes(self) -> tuple[Shape, ...]:
+        if self.kind == "tube":
+            return tuple(self._wall(i) for i in range(TUBE_WALLS))
+        turn = Rotation.from_euler("xyz", self.rpy, degrees=True)
+        return (Shape(self.kind, self.size, WHITE, _pose(self.at, turn)),)
+
+    def _wall(self, index: int) -> Shape:
+        """One of the boxes that stand in a ring for the tube's wall."""
+        diameter, thickness, height = self.size
+        angle = 2 * math.pi * index / TUBE_WALLS
+        middle = (diameter - thickness) / 2
+        width = diameter * math.tan(math.pi / TUBE_WALLS)
+        turn = Rotation.from_euler("z", angle)
+        x, y, z = turn.apply((middle, 0.0, 0.0)) + np.asarray(self.at)
+        return Shape("box", (thickness, width, height), WHITE, _pose((x, y, z), turn))
+
+
+class _Row(BaseModel):
+    """An object as the file writes it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    mass_kg: float
+    friction: float
+    grasp: Grasp
+    shapes: tuple[_Part, ...]
+
+    def model(self, name: str) -> ObjectModel:
+        shapes = tuple(shape for part in self.shapes for shape in part.shapes())
+        reach = np.array([_half_extent(shape) for shape in shapes])
+        middle = np.array([shape.pose.position for shape in shapes])
+        volume = np.array([_volume(shape) for shape in shapes])
+        return ObjectModel(
+            name,
+            self.mass_kg,
+            self.friction,
+            self.grasp,
+            shapes,
+            packaged_mesh(name, "obj"),
+            lower=_vector((middle - reach).min(axis=0)),
+            upper=_vector((middle + reach).max(axis=0)),
+            center_of_mass=_vector(volume @ middle / volume.sum()),
+        )
+
+
+def _vector(values: Sequence[float] | NDArray[np.float64]) -> Vector3:
+    x, y, z = (float(v) for v in values)
+    return x, y, z
+
+
+def _pose(position: Vector3, turn: Rotation) -> Pose:
+    x, y, z, w = (float(v) for v in turn.as_quat())
+    return Pose(_vector(position), (x, y, z, w))
+
+
+def _half_extent(shape: Shape) -> NDArray[np.float64]:
+    """Half lengths of the axis-aligned box around a shape (metres)."""
+    half = np.asarray(shape.size) / 2
+    axes = Rotation.from_quat(shape.pose.orientation).as_matrix()
+    if shape.kind == "sphere":
+        return half
+    if shape.kind == "cylinder":
+        axis = axes[:, 2]
+        return np.asarray(half[2] * np.abs(axis) + half[0] * np.sqrt(np.clip(1 - axis**2, 0, 1)))
+    return np.asarray(np.abs(axes) @ half)
+
+
+def _volume(shape: Shape) -> float:
+    x, y, z = shape.size
+    share = {"box": 1.0, "cylinder": math.pi / 4, "sphere": math.pi / 6}[shape.kind]
+    return share * x * y * z
