@@ -19,7 +19,7 @@ from executive.shell import DONE, NOT_DONE, entry_point
 from executive.text import printable
 from executive.usage import Parser
 from kb.facts import FactStore
-from kb.ontology import Ontology
+from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
 
 

@@ -19,9 +19,9 @@ from executive.records import Record, Tick, Verified
 from executive.situation import Situation
 from executive.types import Goal, Outcome
 from executive.user import Oracle, Scripted
-from kb.advisor import PlaceAdvisor
-from kb.ontology import Ontology
-from kb.scripted import Scripted as ScriptedModel
+from kb.advice.advisor import PlaceAdvisor
+from kb.llm.scripted import Scripted as ScriptedModel
+from kb.ontology.ontology import Ontology
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.faults.fake import FaultyFakeRobot
 from sim.faults.injector import FaultyCamera, FaultyDetector, Mishaps

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from kb.llama import embedded_model
+from kb.llm.llama import embedded_model
 
 ALIAS = "smollm2"
 STARTING_S = 60.0

@@ -10,8 +10,8 @@ from typing import Any
 
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, Replied, Result
-from kb.server import Server
-from kb.verification import Reply
+from kb.advice.verification import Reply
+from kb.llm.server.server import Server
 
 SCHEMA = Reply.model_json_schema()
 HELLO = ChatRequest(

@@ -8,18 +8,28 @@ from dataclasses import replace
 
 import pytest
 
+import kb.benchmark.__main__ as benchmark
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.types import Place, RankRequest
-from kb import benchmark
-from kb.benchmark import CHANCE, HINDSIGHT, POPULARITY, WORDS, table
-from kb.measures import Measures, expected_of_chance, mean, measure
-from kb.placements import Placements, preposition
-from kb.prompts import Prompts
-from kb.questions import DataSet, Question, placements, survey
-from kb.ranking import Known
-from kb.scripted import Scripted
-from kb.trials import ALIKE, COUNTS, NEUTRAL, PLAIN, RANKED, WRITTEN, Journal, ranking, writing
+from kb.advice.prompts import Prompts
+from kb.advice.ranking import Known
+from kb.benchmark.__main__ import CHANCE, HINDSIGHT, POPULARITY, WORDS, table
+from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
+from kb.benchmark.placements import Placements, preposition
+from kb.benchmark.questions import DataSet, Question, placements, survey
+from kb.benchmark.trials import (
+    ALIKE,
+    COUNTS,
+    NEUTRAL,
+    PLAIN,
+    RANKED,
+    WRITTEN,
+    Journal,
+    ranking,
+    writing,
+)
+from kb.llm.scripted import Scripted
 
 FOLDS = {
     "train": {

@@ -23,7 +23,7 @@ from executive.campaign.policies import POLICIES
 from executive.config import KnowledgeSystem, load_settings
 from executive.events import Inbox
 from executive.types import Outcome
-from kb.scripted import Scripted
+from kb.llm.scripted import Scripted
 from sim.home.home import home_text
 from sim.tools.generation import generate_home
 

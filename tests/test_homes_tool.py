@@ -11,7 +11,7 @@ from test_home import FLAT
 
 from executive.__main__ import main as executive
 from executive.types import Place
-from kb.ontology import Ontology
+from kb.ontology.ontology import Ontology
 from sim.__main__ import main
 from sim.home.furniture import FORM_OF_KIND
 from sim.home.home import Home, load_home

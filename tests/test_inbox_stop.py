@@ -6,7 +6,7 @@ import pytest
 
 from executive.events import DeadlinePassed, Inbox, StopRequested
 from executive.types import Answered
-from kb import llama
+from kb.llm import llama
 
 
 def test_only_a_stop_is_one() -> None:

@@ -6,10 +6,10 @@ import pytest
 
 from executive.events import Inbox
 from executive.types import Place, Scored, Usage
-from kb.advisor import PlaceAdvisor
-from kb.large_homes import BYTES_PER_TOKEN, MOST_OPTIONS, Alike
-from kb.ontology import Ontology
-from kb.scripted import Scripted
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.large_homes import BYTES_PER_TOKEN, MOST_OPTIONS, Alike
+from kb.llm.scripted import Scripted
+from kb.ontology.ontology import Ontology
 
 KINDS = ("Table", "Cabinet", "Shelf", "Desk", "Sofa")
 PLACES = [

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kb import lenient, understanding
-from kb.lenient import values
-from kb.verification import read
+from kb.advice import commands, lenient
+from kb.advice.lenient import values
+from kb.advice.verification import read
 
 BOTH = ("counter_wagon", "desk")
 
@@ -81,7 +81,7 @@ def test_the_last_answer_counts(reply: str) -> None:
     ],
 )
 def test_a_command_is_read_as_leniently(reply: str, kind: str) -> None:
-    asked = understanding.read(reply)
+    asked = commands.read(reply)
     assert asked
     assert (asked.kind, asked.object) == (kind, "mug")
 

@@ -19,14 +19,14 @@ from executive.types import (
     Replied,
     Scored,
 )
-from kb.advisor import PlaceAdvisor
-from kb.context import Context
-from kb.gguf import Gguf
-from kb.llama import LlamaCpp, embedded_model
-from kb.precedents import LIKELIHOOD_WEIGHT
-from kb.sampling import Sampler
-from kb.scripted import Scripted
-from kb.verification import Reply
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.verification import Reply
+from kb.llm.context import Context
+from kb.llm.gguf import Gguf
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.precedents import LIKELIHOOD_WEIGHT
+from kb.llm.sampling import Sampler
+from kb.llm.scripted import Scripted
 
 SCHEMA = Reply.model_json_schema()
 HELLO = ChatRequest("general_pos", (Message("user", "Where is the mug?"),), SCHEMA)

@@ -28,7 +28,7 @@ from executive.types import (
     Status,
     Usage,
 )
-from kb.scripted import Scripted as ScriptedModel
+from kb.llm.scripted import Scripted as ScriptedModel
 from sim.fake import FakeRobot, FakeWorld
 from trees.nodes import Step
 from trees.tree import MissionTree

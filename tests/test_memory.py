@@ -6,9 +6,9 @@ from hypothesis import strategies as st
 
 from executive.events import Inbox
 from executive.types import Message
-from kb.advisor import PlaceAdvisor
-from kb.memory import Memory, history_budget
-from kb.scripted import Scripted
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.history import Memory, history_budget
+from kb.llm.scripted import Scripted
 
 
 def words(text: str) -> int:

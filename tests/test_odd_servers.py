@@ -33,13 +33,13 @@ from executive.config import load_settings
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.types import ChatRequest, Failed, Message, RankRequest
-from kb import asking, lines, wire
-from kb.address import bases_of
-from kb.dialect import Dialect
-from kb.key import Key
-from kb.refusal import Refused, refusal
-from kb.server import Server
-from kb.thinking import answer_of
+from kb.llm.key import Key
+from kb.llm.server import asking, lines, wire
+from kb.llm.server.address import bases_of
+from kb.llm.server.dialect import Dialect
+from kb.llm.server.refusal import Refused, refusal
+from kb.llm.server.server import Server
+from kb.llm.thinking import answer_of
 
 RANK = RankRequest("rank", HELLO.messages, (), ("here",), ("here",))
 
@@ -610,7 +610,7 @@ def test_closing_in_the_middle_of_a_reply_ends_the_thread() -> None:
 
 
 def test_a_stuck_thread_is_left_behind(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kb.server.CLOSING_S", 0.05)
+    monkeypatch.setattr("kb.llm.server.server.CLOSING_S", 0.05)
     over = threading.Event()
     model = Server("http://127.0.0.1:1/v1", Inbox())
     model._loop.call_soon_threadsafe(over.wait)

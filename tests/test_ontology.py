@@ -15,8 +15,8 @@ from rdflib import RDF, RDFS
 from executive.errors import InputError
 from executive.types import Place
 from kb.__main__ import main
-from kb.names import PlaceNames, stem, words_of
-from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
+from kb.ontology.names import PlaceNames, stem, words_of
+from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
 from sim.home.home import home_text
 
 PAPERS_OBJECTS = [

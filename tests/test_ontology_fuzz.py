@@ -11,7 +11,7 @@ from watching import watched
 
 from executive.errors import ExecutiveError
 from executive.text import printable
-from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
+from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
 
 OURS = HOUSEHOLD.read_bytes()
 KNOWN = Ontology(defaults=False)

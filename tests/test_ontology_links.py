@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from kb.ontology import Ontology
+from kb.ontology.ontology import Ontology
 
 HEAD = """
 @prefix : <http://ex.org/my#> .

@@ -10,13 +10,13 @@ from rdflib import URIRef
 from test_replay import recorded
 from watching import watched
 
-import kb.owl
+import kb.ontology.owl
 from executive.__main__ import main as mission
 from executive.errors import InputError
 from executive.replay.replay import replay
-from kb import bounds, graph
 from kb.__main__ import main
-from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
+from kb.ontology import bounds, graph
+from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
 from logs.__main__ import main as logs
 
 OWLREADY = "http://www.lesfleursdunormal.fr/static/_downloads/owlready_ontology.owl#"
@@ -86,7 +86,7 @@ def test_an_annotation_that_names_python_code_is_refused_and_the_code_not_run(gu
 
 @pytest.mark.parametrize("text", SPELLINGS.values(), ids=SPELLINGS)
 def test_even_if_it_were_not_refused_nothing_would_be_run(guest, text, monkeypatch):
-    monkeypatch.setattr(kb.owl, "_RUNS_PYTHON", URIRef("urn:none"))
+    monkeypatch.setattr(kb.ontology.owl, "_RUNS_PYTHON", URIRef("urn:none"))
     (guest / "guest.owl").write_text(text)
     known = Ontology(files=[guest / "guest.owl"])
     assert [*known.faults(), *known.unused()] != []
@@ -126,7 +126,7 @@ def test_every_command_refuses_it_in_one_line(guest, command, capsys):
 def test_the_replay_of_a_recording_that_carries_it_runs_nothing(guest, monkeypatch, capsys):
     (guest / "guest.owl").write_text(SPELLINGS["an element"])
     with monkeypatch.context() as lenient:
-        lenient.setattr(kb.owl, "_RUNS_PYTHON", URIRef("urn:none"))
+        lenient.setattr(kb.ontology.owl, "_RUNS_PYTHON", URIRef("urn:none"))
         run = recorded(guest, "Find a mug", llm=False, kb=(guest / "guest.owl",))
         (guest / "guest.owl").unlink()
         assert replay(run).parting is None
@@ -266,7 +266,7 @@ def test_a_broken_turtle_file_is_refused_in_one_line(tmp_path, content, fault):
 
 
 def test_more_triples_than_people_write_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(kb.owl, "MOST_TRIPLES", 1000)
+    monkeypatch.setattr(kb.ontology.owl, "MOST_TRIPLES", 1000)
     (tmp_path / "guest.ttl").write_text(
         TURTLE + f"h:Mug rdfs:label {', '.join(map(str, range(1001)))} ."
     )
@@ -316,7 +316,7 @@ def test_a_value_that_is_xml_is_left_as_it_is(tmp_path):
 
 
 def test_the_bounds_leave_room_for_what_people_write():
-    assert HOUSEHOLD.stat().st_size * 100 < kb.owl.MOST_BYTES
+    assert HOUSEHOLD.stat().st_size * 100 < kb.ontology.owl.MOST_BYTES
     assert bounds.MOST_DEPTH >= 100
     assert graph.MOST_STEPS >= 100_000
 
@@ -329,7 +329,7 @@ def test_the_watch_sees_what_is_opened_imported_and_run(tmp_path):
 
 
 def test_a_question_that_takes_too_long_is_given_up(monkeypatch, capsys):
-    from kb import sparql
+    from kb.ontology import sparql
 
     monkeypatch.setattr(sparql, "LONGEST_S", 0.2)
     pairs = "SELECT (COUNT(*) AS ?n) WHERE { ?a ?b ?c . ?d ?e ?f . ?g ?h ?i . ?j ?k ?l }"

@@ -9,7 +9,7 @@ from test_ontology_safety import KETTLE, TURTLE, rdf
 
 from executive.errors import InputError
 from kb.__main__ import main
-from kb.ontology import Ontology
+from kb.ontology.ontology import Ontology
 
 HOUSE = "http://robot-executive.org/household.owl#"
 HOME = "http://robot-executive.org/home.owl#"

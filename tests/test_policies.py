@@ -14,7 +14,7 @@ from executive.campaign.routes import Routes
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
 from executive.types import ChatRequest
-from kb.scripted import Scripted
+from kb.llm.scripted import Scripted
 
 LLM = KnowledgeSystem.OKB_LLM
 Reword = Callable[[ChatRequest], ChatRequest]

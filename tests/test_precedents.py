@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from kb.precedents import LEAST, log_expected, shares, usual
+from kb.llm.precedents import LEAST, log_expected, shares, usual
 
 SHELF, FRIDGE, SOFA = range(3)
 FOOD, TOOL = np.eye(8)[0], np.eye(8)[1]

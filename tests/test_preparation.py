@@ -13,10 +13,10 @@ from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Message, RankRequest, Replied, Scored, Usage
-from kb.advisor import PlaceAdvisor
-from kb.context import Context
-from kb.llama import LlamaCpp, embedded_model
-from kb.scripted import Scripted
+from kb.advice.advisor import PlaceAdvisor
+from kb.llm.context import Context
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.scripted import Scripted
 
 
 class Preparing(Scripted):
@@ -70,7 +70,7 @@ def end_of(inbox: Inbox, request: int) -> Replied | Scored:
 
 def prepare(model: LlamaCpp, request: ChatRequest | RankRequest, caplog) -> None:
     """To its end."""
-    caplog.set_level("INFO", logger="kb.llama")
+    caplog.set_level("INFO", logger="kb.llm.llama")
     model.prepare(request)
     while "ahead" not in caplog.text:
         time.sleep(0.01)

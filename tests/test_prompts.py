@@ -9,10 +9,10 @@ from conftest import four_rooms, ontology
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.types import ChatRequest, Message
-from kb.advisor import PlaceAdvisor
-from kb.prompts import TEXTS, Prompts
-from kb.scripted import Scripted
-from kb.verification import Reply
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.prompts import TEXTS, Prompts
+from kb.advice.verification import Reply
+from kb.llm.scripted import Scripted
 
 PLACES = four_rooms().places()
 

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from executive.events import Inbox
 from executive.types import Place, RankRequest, Scored, Source, Usage
-from kb.advisor import PlaceAdvisor
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.prompts import Prompts
+from kb.advice.ranking import MOST_PRECEDENTS, Known, answer, rank_request, ranked
 from kb.facts import FactStore
-from kb.names import spoken
-from kb.prompts import Prompts
-from kb.ranking import MOST_PRECEDENTS, Known, answer, rank_request, ranked
-from kb.scripted import Scripted
+from kb.llm.scripted import Scripted
+from kb.ontology.names import spoken
 
 PLACES = four_rooms().places()
 

@@ -20,8 +20,8 @@ from executive.events import Inbox, StopRequested
 from executive.replay.replay import replay
 from executive.types import DriveTo, Goal, Kind, LookAt, Pick, PutDown, Status
 from executive.user import Console, Scripted
-from kb import ontology
-from kb.scripted import Scripted as ScriptedModel
+from kb.llm.scripted import Scripted as ScriptedModel
+from kb.ontology import ontology
 from logs.__main__ import main
 from logs.mcap_sink import McapSink
 from logs.recorder import Stamp

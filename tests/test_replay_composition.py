@@ -15,8 +15,8 @@ from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
 from executive.replay.replay import replay
 from executive.types import Box, Detection, Goal, LookAt, Pick, Saw, Status
-from kb.prompts import TEXTS
-from kb.scripted import Scripted as ScriptedModel
+from kb.advice.prompts import TEXTS
+from kb.llm.scripted import Scripted as ScriptedModel
 from logs.reader import Run
 from sim.fake import FakeWorld
 

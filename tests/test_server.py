@@ -14,10 +14,10 @@ from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, Replied, Result, Status
-from kb import asking
-from kb.advisor import PlaceAdvisor
-from kb.ontology import Ontology
-from kb.server import Server
+from kb.advice.advisor import PlaceAdvisor
+from kb.llm.server import asking
+from kb.llm.server.server import Server
+from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
 
 pytestmark = pytest.mark.llm

@@ -17,12 +17,12 @@ from executive.__main__ import main
 from executive.errors import ModelError
 from executive.events import Inbox, StopRequested
 from executive.types import Message
-from kb import first_load
-from kb.first_load import tried
-from kb.gguf_header import read_header, refuse_what_does_not_chat
-from kb.llama import LlamaCpp, embedded_model
-from kb.template import Template
-from kb.threads import Worker
+from kb.llm import first_load
+from kb.llm.first_load import tried
+from kb.llm.gguf_header import read_header, refuse_what_does_not_chat
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.template import Template
+from kb.llm.threads import Worker
 
 GOOD = "{% for m in messages %}{{ m.role }}: {{ m.content }}\n{% endfor %}"
 
@@ -304,7 +304,7 @@ def test_the_trial_is_not_given_the_key(stranger: Path, monkeypatch: pytest.Monk
 
 
 def test_the_packaged_model_is_not_tried(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kb.llama.tried", lambda *_: pytest.fail("it was tried"))
+    monkeypatch.setattr("kb.llm.llama.tried", lambda *_: pytest.fail("it was tried"))
     monkeypatch.setattr(LlamaCpp, "_load", lambda *_: None)
     LlamaCpp(embedded_model(), Inbox())
 

@@ -21,9 +21,9 @@ from odd_server import (
 )
 
 from executive.types import ChatRequest
-from kb import asking
-from kb.key import Key
-from kb.thinking import answer_of
+from kb.llm.key import Key
+from kb.llm.server import asking
+from kb.llm.thinking import answer_of
 
 WHOLE = {"choices": [{"message": {"content": "desk"}, "finish_reason": "stop"}]}
 IN_LINES = json.dumps(word("desk", "stop"), indent=1).splitlines()

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from executive.config import load_settings
 from executive.errors import InputError
 from executive.toml_file import MOST_BYTES, parse_toml, read_toml
-from kb.prompts import Prompts
+from kb.advice.prompts import Prompts
 
 
 def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path) -> None:

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from executive.events import Inbox
 from executive.types import SEARCHING, Kind, Scored, Usage
-from kb import understanding
-from kb.advisor import PlaceAdvisor
-from kb.scripted import Scripted
+from kb.advice import commands
+from kb.advice.advisor import PlaceAdvisor
+from kb.llm.scripted import Scripted
 
 ADVISOR = PlaceAdvisor(ontology(True), Scripted([], Inbox()), remembers=False)
 
@@ -59,4 +59,4 @@ def test_only_a_known_kind_with_one_known_object_is_read(
 def test_whatever_the_model_writes_nothing_is_raised_or_invented(reply: str) -> None:
     command = ADVISOR.command_read(reply)
     assert command is None or command[1] in ontology(True).objects()
-    understanding.read(reply)
+    commands.read(reply)

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from executive.types import DriveTo, Verdict
-from kb.verification import read, verify
+from kb.advice.verification import read, verify
 
 KNOWN = ontology(True).place_names
 some_furniture = st.sets(st.sampled_from(FURNITURE))

@@ -12,10 +12,10 @@ from executive.interfaces import Advisor, Clock, Eyes, LanguageModel, Recorder, 
 from executive.language.grammar import EnglishInterpreter
 from executive.situation import Situation
 from executive.types import DELIVERY, Vector3
-from kb.advisor import PlaceAdvisor
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.prompts import Prompts
 from kb.facts import FactStore
-from kb.ontology import Ontology
-from kb.prompts import Prompts
+from kb.ontology.ontology import Ontology
 from sim.home.home import Furniture, Home
 from trees.team import Team
 

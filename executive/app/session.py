@@ -39,12 +39,12 @@ from executive.situation import Situation
 from executive.text import one_line, too_long, writable
 from executive.types import Answered, Halt, Outcome, Status
 from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
+from kb.advice.prompts import Prompts
 from kb.facts import FactStore
-from kb.key import Key
-from kb.llama import LlamaCpp, embedded_model
-from kb.ontology import Ontology
-from kb.prompts import Prompts
-from kb.server import Server
+from kb.llm.key import Key
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.server.server import Server
+from kb.ontology.ontology import Ontology
 from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld

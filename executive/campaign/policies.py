@@ -28,10 +28,10 @@ from executive.types import (
     Usage,
     Verdict,
 )
-from kb.advisor import PlaceAdvisor
-from kb.names import unique
-from kb.ontology import Ontology
-from kb.verification import Reply
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.verification import Reply
+from kb.ontology.names import unique
+from kb.ontology.ontology import Ontology
 
 Order = Callable[[str, Sequence[str]], Sequence[str]]
 """An object's name, and the places that are allowed -> the places in the order to visit them."""

@@ -28,10 +28,10 @@ from executive.replay.stand_ins import Absent, RecordedTime
 from executive.situation import Situation
 from executive.text import printable
 from executive.types import Place
+from kb.advice.prompts import Prompts
 from kb.facts import FactStore
-from kb.ontology import DEFAULTS, HOUSEHOLD, Ontology
-from kb.owl import parsed
-from kb.prompts import Prompts
+from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
+from kb.ontology.owl import parsed
 from logs.difference import (
     ENDED,
     Aspect,

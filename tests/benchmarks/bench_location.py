@@ -16,7 +16,7 @@ from pathlib import Path
 
 from executive.types import Place
 from kb.facts import Fact, FactKind, FactStore
-from kb.ontology import Ontology
+from kb.ontology.ontology import Ontology
 
 KINDS = ("Table", "Desk", "Cabinet", "Shelf", "Bed", "Sofa")
 PIECES_A_ROOM = 10

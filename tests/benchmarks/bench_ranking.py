@@ -20,9 +20,9 @@ from pathlib import Path
 from executive.errors import ModelError
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, RankRequest, Usage
-from kb.advisor import PlaceAdvisor
-from kb.llama import LlamaCpp, embedded_model
-from kb.ontology import Ontology
+from kb.advice.advisor import PlaceAdvisor
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
 
 Ask = Callable[[str], int]
@@ -49,7 +49,7 @@ def prepare(model: LlamaCpp, request: ChatRequest | RankRequest) -> Cost:
         ended.set()
         return False
 
-    logger = logging.getLogger("kb.llama")
+    logger = logging.getLogger("kb.llm.llama")
     logger.setLevel(logging.INFO)
     logger.addFilter(hear)
     model.prepare(request)

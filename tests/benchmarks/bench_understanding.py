@@ -12,9 +12,9 @@ from pathlib import Path
 from executive.events import Ended, Inbox
 from executive.language.grammar import EnglishInterpreter
 from executive.types import Kind, Scored
-from kb.advisor import PlaceAdvisor
-from kb.llama import LlamaCpp, embedded_model
-from kb.ontology import Ontology
+from kb.advice.advisor import PlaceAdvisor
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.ontology.ontology import Ontology
 
 DEV = {
     Kind.FIND: (

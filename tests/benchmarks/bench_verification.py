@@ -22,12 +22,12 @@ from hypothesis import strategies as st
 
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Replied
-from kb.advisor import PlaceAdvisor
-from kb.llama import LlamaCpp, embedded_model
-from kb.names import spoken
-from kb.ontology import Ontology
-from kb.scripted import Scripted
-from kb.verification import Reply
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.verification import Reply
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.scripted import Scripted
+from kb.ontology.names import spoken
+from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
 
 sys.path.insert(0, str(Path(__file__).parents[1]))

@@ -1,0 +1,165 @@
+"""The texts for the language model: read from prompts.toml, filled in with what is known."""
+
+import json
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
+
+from executive.errors import InputError
+from executive.toml_file import read_toml
+from executive.types import SEARCHING, Kind, Message, Place
+from kb.advice.verification import Reply
+from kb.ontology.names import unique
+
+TEXTS = Path(__file__).parents[1] / "prompts.toml"
+
+PLACEHOLDERS: Mapping[str, Sequence[str]] = {
+    "inquiry_system": ("objects", "format"),
+    "system": ("rooms", "furniture in rooms", "furniture", "format"),
+    "system_rooms": ("rooms", "format"),
+    "general_pos": ("object name", "top"),
+    "multiple_pos": ("object name", "position"),
+    "furniture": ("object name", "room name", "furniture list"),
+    "again": ("object name", "furniture list"),
+    "summarize": ("object name", "situation"),
+    "question": ("thing", "words"),
+}
+"""Label of each text -> what it may speak of."""
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", str_strip_whitespace=True)
+
+    @field_validator(*PLACEHOLDERS, check_fields=False)
+    @classmethod
+    def _knows_its_placeholders(cls, text: str, info: ValidationInfo) -> str:
+        known = PLACEHOLDERS[str(info.field_name)]
+        if unknown := re.search(r"#\w+", _pattern(known).sub("", text)):
+            names = ", ".join(f"#{name}" for name in known)
+            raise ValueError(f"there is no {unknown[0]} here; known are {names}")
+        return text
+
+
+class Ranking(_Part):
+    """The chat in which places are scored."""
+
+    system: str
+    question: str
+    neutral: str
+    examples: tuple[tuple[str, str], ...]
+
+    def chat(self, thing: str) -> tuple[Message, ...]:
+        """The examples as turns, then the question about this thing."""
+        turns = [Message("system", self.system)]
+        for example, said in self.examples:
+            turns += [Message("user", self._about(example)), Message("assistant", said)]
+        return (*turns, Message("user", self._about(thing)))
+
+    def _about(self, thing: str) -> str:
+        return _fill(self.question, {"thing": thing})
+
+
+class Understanding(_Part):
+    """The chats in which commands are read that the grammar of commands cannot read."""
+
+    system: str
+    question: str
+    neutral: str
+    answers: dict[Kind, str]
+    examples: tuple[tuple[str, Kind], ...]
+    inquiry_system: str
+
+    @field_validator("answers")
+    @classmethod
+    def _answers_for_all(cls, answers: dict[Kind, str]) -> dict[Kind, str]:
+        if missing := [kind for kind in SEARCHING if kind not in answers]:
+            raise ValueError(f"there has to be an answer for {', '.join(missing)}")
+        return answers
+
+    def chat(self, words: str) -> tuple[Message, ...]:
+        """For ranking: the examples as turns, then the question about these words."""
+        turns = [Message("system", self.system)]
+        for example, kind in self.examples:
+            answer = self.answers[kind]
+            turns += [Message("user", self._about(example)), Message("assistant", answer)]
+        return (*turns, Message("user", self._about(words)))
+
+    def inquiry(
+        self, words: str, objects: Sequence[str], schema: dict[str, Any]
+    ) -> tuple[Message, ...]:
+        """For writing: what there is and the output format, then the question."""
+        values = {"objects": ", ".join(objects), "format": json.dumps(schema)}
+        system = Message("system", _fill(self.inquiry_system, values))
+        return system, Message("user", self._about(words))
+
+    def _about(self, words: str) -> str:
+        return _fill(self.question, {"words": words})
+
+
+class Prompts(_Part):
+    """All texts, by the paper's labels."""
+
+    system: str
+    system_rooms: str
+    general_pos: str
+    multiple_pos: str
+    furniture: str
+    again: str
+    summarize: str
+    ranking: Ranking
+    understanding: Understanding
+
+    @classmethod
+    def load(cls, path: Path | None = None) -> "Prompts":
+        """Our texts; those that a TOML file like prompts.toml has are taken from there.
+
+        Raises:
+            InputError: names the text and what is wrong with it.
+        """
+        texts = read_toml(TEXTS)
+        own = read_toml(path) if path else {}
+        for name, table in own.items():
+            if isinstance(table, dict) and isinstance(texts.get(name), dict):
+                own[name] = {**texts[name], **table}
+        try:
+            return cls.model_validate({**texts, **own})
+        except ValidationError as error:
+            fault = error.errors()[0]
+            where = ".".join(map(str, fault["loc"]))
+            known = f"known are {', '.join(texts)}" if fault["type"] == "extra_forbidden" else ""
+            raise InputError(f"{path}: {where}", fault["msg"], known) from None
+
+    def inquiry(self, label: str, **values: str) -> str:
+        """The text with this label; placeholders are given with underscores: `object_name`."""
+        text: str = getattr(self, label)
+        return _fill(text, {name.replace("_", " "): value for name, value in values.items()})
+
+    def home(self, places: Sequence[Place]) -> str:
+        """The system prompt: what the model is told about the home and the output format."""
+        return _fill(
+            self.system,
+            {
+                "rooms": ", ".join(unique(p.room for p in places)),
+                "furniture": ", ".join(p.name for p in places),
+                "furniture in rooms": "\n".join(f"- {p.name}: {p.room}" for p in places),
+                "format": json.dumps(Reply.model_json_schema()),
+            },
+        )
+
+    def rooms(self, rooms: Sequence[str]) -> str:
+        """The system prompt for a home with more furniture than a prompt has room for."""
+        form = json.dumps(Reply.model_json_schema())
+        return _fill(self.system_rooms, {"rooms": ", ".join(rooms), "format": form})
+
+
+def _pattern(names: Iterable[str]) -> re.Pattern[str]:
+    """Matches `#name` for each of the names, the longest first."""
+    longest_first = sorted(names, key=len, reverse=True)
+    return re.compile(rf"#({'|'.join(map(re.escape, longest_first))})\b")
+
+
+def _fill(text: str, values: Mapping[str, str]) -> str:
+    return _pattern(values).sub(lambda found: values[found[1]], text)

@@ -1,0 +1,82 @@
+"""Scoring the known places instead of asking for a list: a model cannot invent what it only scores.
+
+What counts for a place is the model's log-likelihood of the answer that names it, less that of the
+same answer about nothing in particular, so that a place does not win for being a common phrase
+(Holtzman et al., "Surface Form Competition", EMNLP 2021); and where other things are known to be,
+as far as they are like this one (`precedents.py`).
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from executive.types import Candidate, Place, Precedent, RankRequest, Scored, Source
+from kb.advice.prompts import Ranking
+from kb.ontology.names import base_name, spoken
+
+MOST_PRECEDENTS = 300
+"""More would take the embedded model many seconds, once."""
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """A thing by its name, the class above it (empty: none), and the names of its places."""
+
+    name: str
+    kind: str = ""
+    places: tuple[str, ...] = ()
+
+
+def rank_request(
+    thing: Known,
+    options: Sequence[tuple[Place, str]],
+    texts: Ranking,
+    others: Iterable[Known] = (),
+) -> RankRequest:
+    """Ask how likely each answer is for this thing.
+
+    Args:
+        thing: what is asked for. With its class beside it ("hammer (a tool)") the embedded model
+            ranked worse, so that the class only serves to compare it with others.
+        options: places, and the answers that stand for them, as `answer` has them.
+        texts: the question and its examples.
+        others: things whose places are known; those that are elsewhere do not count.
+    """
+    places = {place.name for place, _ in options}
+    here = (other for other in others if not places.isdisjoint(other.places))
+    likest = sorted(here, key=lambda other: other.kind != thing.kind)[:MOST_PRECEDENTS]
+    return RankRequest(
+        label="rank",
+        messages=texts.chat(spoken(thing.name)),
+        neutral=texts.chat(texts.neutral),
+        options=tuple(text for _, text in options),
+        places=tuple(place.name for place, _ in options),
+        precedents=tuple(
+            Precedent(texts.chat(spoken(other.name)), other.places, other.kind) for other in likest
+        ),
+        kind=thing.kind,
+    )
+
+
+def answer(place: Place, preposition: str) -> str:
+    """Where a thing in this place is, in words: "in the cabinet in the kitchen"."""
+    return f"{preposition} the {base_name(place)} in the {spoken(place.room)}"
+
+
+def ranked(scored: Scored) -> tuple[Candidate, ...]:
+    """Places by softmax of their scores, likeliest first; equals in the order of the request."""
+    probabilities = softmax(scored.scores)
+    candidates = [
+        Candidate(place, Source.LLM, probability)
+        for place, probability in zip(scored.request.places, probabilities, strict=True)
+    ]
+    return tuple(sorted(candidates, key=lambda c: -(c.probability or 0.0)))
+
+
+def softmax(scores: Sequence[float]) -> list[float]:
+    """Probabilities in proportion to exp(score); alike if no score is finite."""
+    best = max(scores, default=0.0)
+    if not math.isfinite(best):
+        return [1 / len(scores)] * len(scores)
+    weights = [math.exp(score - best) for score in scores]
+    return [weight / sum(weights) for weight in weights]

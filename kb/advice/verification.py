@@ -1,0 +1,182 @@
+"""Reading a language model's reply, and holding what it names against what exists.
+
+The paper's output parser and existence check. Pure functions.
+"""
+
+import json
+import re
+from collections.abc import Iterator, Sequence
+from operator import itemgetter
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from executive.text import writable
+from executive.types import Verdict
+from kb.advice.lenient import Bare, values
+from kb.ontology.names import PlaceNames, unique
+
+MOST_CHARACTERS = 10_000
+"""Of a reply, counted from its end: looking through more could take seconds."""
+_OBJECT = re.compile(r"\{(?=\s*[\"}])")
+_BULLET = re.compile(r"^(?:\d{1,2}[.):]|[-*•–])\s+")
+_BETWEEN = re.compile(r"[,;\n]")
+NAME_KEYS = ("name", "place", "furniture", "location", "room")
+"""What a model may call the name of a place, where it gives more than the name."""
+
+
+class Reply(BaseModel):
+    """The output format: a list of places."""
+
+    model_config = ConfigDict(strict=True)
+
+    places: list[str] = Field(description="names of furniture or rooms, likeliest first")
+
+
+def schema(places: Sequence[str], most: int) -> dict[str, Any]:
+    """JSON schema of a reply that can name only these places, at most so many.
+
+    For a model that can be held to a schema; what it writes is verified all the same.
+    """
+    held = Reply.model_json_schema()
+    held["properties"]["places"] |= {
+        "items": {"type": "string", "enum": list(places)},
+        "minItems": 1,
+        "maxItems": most,
+    }
+    return held
+
+
+def read(reply: str) -> tuple[str, ...] | None:
+    """The names in a reply, or None if nothing in it has the output format, more or less.
+
+    The last answer counts: a model that thinks aloud, or corrects itself, ends with what it means.
+    An object with `places` comes before a bare list or an object with one place. Each place is a
+    string, or an object that has one as its name. Never raises.
+    """
+    loose = None
+    for value in last_first(reply):
+        names = _places(value)
+        if names is not None and not _is_a_pattern(names):
+            return _tidied(names)
+        loose = loose or _loosely(value)
+    return _tidied(loose) if loose else None
+
+
+def _is_a_pattern(names: list[str]) -> bool:
+    """Whether it only shows what an answer looks like, as in `["...", "..."]`."""
+    return bool(names) and not any(map(str.isalnum, "".join(names)))
+
+
+def _tidied(names: list[str]) -> tuple[str, ...]:
+    """The names without the numbers and dots of a list."""
+    return tuple(_BULLET.sub("", writable(name).strip()) for name in names)
+
+
+def _places(value: object) -> list[str] | None:
+    """The names under `places`; None if it has none, or anything else among them."""
+    if not isinstance(value, dict):
+        return None
+    for key, named in value.items():
+        if key.strip().lower() == "places":
+            return _listed(named)
+    return None
+
+
+def _listed(named: object) -> list[str] | None:
+    """The names in what is given as places: a list, a text with commas, or numbers by name."""
+    if isinstance(named, list):
+        return _names(named)
+    if isinstance(named, str):
+        return [part for part in _BETWEEN.split(named) if part.strip()]
+    if not isinstance(named, dict) or _name(named):
+        return _name(named)
+    if all(key.strip().isdecimal() for key in named):
+        return _names(list(named.values()))
+    return None if any(map(_says_more, named.values())) else list(named)
+
+
+def _says_more(value: object) -> bool:
+    """Whether it is more than how likely something is."""
+    return value is not None and not isinstance(value, int | float)
+
+
+def _loosely(value: object) -> list[str] | None:
+    """The names in a bare list, or the one of an object; words without quotes are prose."""
+    if not isinstance(value, list):
+        return _name(value)
+    return None if any(isinstance(part, Bare) for part in value) else _names(value)
+
+
+def _names(parts: list[object]) -> list[str] | None:
+    """One name for each part; null stands for no part, as numbers do."""
+    named = [_rated(part) or _name(part) for part in parts if part is not None]
+    if parts and not named:
+        return None
+    names = [name for some in named if some for name in some]
+    return names if len(names) == len(named) else None
+
+
+def _rated(part: object) -> list[str] | None:
+    """The name in a pair of a name and how likely it is; None if it is something else."""
+    if isinstance(part, dict) and not any(key.strip().lower() in NAME_KEYS for key in part):
+        part = [value for pair in part.items() for value in pair]
+    if not isinstance(part, list) or len(part) != 2 or _says_more(part[1]):
+        return None
+    return _name(part[0])
+
+
+def _name(part: object) -> list[str] | None:
+    """The one name in this, as a list; None if there is none."""
+    if isinstance(part, dict):
+        lower = {key.strip().lower(): value for key, value in part.items()}
+        part = next((lower[key] for key in NAME_KEYS if key in lower), None)
+    return [part] if isinstance(part, str) else None
+
+
+def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -> Verdict:
+    """Which of the names are furniture, which are rooms, and which are nothing here.
+
+    A name has to fit one piece of furniture or one room with all its words; it may be written as
+    people write it ("the kitchen cabinet"). With `among`, other furniture, and rooms that hold
+    none of it, are dropped as well.
+    """
+    furniture: list[str] = []
+    rooms: list[str] = []
+    dropped: list[str] = []
+    allowed_rooms = known.rooms_of(among) if among else ()
+    for name in names:
+        found = known.exactly(name)
+        if found.furniture and (not among or found.furniture[0] in among):
+            furniture.append(found.furniture[0])
+        elif found.rooms and (not among or found.rooms[0] in allowed_rooms):
+            rooms.append(found.rooms[0])
+        else:
+            dropped.append(name)
+    return Verdict(unique(furniture), unique(rooms), unique(dropped))
+
+
+def last_first(reply: str) -> list[object]:
+    """The objects and lists in the end of a reply, the last one first, an outer one before its own.
+
+    What is JSON to the letter is found whatever stands before it, the rest as `lenient` does. Where
+    there is nothing, quotes may be spelled out, as in a web page or in JSON within JSON.
+    Never raises, and never takes long.
+    """
+    text = reply[-MOST_CHARACTERS:]
+    plain = text.replace("&quot;", '"').replace('\\"', '"')
+    found = [*_strictly(text), *values(text)] or [*_strictly(plain), *values(plain)]
+    return [value for _, value in sorted(found, key=itemgetter(0), reverse=True)]
+
+
+def _strictly(text: str) -> Iterator[tuple[int, object]]:
+    """What can be read as JSON from each opening brace on, with where it ends."""
+    decoder = json.JSONDecoder()
+    for begins in _OBJECT.finditer(text):
+        try:
+            value, end = decoder.raw_decode(text, begins.start())
+        except ValueError:
+            continue
+        except RecursionError:
+            return
+        yield end, value

@@ -1,0 +1,163 @@
+"""Putting the questions of a data set to a language model, and keeping the answers."""
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from executive.errors import InputError, ModelError
+from executive.events import Ended, Inbox
+from executive.interfaces import LanguageModel
+from executive.terminal import show_over
+from executive.types import RankRequest, Replied, Scored, Usage
+from kb.advice.advisor import PlaceAdvisor
+from kb.advice.prompts import Prompts
+from kb.advice.ranking import rank_request
+from kb.benchmark.questions import DataSet, Question
+from kb.llm.precedents import Floats, shares, usual
+from kb.ontology.ontology import Ontology
+
+PLAIN = "the model's likelihood of the answer"
+NEUTRAL = "... less that for any thing"
+COUNTS = "... and how often places are used"
+ALIKE = "... instead: where like things are"
+RANKED = "... like by their class, too (--elicit rank)"
+WRITTEN = "a list that the model writes, verified"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What came of one question.
+
+    Attributes:
+        object: what it was about.
+        orders: by each means, the places, the likeliest first.
+        seconds: how long what the robot does took.
+        tokens: how many tokens were evaluated for it; written ones count, too.
+    """
+
+    object: str
+    orders: dict[str, list[str]]
+    seconds: float
+    tokens: int
+
+
+Ask = Callable[[Question], Answer]
+
+
+def ranking(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts) -> Ask:
+    """Score every place; also with less than the robot uses, to see what each means brings."""
+    names = [place.name for place in data.places]
+
+    def scores(request: RankRequest) -> tuple[Floats, Usage]:
+        model.rank(request)
+        scored = _end(inbox)
+        assert isinstance(scored, Scored)
+        return np.array(scored.scores), scored.usage
+
+    def ask(question: Question) -> Answer:
+        request = rank_request(question.thing, data.answers, prompts.ranking, question.others)
+        full, usage = scores(request)
+        less, _ = scores(replace(request, precedents=()))
+        plain, _ = scores(replace(request, precedents=(), neutral=()))
+        orders = {PLAIN: order(plain, names), NEUTRAL: order(less, names)}
+        if known := request.precedents:
+            at = shares([precedent.places for precedent in known], names)
+            of_no_kind = tuple(replace(precedent, kind="") for precedent in known)
+            alike, _ = scores(replace(request, precedents=of_no_kind))
+            orders[COUNTS] = order(less + np.log(usual(at)), names)
+            orders[ALIKE] = order(alike, names)
+            orders[RANKED] = order(full, names)
+        return Answer(question.thing.name, orders, usage.total_s, usage.evaluated_tokens)
+
+    return ask
+
+
+def writing(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts) -> Ask:
+    """Have a list written, the paper's way, and keep what exists."""
+    ontology = Ontology(data.places, defaults=False)
+    adviser = PlaceAdvisor(ontology, model, remembers=False, prompts=prompts)
+
+    def ask(question: Question) -> Answer:
+        model.chat(adviser.inquiry(question.thing.name, ()))
+        replied = _end(inbox)
+        assert isinstance(replied, Replied)
+        names = adviser.read(replied.text) or ()
+        found = list(adviser.verify(names, ()).furniture)
+        tokens = replied.usage.evaluated_tokens + replied.usage.output_tokens
+        return Answer(question.thing.name, {WRITTEN: found}, replied.usage.total_s, tokens)
+
+    return ask
+
+
+def order(values: Floats, places: Sequence[str]) -> list[str]:
+    """The places, the highest value first; equals stay in their order."""
+    return [places[i] for i in np.argsort(-values, kind="stable")]
+
+
+class Journal:
+    """Answers as lines of JSON, so that a run that was stopped goes on where it was."""
+
+    def __init__(self, file: Path | None, run: dict[str, object]) -> None:
+        """Open the file, if there is one, or begin it; `run` says what the answers are answers to.
+
+        Raises:
+            InputError: if it is the journal of another run, or none.
+        """
+        self._file = file
+        self._kept: dict[tuple[str, str], Answer] = {}
+        if file is None:
+            return
+        try:
+            head, *rest = _lines(file) or [run]
+            self._kept = {(line.pop("data"), line["object"]): Answer(**line) for line in rest}
+            if head == run:
+                whole = [run, *({"data": data, **asdict(a)} for (data, _), a in self._kept.items())]
+                fresh = file.with_name(file.name + ".new")
+                fresh.write_text("".join(json.dumps(line) + "\n" for line in whole))
+                fresh.replace(file)
+        except (OSError, ValueError, TypeError, KeyError) as error:
+            raise InputError(str(file), f"is no journal: {error}", "name another file") from None
+        if head != run:
+            raise InputError(str(file), f"is the journal of another run: {head}", "name another")
+
+    def answers(self, data: DataSet, ask: Ask) -> Iterator[Answer]:
+        """All answers, kept or new, in the order of the questions; progress goes to stderr."""
+        for number, question in enumerate(data.questions, start=1):
+            show_over(f"{data.name} {number}/{len(data.questions)} {question.thing.name}")
+            key = data.name, question.thing.name
+            if key not in self._kept:
+                self._kept[key] = ask(question)
+                self._write({"data": data.name, **asdict(self._kept[key])})
+            yield self._kept[key]
+        show_over("")
+
+    def _write(self, line: dict[str, object]) -> None:
+        if self._file:
+            with self._file.open("a") as file:
+                file.write(json.dumps(line) + "\n")
+
+
+def _lines(file: Path) -> list[Any]:
+    """The objects in the lines of a file; a last line that was broken off does not count."""
+    lines = file.read_text().splitlines(keepends=True) if file.exists() else []
+    if len(lines) > 1 and not lines[-1].endswith("\n"):
+        lines.pop()
+    return [json.loads(line) for line in lines]
+
+
+def _end(inbox: Inbox) -> Scored | Replied:
+    """The end of the request that is under way.
+
+    Raises:
+        ModelError: if the model failed.
+    """
+    inbox.wait(None)
+    (event,) = inbox.take_all()
+    assert isinstance(event, Ended)
+    if not isinstance(event.result, Scored | Replied):
+        raise ModelError(str(event.result))
+    return event.result

@@ -1,0 +1,209 @@
+"""What a model has read: tokens evaluated by llama.cpp, and how likely others are after them."""
+
+import operator
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain, pairwise, takewhile
+from typing import Any
+
+import llama_cpp
+import numpy as np
+from numpy.typing import NDArray
+
+from executive.errors import ModelError
+from kb.llm.gguf import Checkpoint, Gguf, Tokens, last_complaint
+
+BATCH_TOKENS = 128
+"""Tokens evaluated at a time: between two batches the caller may stop."""
+TAIL_TOKENS = 32
+"""The same for what is likely to differ from prompt to prompt."""
+WHOLE = (-1, -1)
+"""All positions of a sequence."""
+
+
+class Context:
+    """What the model has read: sequence 0 and its KV cache, and room for others beside it.
+
+    Belongs to one thread.
+    """
+
+    def __init__(
+        self, model: Gguf, tokens: int, *, sequences: int = 1, threads: int | None = None
+    ) -> None:
+        """Room for so many tokens, and for so many sequences that share them.
+
+        Without `threads` one token at a time is evaluated by half of the cores, whose other half
+        would only wait for memory, and batches by all.
+
+        Raises:
+            ModelError: if there is not enough memory.
+        """
+        params = llama_cpp.llama_context_default_params()
+        params.n_ctx = tokens
+        params.n_batch = params.n_ubatch = BATCH_TOKENS
+        params.n_seq_max = sequences
+        params.kv_unified = True
+        params.no_perf = True
+        params.embeddings = sequences > 1
+        params.pooling_type = llama_cpp.LLAMA_POOLING_TYPE_NONE
+        cores = os.cpu_count() or 1
+        params.n_threads = threads or max(1, cores // 2)
+        params.n_threads_batch = threads or cores
+        self.pointer: Any = llama_cpp.llama_init_from_model(model.pointer, params)
+        if not self.pointer:
+            raise ModelError(f"no context of {tokens} tokens: {last_complaint()}")
+        self._memory: Any = llama_cpp.llama_get_memory(self.pointer)
+        self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, sequences)
+        self._vocabulary_size = model.vocabulary_size
+        self._width = llama_cpp.llama_model_n_embd(model.pointer)
+        self._sequences = sequences
+        self._n_ctx = tokens
+        self.evaluated = 0
+        """Tokens that were evaluated so far."""
+        self._batches: list[tuple[int, ...]] = []
+        self._length = 0
+
+    def read(self, tokens: Sequence[int], head: int, checkpoint: Checkpoint) -> None:
+        """Make sequence 0 these tokens; the batches that it begins with already are kept.
+
+        The last batch is evaluated in any case.
+
+        llama.cpp's numbers depend a little on how tokens are batched. The cuts made here depend on
+        the tokens alone, not on what was read before: so a kept batch changes no result.
+
+        Args:
+            tokens: what to read, at least one token.
+            head: how many of them later prompts will begin with, too: there is a cut.
+            checkpoint: called before each batch.
+
+        Raises:
+            ModelError: if the window is too short for them and at least something after them.
+        """
+        reserve = BATCH_TOKENS if self._sequences > 1 else 1
+        if len(tokens) + reserve > self._n_ctx:
+            raise ModelError(
+                f"the prompt takes {len(tokens)} tokens and needs room for {reserve} more, "
+                f"but the context window has {self._n_ctx}"
+            )
+        cuts = (*range(0, head, BATCH_TOKENS), *range(head, len(tokens), TAIL_TOKENS), len(tokens))
+        batches = [tuple(tokens[start:end]) for start, end in pairwise(cuts)]
+        same = sum(takewhile(bool, map(operator.eq, self._batches, batches[:-1])))
+        kept = sum(map(len, batches[:same]))
+        if not llama_cpp.llama_memory_seq_rm(self._memory, 0, kept, -1):
+            llama_cpp.llama_memory_clear(self._memory, True)
+            same = kept = 0
+        self._batches, self._length = batches[:same], kept
+        for batch in batches[same:]:
+            checkpoint()
+            self.append(batch)
+            self._batches.append(batch)
+
+    def begin(self, head: Tokens, checkpoint: Checkpoint) -> None:
+        """Evaluate what later prompts begin with, unless sequence 0 begins with it already."""
+        if [*chain(*self._batches)][: len(head)] != head:
+            self.read(head, len(head), checkpoint)
+
+    def append(self, tokens: Sequence[int]) -> None:
+        """Evaluate further tokens of sequence 0 (at most BATCH_TOKENS)."""
+        rows = [_Row(token, self._length + i) for i, token in enumerate(tokens)]
+        rows[-1] = replace(rows[-1], wanted=True)
+        self._decode(rows)
+        self._length += len(tokens)
+
+    def continuations(
+        self, options: Sequence[Tokens], checkpoint: Checkpoint
+    ) -> NDArray[np.float64]:
+        """(options,) log P(option | sequence 0), many to a batch; what they share only once.
+
+        Has to follow `read`; sequence 0 stays as it is.
+
+        Raises:
+            ModelError: if an option is empty or longer than BATCH_TOKENS.
+        """
+        if not all(0 < len(option) <= BATCH_TOKENS for option in options):
+            raise ModelError(f"an option has to be from 1 to {BATCH_TOKENS} tokens long")
+        first = self.log_probabilities()
+        scores = np.array([first[option[0]] for option in options])
+        for tree in _trees(options, self._sequences - 1):
+            checkpoint()
+            sequences = {n: i for i, n in enumerate(sorted(set().union(*tree.values())), start=1)}
+            for sequence in sequences.values():
+                llama_cpp.llama_memory_seq_cp(self._memory, 0, sequence, *WHOLE)
+            self._decode(
+                [
+                    _Row(begin[-1], self._length + len(begin) - 1, [sequences[n] for n in on], True)
+                    for begin, on in tree.items()
+                ]
+            )
+            for row, (begin, on) in enumerate(tree.items()):
+                next_token = self.log_probabilities(row)
+                for n in on:
+                    scores[n] += next_token[options[n][len(begin)]]
+            for sequence in sequences.values():
+                llama_cpp.llama_memory_seq_rm(self._memory, sequence, *WHOLE)
+        return scores
+
+    def state(self) -> NDArray[np.float64]:
+        """(width,) the last layer's state after the last token of sequence 0.
+
+        Has to follow `read`; only a context of several sequences keeps states.
+        """
+        pointer = llama_cpp.llama_get_embeddings_ith(self.pointer, -1)
+        return np.ctypeslib.as_array(pointer, shape=(self._width,)).astype(np.float64)
+
+    def log_probabilities(self, row: int = -1) -> NDArray[np.float64]:
+        """(vocabulary,) log P(next token) after this row of the last batch; -1: after the last."""
+        pointer = llama_cpp.llama_get_logits_ith(self.pointer, row)
+        logits = np.ctypeslib.as_array(pointer, shape=(self._vocabulary_size,)).astype(np.float64)
+        logits -= logits.max()
+        log_probabilities: NDArray[np.float64] = logits - np.log(np.exp(logits).sum())
+        return log_probabilities
+
+    def close(self) -> None:
+        """Free the memory."""
+        llama_cpp.llama_batch_free(self._batch)
+        llama_cpp.llama_free(self.pointer)
+
+    def _decode(self, rows: Sequence["_Row"]) -> None:
+        batch = self._batch
+        batch.n_tokens = len(rows)
+        for i, row in enumerate(rows):
+            batch.token[i] = row.token
+            batch.pos[i] = row.position
+            batch.n_seq_id[i] = len(row.sequences)
+            for j, sequence in enumerate(row.sequences):
+                batch.seq_id[i][j] = sequence
+            batch.logits[i] = row.wanted
+        if code := llama_cpp.llama_decode(self.pointer, batch):
+            raise ModelError(f"llama.cpp could not evaluate (code {code}): {last_complaint()}")
+        self.evaluated += len(rows)
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """One token to evaluate, at its place in some sequences, and whether its scores are wanted."""
+
+    token: int
+    position: int
+    sequences: Sequence[int] = (0,)
+    wanted: bool = False
+
+
+def _trees(options: Sequence[Tokens], most: int) -> Iterator[dict[tuple[int, ...], list[int]]]:
+    """Every beginning of an option, less the whole -> the numbers of the options that begin so.
+
+    In parts, each of at most BATCH_TOKENS beginnings and `most` options.
+    """
+    tree: dict[tuple[int, ...], list[int]] = {}
+    count = 0
+    for number, option in enumerate(options):
+        begins = [tuple(option[:end]) for end in range(1, len(option))]
+        if count == most or len(tree.keys() | begins) > BATCH_TOKENS:
+            yield tree
+            tree, count = {}, 0
+        for begin in begins:
+            tree.setdefault(begin, []).append(number)
+        count += bool(begins)
+    if tree:
+        yield tree

@@ -1,0 +1,212 @@
+"""Loading an unknown model file for the first time: in a process of its own.
+
+llama.cpp ends the whole process where a file breaks what it takes for granted, and a chat template
+is a program. So a file is first loaded, and its template filled in, by a child that may die or be
+stopped. What it survives is remembered, by what the file holds, in the user's cache; what it does
+not is never loaded here.
+"""
+
+import hashlib
+import logging
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import llama_cpp
+
+from executive.errors import ModelError
+from executive.text import printable, writable
+from executive.types import Message
+from kb.llm.context import Context
+from kb.llm.gguf import Gguf, check_file
+from kb.llm.gguf_header import TEMPLATE, read_header, refuse_what_does_not_chat
+from kb.llm.key import VARIABLE
+from kb.llm.template import Template
+
+PATIENCE_S = 60.0
+"""For a small file, and ..."""
+SLOWEST_DISK = 20e6
+"""... as much longer as reading the file from such a disk takes (bytes/s), but ..."""
+MOST_PATIENCE_S = 900.0
+"""... no longer than this."""
+SPARE_MEMORY = 8 << 30
+"""Bytes that loading a file may take beside twice its size."""
+TEMPLATE_S = 10
+"""How long a chat template may take."""
+SAMPLE = 1 << 20
+"""Bytes of the beginning and of the end that a file is known by."""
+LONGEST_FAULT = 500
+WRITES, RANKS = "writes", "ranks"
+CHAT = (Message("system", "You know a home."), Message("user", "Where is the mug?"))
+
+log = logging.getLogger(__name__)
+
+
+def tried(path: Path, called_off: Callable[[], bool] = lambda: False) -> bool:
+    """See whether a model file can be loaded; return whether it can rank, too.
+
+    Args:
+        path: the file.
+        called_off: asked now and then; stops it.
+
+    Raises:
+        ModelError: if it cannot be loaded, or does not chat.
+        KeyboardInterrupt: if it was called off.
+    """
+    check_file(path)
+    mark = _mark_of(path)
+    known = _recall(mark)
+    if not known:
+        log.warning("model %s is new: it is tried in a process of its own first", printable(path))
+        known = _told_by_child(path, called_off)
+        _remember(mark, known)
+    return RANKS in known
+
+
+def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
+    environment = {**os.environ, "GGML_NO_BACKTRACE": "1"}
+    environment["PYTHONPATH"] = os.pathsep.join(part or os.getcwd() for part in sys.path)
+    environment.pop(VARIABLE, None)
+    command = "from kb.llm.first_load import main; main()"
+    with subprocess.Popen(
+        [sys.executable, "-P", "-c", command, path.absolute()],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env=environment,
+        start_new_session=True,
+    ) as child:
+        try:
+            patience_s = PATIENCE_S + path.stat().st_size / SLOWEST_DISK
+            said = _until_ended(child, min(patience_s, MOST_PATIENCE_S), called_off)
+        finally:
+            child.kill()
+    lines = writable(said.decode(errors="replace")).splitlines()
+    if WRITES in lines:
+        return lines
+    if lines:
+        raise ModelError(printable(lines[0])[:LONGEST_FAULT])
+    raise ModelError(f"model {printable(path)} cannot be loaded: {_death(child.returncode)}")
+
+
+def _until_ended(
+    child: subprocess.Popen[bytes], patience_s: float, called_off: Callable[[], bool]
+) -> bytes:
+    """What the child said until it ended or time was up; it is little, so that no pipe fills."""
+    deadline = time.monotonic() + patience_s
+    while True:
+        try:
+            return child.communicate(timeout=0.05)[0]
+        except subprocess.TimeoutExpired:
+            if called_off():
+                raise KeyboardInterrupt from None
+            if time.monotonic() > deadline:
+                child.kill()
+                return child.communicate()[0]
+
+
+def _death(code: int) -> str:
+    if code == -signal.SIGALRM:
+        return "its chat template has no end"
+    if code == -signal.SIGKILL:
+        return "it takes too long"
+    if code < 0:
+        return f"llama.cpp dies of it ({signal.Signals(-code).name})"
+    return "llama.cpp does not say why"
+
+
+# --- what is remembered ---
+
+
+def _mark_of(path: Path) -> str:
+    """What tells this file, and this llama.cpp, from others; not the whole file, which takes long.
+
+    Raises:
+        ModelError: if it cannot be read.
+    """
+    try:
+        about = path.stat()
+        with path.open("rb") as file:
+            begins = file.read(SAMPLE)
+            file.seek(max(0, about.st_size - SAMPLE))
+            ends = file.read(SAMPLE)
+    except OSError as error:
+        raise ModelError(f"model {printable(path)} cannot be read: {error.strerror}") from None
+    facts = (llama_cpp.__version__, about.st_size, about.st_mtime_ns)
+    return hashlib.sha256(repr(facts).encode() + begins + ends).hexdigest()
+
+
+def _folder() -> Path:
+    cache = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    return Path(cache) / "robot-executive" / "models"
+
+
+def _recall(mark: str) -> list[str]:
+    try:
+        return [line for line in (_folder() / mark).read_text()[:100].split() if line]
+    except (OSError, ValueError):
+        return []
+
+
+def _remember(mark: str, known: list[str]) -> None:
+    """Where nothing can be written, the file is tried anew next time."""
+    try:
+        _folder().mkdir(parents=True, exist_ok=True)
+        (_folder() / mark).write_text("\n".join(known))
+    except OSError as error:
+        log.info("it is not remembered that the model can be loaded: %s", error)
+
+
+# --- from here on in the child ---
+
+
+def main() -> None:
+    """Load the file that is named on the command line; say what can be done with it, or why not."""
+    path = Path(sys.argv[1])
+    memory = 2 * path.stat().st_size + SPARE_MEMORY
+    resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    try:
+        header = read_header(path)
+        refuse_what_does_not_chat(path, header)
+        _try_template(path, str(header.values[TEMPLATE]))
+        model = Gguf(path)
+        _try_to_write(model)
+        print(WRITES, flush=True)
+        _try_to_rank(model)
+        print(RANKS, flush=True)
+    except (ModelError, MemoryError) as error:
+        print(printable(error) or "there is not enough memory", flush=True)
+    finally:
+        os._exit(0)
+
+
+def _try_template(path: Path, text: str) -> None:
+    signal.alarm(TEMPLATE_S)
+    try:
+        Template(text, "<s>", "</s>")
+    except ModelError as error:
+        raise ModelError(f"model {printable(path)}: {error}") from None
+    signal.alarm(0)
+
+
+def _try_to_write(model: Gguf) -> None:
+    tokens, head = model.prompt(CHAT)
+    context = Context(model, max(512, 2 * len(tokens)))
+    context.read(tokens, head, lambda: None)
+    context.append([int(context.log_probabilities().argmax())])
+
+
+def _try_to_rank(model: Gguf) -> None:
+    tokens, head = model.prompt(CHAT)
+    context = Context(model, max(512, 2 * len(tokens)), sequences=3)
+    context.read(tokens, head, lambda: None)
+    context.state()
+    context.continuations(
+        [model.tokenize("on the desk"), model.tokenize("here it is")], lambda: None
+    )

@@ -1,0 +1,166 @@
+"""A GGUF file in llama.cpp: its weights, its vocabulary, its chat template.
+
+A thin layer over the C functions of llama-cpp-python. Its own `Llama` class keeps one sequence of
+tokens only, while scoring continues one prompt in many ways at once.
+"""
+
+import ctypes
+import operator
+import os
+import stat
+from collections import deque
+from collections.abc import Callable, Sequence
+from itertools import takewhile
+from pathlib import Path
+from typing import Any
+
+import llama_cpp
+
+from executive.errors import ModelError
+from executive.text import printable
+from executive.types import Message
+from kb.llm.gguf_header import LONGEST_TEMPLATE, TEMPLATE
+from kb.llm.template import Template
+
+MAGIC = b"GGUF"
+
+Tokens = list[int]
+Checkpoint = Callable[[], None]
+"""Called between steps; raises to stop the work."""
+
+_complaints: deque[str] = deque(maxlen=4)
+
+
+@llama_cpp.llama_log_callback  # type: ignore[untyped-decorator]
+def _keep_complaints(level: int, text: bytes, user_data: ctypes.c_void_p) -> None:
+    """Keep llama.cpp from writing to stderr, but remember its last errors (level 4)."""
+    if level == 4 and text.strip():
+        _complaints.append(text.decode(errors="replace").strip())
+
+
+def check_file(path: Path) -> None:
+    """See whether this can be a model file.
+
+    Raises:
+        ModelError: if it is missing or is no GGUF file.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise ModelError(f"model {printable(path)} cannot be read: it is no file")
+        with path.open("rb") as file:
+            begins = file.read(len(MAGIC))
+    except OSError as error:
+        raise ModelError(f"model {printable(path)} cannot be read: {error.strerror}") from None
+    if begins != MAGIC:
+        where = printable(path)
+        raise ModelError(f"model {where} is no GGUF file: it does not begin with the letters GGUF")
+
+
+class Gguf:
+    """The weights and the vocabulary. Tokenizing is safe from any thread."""
+
+    def __init__(
+        self, path: Path, gpu_layers: int = 0, checkpoint: Checkpoint = lambda: None
+    ) -> None:
+        """Load the file; blocks. The checkpoint is called while it loads.
+
+        Raises:
+            ModelError: if llama.cpp cannot load it, or the model is not made for chats.
+        """
+        check_file(path)
+        llama_cpp.llama_log_set(_keep_complaints, ctypes.c_void_p(0))
+        llama_cpp.llama_backend_init()
+        params = llama_cpp.llama_model_default_params()
+        params.n_gpu_layers = gpu_layers
+        params.progress_callback = llama_cpp.llama_progress_callback(_goes_on(checkpoint))
+        self.pointer: Any = llama_cpp.llama_model_load_from_file(os.fsencode(path), params)
+        if not self.pointer:
+            checkpoint()
+            raise ModelError(f"model {printable(path)} cannot be loaded: {last_complaint()}")
+        self.vocabulary: Any = llama_cpp.llama_model_get_vocab(self.pointer)
+        self.vocabulary_size = llama_cpp.llama_vocab_n_tokens(self.vocabulary)
+        try:
+            self._template = Template(*self._template_texts(path))
+        except ModelError as error:
+            self.close()
+            raise ModelError(f"model {printable(path)}: {error}") from None
+
+    def tokenize(self, text: str, *, special: bool = False) -> Tokens:
+        """The text's tokens; `special` if markup such as `<|im_start|>` stands for its token."""
+        raw = text.encode()
+        tokens = (llama_cpp.llama_token * (len(raw) + 1))()
+        count = llama_cpp.llama_tokenize(
+            self.vocabulary, raw, len(raw), tokens, len(tokens), False, special
+        )
+        return list(tokens[:count])
+
+    def prompt(self, chat: Sequence[Message], other: Sequence[Message] = ()) -> tuple[Tokens, int]:
+        """A chat as the model was taught to read it, up to where its next turn begins.
+
+        Returns:
+            The tokens, and how many of them another chat begins with, too (never all).
+
+        Raises:
+            ModelError: if the model's template refuses it (some know no system turn).
+        """
+        tokens = self._tokens(chat)
+        others = self._tokens(other) if other else []
+        return tokens, sum(takewhile(bool, map(operator.eq, tokens[:-1], others)))
+
+    def piece(self, token: int) -> bytes:
+        """The bytes that a token stands for; a character may be parted over several."""
+        buffer = ctypes.create_string_buffer(256)
+        length = llama_cpp.llama_token_to_piece(
+            self.vocabulary, token, buffer, len(buffer), 0, False
+        )
+        return buffer.raw[: max(0, length)]
+
+    def ends(self, token: int) -> bool:
+        """Whether this token ends a turn."""
+        return bool(llama_cpp.llama_vocab_is_eog(self.vocabulary, token))
+
+    def close(self) -> None:
+        """Free the weights; contexts have to be closed before."""
+        llama_cpp.llama_model_free(self.pointer)
+
+    def _tokens(self, chat: Sequence[Message]) -> Tokens:
+        return self.tokenize(self._template.fill(chat), special=True)
+
+    def _template_texts(self, path: Path) -> tuple[str, str, str]:
+        """The chat template, and the markup that begins and ends a text."""
+        buffer = ctypes.create_string_buffer(LONGEST_TEMPLATE)
+        length = llama_cpp.llama_model_meta_val_str(
+            self.pointer, TEMPLATE.encode(), buffer, len(buffer)
+        )
+        if not 0 < length < len(buffer):
+            fault = "no chat template" if length <= 0 else "a chat template that is too long"
+            raise ModelError(f"it has {fault}: take an instruction-tuned model")
+        ends = (llama_cpp.llama_vocab_bos, llama_cpp.llama_vocab_eos)
+        begin, end = (self.piece_of_special(one(self.vocabulary)) for one in ends)
+        return buffer.value.decode(errors="replace"), begin, end
+
+    def piece_of_special(self, token: int) -> str:
+        """The markup of a special token; empty if the model has no such token (-1)."""
+        if token < 0:
+            return ""
+        return str(llama_cpp.llama_vocab_get_text(self.vocabulary, token).decode(errors="replace"))
+
+
+def _goes_on(checkpoint: Checkpoint) -> Callable[[float, ctypes.c_void_p], bool]:
+    """What llama.cpp asks while it loads: False if the checkpoint stops the work."""
+
+    def goes_on(progress: float, user_data: ctypes.c_void_p) -> bool:
+        try:
+            checkpoint()
+        except Exception:  # noqa: BLE001 - through C nothing can be raised
+            return False
+        return True
+
+    return goes_on
+
+
+def last_complaint() -> str:
+    """What llama.cpp complained of first: what follows only says that it gives up."""
+    said = _complaints[0] if _complaints else "llama.cpp does not say why"
+    _complaints.clear()
+    return printable(said.removeprefix("llama_model_load: error loading model: "))

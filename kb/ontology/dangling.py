@@ -1,0 +1,118 @@
+"""Links to nothing: names that a file uses and that no file declares."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rapidfuzz import process
+from rdflib import OWL, RDF, RDFS, BNode, URIRef
+from rdflib.term import Identifier
+
+from executive.text import printable
+from kb.ontology.graph import STANDARDS, Graph
+from kb.ontology.owl import ending
+
+LEAST_LIKENESS = 75.0
+"""Of 100, as rapidfuzz counts: so alike are a name and a slip of it."""
+MOST_COMPARED = 100
+"""Names for which the one that they are a slip of is looked for."""
+
+_LINKS = frozenset(
+    (RDF.type, RDF.first, RDFS.subClassOf, RDFS.subPropertyOf, RDFS.domain, RDFS.range)
+    + (OWL.equivalentClass, OWL.disjointWith, OWL.complementOf, OWL.equivalentProperty)
+    + (OWL.onProperty, OWL.onClass, OWL.hasValue, OWL.someValuesFrom, OWL.allValuesFrom)
+    + (OWL.inverseOf, OWL.sameAs, OWL.differentFrom)
+)
+"""Relations of OWL itself whose values are entities."""
+_FILLERS = frozenset((OWL.hasValue, OWL.someValuesFrom, OWL.allValuesFrom, OWL.onClass))
+_INSIDE_LISTS = frozenset((RDF.first, RDF.rest))
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A link to nothing: `subject` has `relation` to what no file declares."""
+
+    subject: Identifier
+    of: str
+    relation: str
+    to: str
+    nearest: str | None
+
+    def __str__(self) -> str:
+        """The fault, and what would be right."""
+        right = f"write {self.nearest}, or declare it" if self.nearest else "declare it"
+        return f"{self.of} {self.relation} {self.to}, which no file declares: {right}"
+
+
+def dangling(graph: Graph, *, strict: bool) -> Iterator[Link]:
+    """Every link to nothing.
+
+    Args:
+        graph: what the loaded files say.
+        strict: whether names of namespaces in which nothing is declared are links to nothing, too.
+    """
+    declared = [
+        one for one in graph.subjects() if isinstance(one, URIRef) and graph.is_declared(one)
+    ]
+    spaces = {_space(one) for one in declared}
+    by_name = {ending(one): one for one in reversed(declared)}
+    known = list(by_name)
+    around = {of: (s, p) for s, p, of in graph.triples() if isinstance(of, BNode)}
+    compared = 0
+    for subject, relation, of in graph.triples():
+        for end in _missing(graph, spaces, strict, relation, of):
+            nearest = None
+            if (compared := compared + 1) <= MOST_COMPARED:
+                nearest = process.extractOne(ending(end), known, score_cutoff=LEAST_LIKENESS)
+            owner, by = _owner(graph, around, subject, relation)
+            how = "uses" if end is relation else ending(by)
+            to, right = ending(end), nearest and nearest[0]
+            if to == right:  # it is the rest of the IRI that is amiss
+                to, right = printable(end), printable(by_name[right])
+            yield Link(owner, _title(graph, owner), how, to, right)
+
+
+def _missing(
+    graph: Graph, spaces: set[str], strict: bool, relation: Identifier, of: Identifier
+) -> Iterator[Identifier]:
+    """Those of the relation and its value that a file has to declare, and none does."""
+    if _is_missing(graph, relation) and _space(relation) in spaces:
+        yield relation
+    links = relation in _LINKS or OWL.ObjectProperty in graph.objects(relation, RDF.type)
+    if links and _is_missing(graph, of) and (strict or _space(of) in spaces):
+        yield of
+
+
+def _is_missing(graph: Graph, entity: Identifier) -> bool:
+    return (
+        isinstance(entity, URIRef)
+        and not entity.startswith(STANDARDS)
+        and not graph.is_declared(entity)
+    )
+
+
+def _owner(
+    graph: Graph,
+    around: dict[BNode, tuple[Identifier, Identifier]],
+    subject: Identifier,
+    relation: Identifier,
+) -> tuple[Identifier, Identifier]:
+    """Whom a nameless description belongs to, and the relation that a reader would say."""
+    if relation in _FILLERS:
+        relation = next(iter(graph.objects(subject, OWL.onProperty)), relation)
+    seen = set[Identifier]()
+    while isinstance(subject, BNode) and subject in around and subject not in seen:
+        seen.add(subject)
+        subject, outer = around[subject]
+        relation = outer if relation in _INSIDE_LISTS else relation
+    return subject, relation
+
+
+def _title(graph: Graph, owner: Identifier) -> str:
+    if not isinstance(owner, BNode):
+        return ending(owner)
+    return next((ending(kind) for kind in graph.objects(owner, RDF.type)), "something nameless")
+
+
+def _space(iri: str) -> str:
+    """The namespace of an IRI: all but its last part."""
+    return iri[: max(iri.rfind("#"), iri.rfind("/")) + 1]

@@ -1,0 +1,342 @@
+"""The ontology: which things there are, what they are called, and where they usually are."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from rapidfuzz import fuzz, process
+from rdflib import RDF, URIRef
+from rdflib.term import Identifier
+
+from executive.errors import InputError
+from executive.text import printable
+from executive.types import Place
+from kb.ontology.graph import Graph
+from kb.ontology.home_file import home_file
+from kb.ontology.library import Library
+from kb.ontology.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
+from kb.ontology.owl import OwlFile, ending, read
+from kb.ontology.table import Table
+from kb.ontology.unused import unused
+from kb.ontology.validation import ROOTS, faults
+
+HOUSEHOLD = Path(__file__).parents[1] / "household.owl"
+DEFAULTS = Path(__file__).parents[1] / "defaults.owl"
+CLASSES = "http://robot-executive.org/household.owl#"
+INDIVIDUALS = "http://robot-executive.org/home.owl#"
+VOCABULARY = (
+    *("Object", "Furniture", "Room", "Person"),
+    *("isIn", "hasDefaultLocation", "preferredBy", "preposition"),
+)
+"""Classes and properties that household.owl, or what replaces it, has to declare."""
+ALSO_CALLED = "http://www.w3.org/2004/02/skos/core#altLabel"
+PREFIXES = {
+    "household": CLASSES,
+    "home": INDIVIDUALS,
+    "skos": "http://www.w3.org/2004/02/skos/core#",
+}
+"""Names that a query may use without declaring them."""
+
+PREPOSITIONS = ("in", "on")
+MOST_NAMES = 3
+LEAST_SIMILARITY = 60.0
+"""Of 100, as rapidfuzz counts; below it two names share little but a few letters."""
+SLIP_SIMILARITY, SLIP_MARGIN = 75.0, 10.0
+"""A slip of the finger is as similar as this, and more similar by this than to anything else."""
+
+
+class Ontology:
+    """Implements `Knowledge` with OWL files and the furniture of one home.
+
+    Objects are the leaf classes below `Object`. A default location is a class restriction
+    `hasDefaultLocation value dining_table`; a thing takes them from its nearest class with any.
+    """
+
+    def __init__(
+        self,
+        places: Sequence[Place] = (),
+        *,
+        defaults: bool = True,
+        files: Sequence[Path | OwlFile] = (),
+        person: str | None = None,
+    ) -> None:
+        """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
+
+        A file with the IRI of another ontology, such as one of ours, takes its place.
+
+        Args:
+            places: the furniture of the home.
+            defaults: whether to load defaults.owl.
+            files: a person's own OWL files, or what was read of them, which add to ours or
+                replace them.
+            person: the name of who is at home, as the files have it.
+
+        Raises:
+            InputError: if a file is no ontology or is called like another; if what replaces
+                household.owl lacks a name that every home needs, a place is of a class that the
+                ontology does not have, or nobody knows the person.
+        """
+        paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
+        read_files = (file if isinstance(file, OwlFile) else read(file) for file in paths)
+        self._library = Library(read_files, replaceable=(HOUSEHOLD.name, DEFAULTS.name))
+        self._graph = Graph(t for file in self._library.files for t in file.triples)
+        self._expect_vocabulary()
+        self._graph.expect_bounded([_class(root) for root in ROOTS])
+        self._places = {place.name: place for place in places}
+        self._order = {name: number for number, name in enumerate(self._places)}
+        self._kinds = {
+            root: _by_name(self._graph.downwards(_class(root))) for root in ("Furniture", "Room")
+        }
+        for place in places:
+            self._add(place)
+        label, names = self._graph.label, self._graph.names
+        self._things = tuple(self._graph.downwards(_class("Object")))
+        self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
+        self._objects = self._graph.leaves(_class("Object"))
+        self._objects_by_words = self._index()
+        self._names_by_words = index_by_words(
+            [(words_of(label(thing)), label(thing)) for thing in self._things],
+            [(words_of(name), label(thing)) for thing in self._things for name in names(thing)],
+        )
+        self._person = self._person_named(person) if person else None
+        self.place_names = PlaceNames(self.places(), self._called())
+        """What the furniture and the rooms of the home are called."""
+
+    # --- the Knowledge protocol ---
+
+    def places(self) -> tuple[Place, ...]:
+        """Every piece of furniture of the home, in the home file's order."""
+        return tuple(self._places.values())
+
+    def has_place(self, name: str) -> bool:
+        """Whether a piece of furniture of this name is in the home."""
+        return name in self._places
+
+    def objects_named(self, words: str) -> tuple[str, ...]:
+        """The objects that the words may mean: none, one, or all members of a class ("fruit").
+
+        An object counts before a class, a name before a synonym.
+        """
+        return self._objects_by_words.get("".join(words_of(words)), ())
+
+    def nearest_names(self, words: str) -> tuple[str, ...]:
+        """Known names that look most like the words, best first (at most 3)."""
+        return tuple(self._similar(words))[:MOST_NAMES]
+
+    def near_name(self, words: str) -> str | None:
+        """The one known name that the words are most likely a slip of, if it is clear."""
+        (best, similarity), (_, next_best) = (*self._similar(words).items(), *2 * [("", 0.0)])[:2]
+        clear = similarity >= SLIP_SIMILARITY and similarity - next_best >= SLIP_MARGIN
+        return best if clear else None
+
+    def names_in(self, words: str) -> tuple[str, ...]:
+        """The names of objects and classes that a text has in it, in their order."""
+        rest, found = list(words_of(words)), list[str]()
+        while rest:
+            for length in range(min(MOST_WORDS, len(rest)), 0, -1):
+                if names := self._names_by_words.get("".join(rest[:length])):
+                    found.append(names[0])
+                    break
+            del rest[:length]
+        return unique(found)
+
+    def usual_places(self, name: str) -> tuple[str, ...]:
+        """Default locations of the object or its nearest class; those in this home only."""
+        here = filter(self.has_place, self.default_locations(name))
+        return tuple(sorted(here, key=self._order.__getitem__))
+
+    def places_named(self, words: str) -> tuple[str, ...]:
+        """Furniture that the words name, in their order; a room stands for its furniture."""
+        return self.place_names.find(words)
+
+    def preferred(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Those of the objects that the person at home prefers; none if nobody knows who it is."""
+        return tuple(
+            name
+            for name in names
+            if self._person and self._person in self._preferring(self._thing(name))
+        )
+
+    # --- more about things ---
+
+    def objects(self) -> tuple[str, ...]:
+        """Names of all objects, in the files' order."""
+        return tuple(map(self._graph.label, self._objects))
+
+    def classes_of(self, name: str) -> tuple[str, ...]:
+        """What the classes above an object or a class are called, nearest first, less `Object`.
+
+        Raises:
+            InputError: if there is no such thing, here and below.
+        """
+        _, *above = self._graph.upwards(self._thing(name))
+        return tuple(self._graph.label(c) for c in above if c != _class("Object"))
+
+    def synonyms(self, name: str) -> tuple[str, ...]:
+        """Other names of an object or a class, in any language."""
+        return self._graph.called(self._thing(name)).synonyms
+
+    def default_locations(self, name: str) -> tuple[str, ...]:
+        """Default locations of an object or its nearest class, in this home or not."""
+        for thing in self._graph.upwards(self._thing(name)):
+            if self._graph.values(thing, _class("hasDefaultLocation")):
+                return self._locations(thing)
+        return ()
+
+    def recorded_locations(self) -> dict[str, tuple[str, ...]]:
+        """Default locations of each object and class for which a file has some of its own."""
+        recorded = {self._graph.label(thing): self._locations(thing) for thing in self._things}
+        return {name: places for name, places in recorded.items() if places}
+
+    def preferred_by(self, name: str) -> tuple[str, ...]:
+        """The people who prefer an object or a class, of others like it."""
+        return tuple(map(self._graph.label, self._preferring(self._thing(name))))
+
+    def preposition(self, place: Place) -> str:
+        """How things are with this piece of furniture: "in" or "on"."""
+        kinds = self._graph.upwards(self._kinds["Furniture"][place.kind])
+        given = (str(p) for kind in kinds for p in self._graph.objects(kind, _class("preposition")))
+        return next(filter(PREPOSITIONS.__contains__, given), "on")
+
+    def files(self) -> Mapping[str, bytes]:
+        """The loaded files by name, and what the home adds to them, to be kept with the log."""
+        kinds, rooms = self._kinds["Furniture"], self._kinds["Room"]
+        home = home_file(INDIVIDUALS, _class("isIn"), self.places(), kinds, rooms)
+        return {**self._library.contents(), "home.owl": home}
+
+    def faults(self) -> Iterator[str]:
+        """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
+        return faults(self._graph, CLASSES, imports_met=not self.unmet_imports())
+
+    def unused(self) -> Iterator[str]:
+        """What the files say that the robot makes nothing of, a sentence each."""
+        return unused(self._graph, CLASSES)
+
+    def unmet_imports(self) -> tuple[str, ...]:
+        """What files import that was not loaded, a sentence each: nothing is fetched."""
+        return tuple(self._library.unmet_imports())
+
+    def warnings(self) -> tuple[str, ...]:
+        """What the files do not give although one may think so, a sentence each."""
+        graph, roots = self._graph, list(map(_class, ROOTS))
+        kinds = {kind for root in roots for kind in graph.downwards(root)}
+        individuals = {one for root in roots for one in graph.instances(root)}
+        return tuple(self._library.warnings(kinds | individuals))
+
+    def query(self, sparql: str) -> Table:
+        """Answer a SELECT in SPARQL.
+
+        Raises:
+            InputError: if it cannot be read, or takes too long.
+        """
+        from kb.ontology.sparql import select  # the engine loads slowly, and missions ask nothing
+
+        return select(self._graph, sparql, PREFIXES)
+
+    # --- inside ---
+
+    def _expect_vocabulary(self) -> None:
+        """Refuse an ontology without the names that this class is about."""
+        for iri in (*map(_class, VOCABULARY), URIRef(ALSO_CALLED)):
+            if not self._graph.is_declared(iri):
+                right = f"keep {iri} as household.owl has it"
+                raise InputError("ontology", f"declares no {ending(iri)}", right)
+
+    def _similar(self, words: str) -> dict[str, float]:
+        """Names that look like the words, most similar first, and how similar (of 100)."""
+        graph = self._graph
+        names = [
+            (spoken(name), graph.label(thing))
+            for thing in self._things
+            for name in graph.names(thing)
+        ]
+        found = process.extract(
+            spoken(words),
+            [name for name, _ in names],
+            scorer=fuzz.token_sort_ratio,
+            score_cutoff=LEAST_SIMILARITY,
+            limit=None,
+        )
+        similar: dict[str, float] = {}
+        for _, similarity, index in found:
+            similar.setdefault(names[index][1], similarity)
+        return similar
+
+    def _thing(self, name: str) -> Identifier:
+        if name in self._things_by_name:
+            return self._things_by_name[name]
+        right = f"known are {', '.join(map(self._graph.label, self._things))}"
+        raise InputError("ontology", f"there is no {printable(name)!r}", right)
+
+    def _locations(self, thing: Identifier) -> tuple[str, ...]:
+        """The default locations that are said of this thing itself, and that a file declares."""
+        usual = self._graph.values(thing, _class("hasDefaultLocation"))
+        return tuple(ending(place) for place in usual if self._graph.is_declared(place))
+
+    def _preferring(self, thing: Identifier) -> list[Identifier]:
+        people = self._graph.values(thing, _class("preferredBy"))
+        return [person for person in people if self._graph.is_declared(person)]
+
+    def _person_named(self, name: str) -> Identifier:
+        label = self._graph.label
+        everyone = self._graph.instances(_class("Person"))
+        people = {words_of(label(person)): person for person in everyone}
+        if words_of(name) in people:
+            return people[words_of(name)]
+        known = ", ".join(map(label, people.values()))
+        right = f"known are {known}" if known else "declare them in an OWL file and give it as --kb"
+        where = f"person {printable(name)}"
+        raise InputError(where, "the ontology knows nobody of this name", right)
+
+    def _add(self, place: Place) -> None:
+        """Put a piece of furniture, and its room, in as individuals."""
+        room = self._individual(place.room, place.room_kind, "Room")
+        piece = self._individual(place.name, place.kind, "Furniture")
+        self._graph.put(piece, _class("isIn"), room)
+
+    def _individual(self, name: str, kind: str, root: str) -> Identifier:
+        class_ = self._kinds[root].get(kind)
+        if class_ is None:
+            known = ", ".join(self._kinds[root])
+            fault = f"is a {printable(kind)!r}, which the ontology lacks"
+            raise InputError(printable(name), fault, f"known are {known}")
+        individual = URIRef(INDIVIDUALS + name)
+        self._graph.put(individual, RDF.type, class_)
+        return individual
+
+    def _index(self) -> dict[str, tuple[str, ...]]:
+        """Words, run together -> names of the objects that they may mean."""
+        graph, known = self._graph, set(self._objects)
+        objects = [(graph.called(thing), graph.label(thing)) for thing in self._objects]
+        members = [
+            (graph.called(kind), graph.label(thing))
+            for kind in self._things
+            if kind not in known
+            for thing in graph.leaves(kind)
+        ]
+        return index_by_words(
+            [(words_of(called.name), name) for called, name in objects],
+            [(words_of(n), name) for called, name in objects for n in called.synonyms],
+            [(words_of(called.name), name) for called, name in members],
+            [(words_of(n), name) for called, name in members for n in called.synonyms],
+        )
+
+    def _called(self) -> dict[str, tuple[str, ...]]:
+        """Furniture or room class -> what it and the classes above it are called."""
+        graph, roots = self._graph, {_class(root) for root in self._kinds}
+        return {
+            name: tuple(n for c in graph.upwards(kind) if c not in roots for n in graph.names(c))
+            for kinds in self._kinds.values()
+            for name, kind in kinds.items()
+        }
+
+
+def _class(name: str) -> URIRef:
+    return URIRef(CLASSES + name)
+
+
+def _by_name(kinds: Iterable[Identifier]) -> dict[str, Identifier]:
+    """Classes by the ends of their IRIs; the first of a name has it."""
+    named: dict[str, Identifier] = {}
+    for kind in kinds:
+        named.setdefault(ending(kind), kind)
+    return named

@@ -1,0 +1,176 @@
+"""Reading ontologies: what a file says, as triples. Nothing in it is run, opened or fetched.
+
+The parsers of rdflib only turn text into triples. The loader of owlready2 is not used, because it
+imports the Python module that an annotation names, and reads what a file imports.
+"""
+
+import logging
+import warnings
+from dataclasses import dataclass
+from io import BytesIO, StringIO
+from pathlib import Path
+from typing import Any
+
+import rdflib
+from rdflib import OWL, RDF, URIRef
+from rdflib.parser import InputSource
+from rdflib.term import Identifier
+
+from executive.errors import ExecutiveError, InputError
+from executive.text import printable
+from kb.ontology.bounds import base_of_bounded
+from kb.ontology.syntax import is_xml, turtle_text
+
+Triple = tuple[Identifier, Identifier, Identifier]
+"""Subject, predicate, object: an IRI, a blank node or a literal, each a str."""
+
+MOST_BYTES = 4_000_000
+MOST_TRIPLES = 100_000
+LONGEST_FAULT = 200
+OWLREADY = "http://www.lesfleursdunormal.fr/static/_downloads/owlready_ontology.owl#"
+_RUNS_PYTHON = URIRef(OWLREADY + "python_module")
+
+logging.getLogger("rdflib").setLevel(logging.CRITICAL)
+"""It warns of odd IRIs and literals by printing them as they are."""
+rdflib.NORMALIZE_LITERALS = False
+"""Else a short number such as 1e999999999 is written out."""
+
+
+class _Markup(str):
+    """A value that is XML or HTML itself, left as it is."""
+
+
+for _kind in (RDF.XMLLiteral, RDF.HTML):
+    rdflib.term.bind(_kind, _Markup)
+
+
+@dataclass(frozen=True, slots=True)
+class OwlFile:
+    """A file, the IRI and the versions of the ontology in it, and the IRIs that it imports."""
+
+    path: Path
+    content: bytes
+    triples: tuple[Triple, ...]
+    iri: str
+    versions: tuple[str, ...]
+    imports: tuple[str, ...]
+
+
+def read(path: Path) -> OwlFile:
+    """Read a file.
+
+    Raises:
+        InputError: if it cannot be opened or is too large, and as `parsed` does.
+    """
+    return parsed(path, _content(path, printable(path)))
+
+
+def parsed(path: Path, content: bytes) -> OwlFile:
+    """What is in a file; one that declares no IRI goes by its xml:base, or its place on the disk.
+
+    Raises:
+        InputError: if it is neither RDF/XML nor Turtle, refers to another file, says too much, or
+            names Python code to be run.
+    """
+    where = printable(path)
+    if len(content) > MOST_BYTES:
+        fault = f"is larger than {MOST_BYTES // 1_000_000} MB"
+        raise InputError(where, fault, "give a smaller part of it")
+    here = path.absolute().as_uri()
+    if is_xml(content, where):
+        base = base_of_bounded(content, where)
+        triples = _triples(content, "xml", "RDF/XML", here, where)
+    else:
+        base = ""
+        triples = _triples(turtle_text(content, where), "turtle", "Turtle", here, where)
+    for subject, relation, module in triples:
+        if relation == _RUNS_PYTHON:
+            fault = f"{ending(subject)} names Python code to be run, python_module {_shown(module)}"
+            raise InputError(where, fault, "nothing in an ontology is run: take python_module out")
+    declared = [s for s, p, o in triples if p == RDF.type and o == OWL.Ontology]
+    names = [iri for iri in declared if isinstance(iri, URIRef)]
+    return OwlFile(
+        path,
+        content,
+        triples,
+        (names[0] if names else base or here).rstrip("#"),
+        tuple(str(o) for _, p, o in triples if p == OWL.versionIRI),
+        tuple(dict.fromkeys(str(o) for _, p, o in triples if p == OWL.imports)),
+    )
+
+
+def ending(entity: str) -> str:
+    """What an IRI ends in: its name for people, fit to be shown."""
+    last = entity.rstrip("#/").replace("#", "/").rpartition("/")[2]
+    return printable(last)[:LONGEST_FAULT] or "nameless"
+
+
+class _Read(rdflib.Graph):
+    """Takes triples from a parser, in the order of the file."""
+
+    def __init__(self, where: str) -> None:
+        super().__init__(bind_namespaces="none")
+        self.where = where
+        self.triples_read: dict[Triple, None] = {}
+
+    def add(self, triple: Any) -> "_Read":
+        self.triples_read[triple] = None
+        if len(self.triples_read) > MOST_TRIPLES:
+            fault = f"says more than {MOST_TRIPLES} things"
+            raise InputError(self.where, fault, "give a smaller part of it")
+        return self
+
+
+def _content(path: Path, where: str) -> bytes:
+    try:
+        if path.exists() and not path.is_file() and not path.is_dir():
+            raise InputError(where, "cannot be read: it is no file")
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise InputError(where, f"cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise InputError(where, f"cannot be read: {error}") from None
+    return content
+
+
+def _triples(
+    content: bytes | str, syntax: str, called: str, here: str, where: str
+) -> tuple[Triple, ...]:
+    graph = _Read(where)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            graph.parse(_source(content, here), format=syntax)
+    except ExecutiveError:
+        raise
+    except RecursionError:
+        raise InputError(where, "is nested too deep", "give what is inside a name") from None
+    except Exception as error:  # parsers meet what their authors did not think of
+        fault = f"cannot be read as {called}: {_reason(error)}"
+        raise InputError(where, fault) from None
+    return tuple(graph.triples_read)
+
+
+def _source(content: bytes | str, here: str) -> InputSource:
+    """What a parser reads; bytes are in the encoding that they say themselves."""
+    source = InputSource()
+    source.setPublicId(here)
+    if isinstance(content, bytes):
+        source.setByteStream(BytesIO(content))
+    else:
+        source.setCharacterStream(StringIO(content))
+    return source
+
+
+def _reason(error: Exception) -> str:
+    """What a parser says, on one line; rdflib's Turtle parser quotes half of the file."""
+    if isinstance(error, IndexError):
+        return "it ends too early"
+    line, why = getattr(error, "lines", None), getattr(error, "_why", None)
+    said = f"line {line + 1}: {why}" if why and isinstance(line, int) else str(error)
+    return _shown(said or type(error).__name__)
+
+
+def _shown(text: str) -> str:
+    return printable(text)[:LONGEST_FAULT]

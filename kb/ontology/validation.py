@@ -1,0 +1,187 @@
+"""What may be wrong with an ontology, each fault with what would be right."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from graphlib import CycleError, TopologicalSorter
+from itertools import islice
+
+from rdflib import RDFS, BNode, Literal, URIRef
+from rdflib.term import Identifier
+
+from executive.language.control import control
+from executive.text import printable
+from kb.ontology.dangling import dangling
+from kb.ontology.graph import STANDARDS, Graph
+from kb.ontology.names import Words, words_of
+from kb.ontology.owl import ending
+
+ROOTS = ("Object", "Furniture", "Room", "Person")
+"""The classes below which everything is."""
+TAKEN = ("hand", "floor", "person", "delivery")
+"""What the robot calls something else: its hand, what it drives on, whom it serves, their table."""
+MOST_OF_A_KIND = 20
+"""Faults of one kind that are told one by one."""
+
+
+def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterator[str]:
+    """What is wrong with the knowledge, a sentence each; nothing if it is sound.
+
+    Args:
+        graph: what the loaded files say.
+        namespace: where the classes of `ROOTS` are.
+        imports_met: whether everything that is imported is loaded; else names of other
+            namespaces may be declared where nobody looked.
+    """
+    roots = {name: URIRef(namespace + name) for name in ROOTS}
+    links = list(dangling(graph, strict=imports_met))
+    yield from _some(dict.fromkeys(map(str, links)), "links to nothing")
+    yield from _some(_cycles(graph), "circles")
+    told = {link.subject for link in links}
+    yield from _some(_outsiders(graph, list(roots.values()), told), "in no class")
+    things = list(graph.downwards(roots["Object"]))
+    refused = (
+        why
+        for root in roots.values()
+        for kind in _all(graph, root)
+        for why in graph.called(kind).refused
+    )
+    yield from _some(refused, "names that are not used")
+    yield from _some(_taken(graph, things), "names that are taken")
+    yield from _some(_ambiguous(graph, roots), "names of two things")
+    yield from _some(_homeless(graph, roots, URIRef(namespace + "isIn")), "without a room")
+    yield from _some(_misplaced(graph, things, roots, namespace), "default locations")
+    yield from _some(_individuals(graph, roots["Object"]), "individuals")
+    prepositions = _prepositions(graph, roots["Furniture"], URIRef(namespace + "preposition"))
+    yield from _some(prepositions, "prepositions")
+
+
+def _some(told: Iterable[str], of: str) -> Iterator[str]:
+    """The first faults of a kind, and how many more there are."""
+    every = iter(told)
+    yield from islice(every, MOST_OF_A_KIND)
+    if more := sum(1 for _ in every):
+        yield f"and {more} more of this kind ({of})"
+
+
+def _all(graph: Graph, root: Identifier) -> Iterator[Identifier]:
+    """The classes below the root, and their individuals."""
+    yield from graph.downwards(root)
+    yield from graph.instances(root)
+
+
+def _cycles(graph: Graph) -> Iterator[str]:
+    above = {
+        kind: {k for k in graph.objects(kind, RDFS.subClassOf) if isinstance(k, URIRef)}
+        for kind in graph.subjects()
+        if isinstance(kind, URIRef)
+    }
+    while True:
+        try:
+            TopologicalSorter(above).prepare()
+            return
+        except CycleError as error:
+            circle = error.args[1]
+            above[circle[1]].remove(circle[0])
+            names = " below ".join(ending(kind) for kind in reversed(circle))
+            yield f"{names}: no class is below itself, take out one subClassOf"
+
+
+def _outsiders(graph: Graph, roots: Sequence[Identifier], told: set[Identifier]) -> Iterator[str]:
+    """What is below no root, less those of whom a fault was told that explains it."""
+    known = {kind for root in roots for kind in graph.downwards(root)}
+    for entity in (*filter(graph.is_class, graph.subjects()), *graph.individuals()):
+        kinds = [entity] if graph.is_class(entity) else graph.types(entity)
+        above = (c for kind in kinds for c in graph.upwards(kind))
+        own = entity not in told and not entity.startswith(STANDARDS)
+        if own and known.isdisjoint(above):
+            right = f"put it below {', '.join(ROOTS[:-1])} or {ROOTS[-1]}"
+            yield f"{ending(entity)} is in no class: {right}"
+
+
+def _taken(graph: Graph, things: Iterable[Identifier]) -> Iterator[str]:
+    taken = {words_of(name): name for name in TAKEN}
+    for thing in things:
+        for name in graph.names(thing):
+            if words_of(name) in taken:
+                fault = f"{ending(thing)} is called {name!r}, as the robot calls something else"
+                yield f"{fault}: rename it"
+            elif control(name):
+                fault = f"{ending(thing)} is called {name!r}, which tells the robot to stop"
+                yield f"{fault}: rename it"
+
+
+def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
+    """Names of two classes below one root, and names of things that are those of places, too."""
+    of_places: dict[Words, Identifier] = {}
+    for root in ("Furniture", "Room"):
+        for place in _all(graph, roots[root]):
+            for name in graph.names(place):
+                of_places.setdefault(words_of(name), place)
+    for title, root in roots.items():
+        owners = dict(of_places) if title == "Object" else {}
+        for thing in graph.downwards(root):
+            for name in graph.names(thing):
+                other = owners.setdefault(words_of(name), thing)
+                if other != thing:
+                    both = f"{ending(other)} and {ending(thing)}"
+                    yield f"{name!r} names both {both}: rename one"
+
+
+def _homeless(graph: Graph, roots: dict[str, URIRef], is_in: Identifier) -> Iterator[str]:
+    rooms = set(graph.instances(roots["Room"]))
+    for piece in graph.instances(roots["Furniture"]):
+        stands_in = graph.objects(piece, is_in)
+        if not stands_in:
+            yield f"{ending(piece)} is in no room: say with isIn where it stands"
+        for room in stands_in:
+            if room not in rooms and (graph.is_declared(room) or not isinstance(room, URIRef)):
+                yield f"{ending(piece)} is in {_shown(room)}, which is no room: name a room"
+
+
+def _misplaced(
+    graph: Graph, things: Sequence[Identifier], roots: dict[str, URIRef], namespace: str
+) -> Iterator[str]:
+    usual, likes = URIRef(namespace + "hasDefaultLocation"), URIRef(namespace + "preferredBy")
+    furniture = set(graph.instances(roots["Furniture"]))
+    people = set(graph.instances(roots["Person"]))
+    for thing in things:
+        for place in _wrong(graph, graph.values(thing, usual), furniture):
+            fault = f"{ending(thing)} has a default location, {place}, that is no furniture"
+            yield f"{fault}: name a piece of furniture"
+        for person in _wrong(graph, graph.values(thing, likes), people):
+            yield f"{ending(thing)} is preferred by {person}, which is no Person: name one"
+
+
+def _wrong(graph: Graph, values: Iterable[Identifier], right: set[Identifier]) -> Iterator[str]:
+    """Values that are not what they ought to be; those that nobody declares are told elsewhere."""
+    for value in values:
+        declared = graph.is_declared(value) or not isinstance(value, URIRef)
+        if declared and value not in right:
+            yield _shown(value)
+
+
+def _individuals(graph: Graph, root: Identifier) -> Iterator[str]:
+    """Individuals of object classes: what the robot can be asked for are classes."""
+    for one in graph.instances(root):
+        kinds = ", ".join(map(ending, graph.types(one)))
+        if isinstance(one, BNode):
+            yield f"a nameless individual of {kinds} is not used: only classes are objects"
+        elif graph.is_class(one):
+            right = "take out the individual (owl:NamedIndividual), the class is enough"
+            yield f"{ending(one)} is a class and an individual of {kinds}, too: {right}"
+        else:
+            right = f"declare it as a class (owl:Class) that is rdfs:subClassOf {kinds}"
+            fault = f"{ending(one)} is an individual of {kinds}, and only classes are objects"
+            yield f"{fault}: {right}"
+
+
+def _prepositions(graph: Graph, furniture: Identifier, given: Identifier) -> Iterator[str]:
+    for kind in graph.downwards(furniture):
+        for word in graph.objects(kind, given):
+            if str(word) not in ("in", "on"):
+                yield f"{ending(kind)} has the preposition {_shown(word)}: write in or on"
+
+
+def _shown(value: Identifier) -> str:
+    if isinstance(value, URIRef):
+        return ending(value)
+    return printable(value)[:40] if isinstance(value, Literal) else "something nameless"
