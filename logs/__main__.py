@@ -18,10 +18,11 @@ from executive.errors import InputError
 from executive.shell import entry_point
 from executive.text import printable
 from executive.usage import Parser
-from logs import comparison, gantt, pictures, report, viewer
-from logs.reader import FILE_NAME, At, Run, mcap_of
-from logs.recovery import first_damage, recover, written
-from logs.why import why, why_text
+from logs.questions import comparison, gantt, pictures, report
+from logs.questions.why import why, why_text
+from logs.recording.reader import FILE_NAME, At, Run, mcap_of
+from logs.recording.recovery import first_damage, recover, written
+from logs.viewer import program
 
 T = TypeVar("T")
 
@@ -174,7 +175,7 @@ class _Frames:
 
 
 def _export(options: argparse.Namespace) -> Answer:
-    from logs.export import write_parquet
+    from logs.questions.export import write_parquet
 
     runs = list(_runs_in(options.runs))
     exported = write_parquet(runs, options.parquet)
@@ -230,9 +231,9 @@ def _view(options: argparse.Namespace) -> Answer:
     if not recording.is_file() or recording.suffix not in (".rrd", ".mcap"):
         raise InputError(str(options.run), "holds no mission.rrd", "name a run's folder")
     if options.png:
-        _write(options.png, viewer.picture(recording, options.at), options.run)
+        _write(options.png, program.picture(recording, options.at), options.run)
         return Answer(str(options.png), printable(options.png))
-    viewer.show(recording, web=options.web)
+    program.show(recording, web=options.web)
     return Answer(str(recording), printable(f"shown: {recording}"))
 
 

@@ -13,10 +13,10 @@ from mcap.opcode import Opcode
 from sample_mission import STARTED, mission
 
 from executive.records import Record
-from logs import mcap_sink
-from logs.mcap_file import MAGIC
-from logs.mcap_sink import McapSink
 from logs.recorder import Stamp
+from logs.recording import sink
+from logs.recording.mcap_file import MAGIC
+from logs.recording.sink import McapSink
 
 HEAD = struct.Struct("<BQ")
 PACK = {"": bytes, "zstd": zstandard.compress, "lz4": lz4.frame.compress}
@@ -43,8 +43,8 @@ def record(
 def unchecked() -> Iterator[None]:
     """Write as somebody else might: also what our own reader refuses."""
     with (
-        patch.dict(mcap_sink._READ, clear=True),
-        patch.object(mcap_sink, "in_mission", lambda seconds: seconds),
+        patch.dict(sink._READ, clear=True),
+        patch.object(sink, "in_mission", lambda seconds: seconds),
     ):
         yield
 

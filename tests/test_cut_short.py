@@ -15,7 +15,7 @@ from executive.config import KnowledgeSystem, Settings
 from executive.events import Broke, Event, Inbox, StopRequested
 from executive.replay.replay import replay
 from executive.types import DriveTo, Failed, Goal, Halt, Outcome, Status
-from logs.reader import Run
+from logs.recording.reader import Run
 from sim.fake import FakeWorld
 from trees.robot import SeeTarget
 

@@ -13,7 +13,7 @@ from executive.events import HandFelt, Inbox, StopRequested
 from executive.replay.replay import replay
 from executive.situation import Situation
 from executive.types import SOMETHING, Failed, Goal, Outcome, Pick, PutDown, Result, Status
-from logs.reader import Run
+from logs.recording.reader import Run
 from sim.fake import FakeWorld
 
 Change = Callable[[FakeWorld, Result], Result]

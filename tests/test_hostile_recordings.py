@@ -31,12 +31,13 @@ from executive.records import (
     TreeShape,
 )
 from executive.types import Outcome, Saw
-from logs import export, mcap_file, parsing
 from logs.__main__ import main
-from logs.mcap_file import MiB
-from logs.reader import Run
-from logs.recovery import recover
-from logs.schema import MESSAGES, PACKAGE, recorded_class
+from logs.questions import export
+from logs.recording import mcap_file, parsing
+from logs.recording.mcap_file import MiB
+from logs.recording.reader import Run
+from logs.recording.recovery import recover
+from logs.recording.schema import MESSAGES, PACKAGE, recorded_class
 
 QUESTIONS = ("why", "summary", "ticks", "timeline", "llm", "dialog", "frames", "export", "replay")
 

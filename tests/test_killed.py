@@ -10,8 +10,8 @@ from rerun.chunk import RrdReader
 from rerun.error_utils import RerunWarning
 
 from executive.replay.replay import replay
-from logs.reader import Run
-from logs.recovery import recover
+from logs.recording.reader import Run
+from logs.recording.recovery import recover
 
 SLOW_MISSION = r"""
 import io, os, sys, time

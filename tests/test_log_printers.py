@@ -11,9 +11,10 @@ from recordings import record
 from sample_mission import TREE, mission
 
 from executive.records import Finished, Picture, Record, Scene, Tick, TreeShape
-from logs import markdown, report
 from logs.__main__ import main
-from logs.reader import Run
+from logs.questions import report
+from logs.recording.reader import Run
+from logs.viewer import markdown
 
 EVIL = "\x1b[2J\x07\n    9.999  done\r\x85\u2028\u202e\u200f"
 QUESTIONS = ("why", "summary", "ticks", "timeline", "llm", "dialog", "compare", "replay")

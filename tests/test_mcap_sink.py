@@ -14,8 +14,8 @@ from sample_mission import STARTED, detection, frame, mission, robot_at, scene
 from executive.records import Entity, Picture, Record, Scene, Seen, Shape, Transform, Transforms
 from executive.records import Path as PlannedPath
 from executive.types import Pose
-from logs.mcap_sink import TOPICS, McapSink
 from logs.recorder import Stamp
+from logs.recording.sink import TOPICS, McapSink
 
 START_NS = int(STARTED.timestamp()) * 10**9
 

@@ -24,12 +24,12 @@ from executive.errors import InputError
 from executive.events import Ended, Started
 from executive.records import Tick, Utterance
 from executive.types import Succeeded
-from logs import report
 from logs.__main__ import main
-from logs.mcap_sink import McapSink
-from logs.reader import Run
+from logs.questions import report
 from logs.recorder import Stamp
-from logs.recovery import recover
+from logs.recording.reader import Run
+from logs.recording.recovery import recover
+from logs.recording.sink import McapSink
 
 WRITE_UNTIL_KILLED = """
 import itertools, sys, time
@@ -38,8 +38,8 @@ from rerun.chunk import RrdReader
 from rerun.error_utils import RerunWarning
 from sample_mission import STARTED, TREE, tick
 from logs import recorder
-from logs.mcap_sink import McapSink
-from logs.rerun_sink import RerunSink
+from logs.recording.sink import McapSink
+from logs.viewer.sink import RerunSink
 recorder.FLUSH_S = 0.05
 path = Path(sys.argv[1])
 sinks = [McapSink(path, STARTED, {"a.toml": b"x = 1"}, {"seed": "7"})]

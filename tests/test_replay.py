@@ -23,8 +23,8 @@ from executive.user import Console, Scripted
 from kb.llm.scripted import Scripted as ScriptedModel
 from kb.ontology import ontology
 from logs.__main__ import main
-from logs.mcap_sink import McapSink
 from logs.recorder import Stamp
+from logs.recording.sink import McapSink
 from sim.fake import FakeWorld
 from trees.robot import SeeTarget
 from trees.search import search
@@ -163,7 +163,7 @@ def test_the_second_mission_of_a_session_replays(tmp_path: Path) -> None:
 def test_a_mission_that_was_cut_anywhere_replays_as_far_as_it_goes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("logs.mcap_sink.CHUNK_BYTES", 1)
+    monkeypatch.setattr("logs.recording.sink.CHUNK_BYTES", 1)
     run = recorded(tmp_path, "Find a power_drill", llm=False)
     file, ticks = run / "mission.mcap", replay(run).ticks
     data = file.read_bytes()

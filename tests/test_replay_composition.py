@@ -17,7 +17,7 @@ from executive.replay.replay import replay
 from executive.types import Box, Detection, Goal, LookAt, Pick, Saw, Status
 from kb.advice.prompts import TEXTS
 from kb.llm.scripted import Scripted as ScriptedModel
-from logs.reader import Run
+from logs.recording.reader import Run
 from sim.fake import FakeWorld
 
 OKB = {"world": "fake", "llm": "none", "knowledge": KnowledgeSystem.OKB, "user": "oracle"}

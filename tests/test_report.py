@@ -15,16 +15,17 @@ from mcap.reader import make_reader
 from sample_mission import STARTED, TREE, chat_call, frame, mission, rank_call, tick
 
 from executive.records import NodeShape, NodeState, Picture, Record, Tick, TreeShape, Verified
-from logs import report, viewer
 from logs.__main__ import main
-from logs.comparison import compare
-from logs.difference import parting
-from logs.mcap_sink import McapSink
-from logs.pictures import write_video
-from logs.reader import At, Run
+from logs.questions import report
+from logs.questions.comparison import compare
+from logs.questions.difference import parting
+from logs.questions.pictures import write_video
+from logs.questions.why import Alternative, why, why_text
 from logs.recorder import Stamp
-from logs.recovery import damaged_at, recover
-from logs.why import Alternative, why, why_text
+from logs.recording.reader import At, Run
+from logs.recording.recovery import damaged_at, recover
+from logs.recording.sink import McapSink
+from logs.viewer import program
 
 
 def record(folder: Path, records: Iterable[tuple[float, Record]], config: str = "") -> Path:
@@ -286,7 +287,7 @@ def test_the_viewer_is_opened_natively_or_in_the_browser(
     (run_dir / "mission.rrd").touch()
     seen = tmp_path / "arguments"
     write = f"import sys; open({str(seen)!r}, 'w').write(chr(10).join(sys.argv[1:]))"
-    monkeypatch.setattr(viewer, "COMMAND", [sys.executable, "-c", write])
+    monkeypatch.setattr(program, "COMMAND", [sys.executable, "-c", write])
     assert main(["view", str(run_dir), *options]) == 0
     assert seen.read_text().splitlines() == [*flags, str(run_dir / "mission.rrd")]
 

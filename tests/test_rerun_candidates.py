@@ -9,8 +9,8 @@ from rerun.chunk import RrdReader
 
 from executive.records import Entity, Shape
 from executive.types import Pose
-from logs.candidates import State, states
-from logs.rerun_candidates import COLORS, CandidatesView
+from logs.viewer.candidates import COLORS, CandidatesView
+from logs.viewer.states import State, states
 
 GREY = (0.5, 0.5, 0.5, 1.0)
 FURNITURE = (

@@ -16,9 +16,9 @@ from sample_mission import detection, frame, mission, robot_at, scene, tick
 from executive.errors import ExecutiveError
 from executive.records import Picture, Record, Scene, Seen, Shape
 from executive.types import Box
-from logs import viewer
 from logs.recorder import Stamp
-from logs.rerun_sink import RerunSink
+from logs.viewer import program
+from logs.viewer.sink import RerunSink
 
 
 @pytest.fixture(autouse=True)
@@ -208,20 +208,20 @@ def test_a_shape_of_unknown_kind_is_refused(tmp_path: Path) -> None:
 def test_a_viewer_that_cannot_start_is_said_in_a_sentence(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(viewer, "COMMAND", ["false"])
+    monkeypatch.setattr(program, "COMMAND", ["false"])
     with pytest.raises(ExecutiveError, match="does not start"):
         RerunSink(tmp_path / "a.rrd", view=True)
     with pytest.raises(ExecutiveError, match="does not start"):
-        viewer.show(tmp_path / "a.rrd")
+        program.show(tmp_path / "a.rrd")
 
 
 @pytest.mark.viewer
 def test_closing_the_live_viewer_does_not_end_the_file(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(viewer, "COMMAND", [*viewer.COMMAND, "--headless"])
-    live = viewer.start()
-    monkeypatch.setattr(viewer, "start", lambda: live)
+    monkeypatch.setattr(program, "COMMAND", [*program.COMMAND, "--headless"])
+    live = program.start()
+    monkeypatch.setattr(program, "start", lambda: live)
     sink = RerunSink(tmp_path / "a.rrd", view=True)
     try:
         sink.write(Stamp(0.0, 0), scene())

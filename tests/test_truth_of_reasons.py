@@ -17,8 +17,8 @@ from executive.situation import Situation
 from executive.text import printable
 from executive.types import DriveTo, Goal, Halt, Kind, LookAt, Pick, PutDown, Status
 from kb.facts import FactStore
-from logs.reader import Run as RecordedRun
-from logs.why import why
+from logs.questions.why import why
+from logs.recording.reader import Run as RecordedRun
 from sim.fake import FakeRobot
 
 Fault = Callable[[Goal], str | None]

@@ -29,12 +29,12 @@ from executive.records import (
     Utterance,
 )
 from executive.types import Answered, Pose
-from logs.mcap_sink import McapSink
-from logs.reader import Run
 from logs.recorder import FanOut
-from logs.recovery import recover
-from logs.rerun_sink import RerunSink
-from logs.topics import MOST_IN_A_MESSAGE
+from logs.recording.reader import Run
+from logs.recording.recovery import recover
+from logs.recording.sink import McapSink
+from logs.recording.topics import MOST_IN_A_MESSAGE
+from logs.viewer.sink import RerunSink
 
 LATE = "and on it goes"
 

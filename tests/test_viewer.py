@@ -18,12 +18,12 @@ from rerun.experimental import ViewerClient
 from sample_mission import STARTED, frame, mission
 
 from executive.records import Picture
-from logs import viewer
 from logs.__main__ import main
-from logs.mcap_sink import McapSink
 from logs.recorder import Stamp
-from logs.rerun_sink import RerunSink
-from logs.rerun_times import MISSION_TIME
+from logs.recording.sink import McapSink
+from logs.viewer import program
+from logs.viewer.sink import RerunSink
+from logs.viewer.timelines import MISSION_TIME
 
 pytestmark = [
     pytest.mark.viewer,
@@ -59,7 +59,7 @@ def client(run: Path) -> Iterator[ViewerClient]:
 @contextmanager
 def opened(recording: Path) -> Iterator[ViewerClient]:
     """A viewer without a window that shows the recording."""
-    live = viewer.start("--headless")
+    live = program.start("--headless")
     try:
         client = ViewerClient.connect(live.address)
         client.open(str(recording))

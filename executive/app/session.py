@@ -45,8 +45,8 @@ from kb.llm.key import Key
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.server.server import Server
 from kb.ontology.ontology import Ontology
-from logs.mcap_sink import McapSink
 from logs.recorder import FanOut, Sink
+from logs.recording.sink import McapSink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.faults.fake import FaultyFakeRobot
 from sim.faults.injector import FaultyCamera, FaultyDetector, Mishaps
@@ -312,7 +312,7 @@ class Session:
             "policy": self._policy,
             **{name: version(name) for name in PACKAGES},
         }
-        from logs.rerun_sink import RerunSink
+        from logs.viewer.sink import RerunSink
 
         return working(
             lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),

@@ -32,7 +32,7 @@ from kb.advice.prompts import Prompts
 from kb.facts import FactStore
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
 from kb.ontology.owl import parsed
-from logs.difference import (
+from logs.questions.difference import (
     ENDED,
     Aspect,
     Parting,
@@ -40,7 +40,7 @@ from logs.difference import (
     outcome_aspects,
     tick_aspects,
 )
-from logs.reader import Run
+from logs.recording.reader import Run
 from sim.home.home import Home, load_home
 from trees.mission import mission
 from trees.team import Team

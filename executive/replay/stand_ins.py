@@ -6,7 +6,7 @@ from executive.events import Ended, Event, Inbox, StopRequested
 from executive.records import Tick
 from executive.situation import Situation
 from executive.types import FLOOR, ChatRequest, Goal, Halt, Question, RankRequest, Succeeded
-from logs.reader import Turn
+from logs.recording.reader import Turn
 from sim.home.home import FLOOR_VIEWS, Home
 
 

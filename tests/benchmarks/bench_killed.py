@@ -18,8 +18,8 @@ from pathlib import Path
 from rerun.chunk import RrdReader
 
 from executive.replay.replay import replay
-from logs.reader import Run
-from logs.recovery import recover
+from logs.recording.reader import Run
+from logs.recording.recovery import recover
 
 LONGEST_S = 5.0
 MISSION = r"""

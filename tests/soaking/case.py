@@ -24,7 +24,7 @@ from executive.events import Inbox, StopRequested
 from executive.replay.replay import replay, replay_text
 from executive.text import printable
 from executive.types import FLOOR, Kind, Outcome, Status
-from logs.reader import Run
+from logs.recording.reader import Run
 from sim.faults.orders import parse_faults
 from sim.home.floorplan import doors_between
 from sim.home.home import Home, load_home

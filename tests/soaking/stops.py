@@ -13,7 +13,7 @@ from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 
 from executive.replay.replay import replay
-from logs.reader import Run
+from logs.recording.reader import Run
 
 LATEST_S = 8.0
 """A stop comes at most so long after the start of the program (seconds of wall time)."""

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Path, Seen, Shape, Transform
 from executive.types import Color, Intrinsics, Pose
-from logs.rerun_times import At, time_columns
+from logs.viewer.timelines import At, time_columns
 
 FRAMES = "frames"
 SCENE = "scene"

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from executive.text import printable
-from logs.difference import Aspect, Parting, aspects_text, parting
-from logs.reader import Run
-from logs.why import Decision, why
+from logs.questions.difference import Aspect, Parting, aspects_text, parting
+from logs.questions.why import Decision, why
+from logs.recording.reader import Run
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,9 +16,9 @@ import pyarrow.parquet as pq
 
 from executive.errors import InputError
 from executive.events import Ended
-from logs import report
-from logs.event_messages import gist
-from logs.reader import Run
+from logs.questions import report
+from logs.recording.events import gist
+from logs.recording.reader import Run
 
 Row = report.Row
 

@@ -8,10 +8,8 @@ from numpy.typing import NDArray
 
 from executive.records import Entity
 from executive.types import Vector3
-from logs import rerun_candidates as candidates
-from logs import rerun_scene as scene
-from logs import rerun_tree as tree
-from logs.rerun_times import MISSION_TIME
+from logs.viewer import candidates, scene, tree
+from logs.viewer.timelines import MISSION_TIME
 
 BELIEF = "belief"
 LLM = "llm"

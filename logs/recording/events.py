@@ -26,9 +26,9 @@ from executive.types import (
     Scored,
     Succeeded,
 )
-from logs.messages import llm_call_from_message, llm_call_to_message
-from logs.schema import MESSAGES
-from logs.sound import finite, whole
+from logs.recording.messages import llm_call_from_message, llm_call_to_message
+from logs.recording.schema import MESSAGES
+from logs.recording.sound import finite, whole
 
 MOST_PIXELS = 100_000
 """Along an edge of a picture."""

@@ -9,8 +9,8 @@ from typing import Any
 from executive.records import LlmCall, NodeState, Tick, Verified
 from executive.text import printable
 from executive.types import Replied, Scored
-from logs.event_messages import in_words
-from logs.reader import At, Run
+from logs.recording.events import in_words
+from logs.recording.reader import At, Run
 
 Row = dict[str, Any]
 

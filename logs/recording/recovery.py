@@ -11,8 +11,8 @@ from mcap.records import Attachment, Channel, Header, McapRecord, Message, Metad
 from mcap.writer import Writer
 
 from executive.errors import InputError
-from logs.mcap_file import Damage, records
-from logs.mcap_sink import CHUNK_BYTES
+from logs.recording.mcap_file import Damage, records
+from logs.recording.sink import CHUNK_BYTES
 
 
 def first_damage(path: Path) -> tuple[int, Damage] | None:

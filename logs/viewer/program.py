@@ -11,7 +11,7 @@ from pathlib import Path
 
 from executive.errors import ExecutiveError
 from executive.text import printable
-from logs.rerun_times import MISSION_TIME
+from logs.viewer.timelines import MISSION_TIME
 
 COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
 START_S = 20.0

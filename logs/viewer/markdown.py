@@ -8,7 +8,7 @@ from typing import Any
 from executive.records import LlmCall, Verified
 from executive.text import printable
 from executive.types import Candidate, Message, Outcome, Replied, Scored
-from logs.candidates import State, states
+from logs.viewer.states import State, states
 
 _ACTIVE = re.compile(r"[\\`*<|~]|(?<=[!\]])[\[(:]")
 """What Markdown may make a picture, a link, HTML or a table of: a backslash takes its power."""

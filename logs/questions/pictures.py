@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from executive.errors import InputError
-from logs.reader import At
+from logs.recording.reader import At
 
 VIDEO_HZ = 10
 """Pictures a second in a video; between two of the camera's the first one stays."""

@@ -9,8 +9,8 @@ from foxglove_schemas_protobuf.ImageAnnotations_pb2 import ImageAnnotations
 from foxglove_schemas_protobuf.Log_pb2 import Log
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
-from logs.mcap_file import MOST_IN_A_RECORD, MiB
-from logs.schema import MESSAGES, PACKAGE
+from logs.recording.mcap_file import MOST_IN_A_RECORD, MiB
+from logs.recording.schema import MESSAGES, PACKAGE
 
 TOPICS: dict[str, Any] = {
     "/bt/tree": MESSAGES["BehaviourTree"],

@@ -12,7 +12,7 @@ from heapq import merge
 from executive.records import LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
 from executive.text import printable
 from executive.types import Scored
-from logs.reader import At, Run
+from logs.recording.reader import At, Run
 
 SOURCES = {
     "ReadCommand": "person",

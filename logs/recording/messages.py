@@ -28,8 +28,8 @@ from executive.types import (
     Status,
     Usage,
 )
-from logs.schema import MESSAGES, STATUS
-from logs.sound import MOST, MOST_DEEP, check_situation, finite, json_value, whole
+from logs.recording.schema import MESSAGES, STATUS
+from logs.recording.sound import MOST, MOST_DEEP, check_situation, finite, json_value, whole
 
 MOST_BEHAVIOURS = 2000
 _PARAMETERS = ("temperature", "top_p", "top_k", "seed", "max_tokens")

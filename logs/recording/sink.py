@@ -1,4 +1,4 @@
-"""The mission as one mcap file, for Foxglove, rerun and `logs.reader`."""
+"""The mission as one mcap file, for Foxglove, rerun and `logs.recording.reader`."""
 
 import mimetypes
 import os
@@ -30,12 +30,12 @@ from executive.records import (
 )
 from executive.text import writable
 from executive.types import Frame
-from logs import foxglove, messages
-from logs.event_messages import event_from_message, event_to_message, in_words
 from logs.recorder import Stamp
-from logs.sound import in_mission
-from logs.times import nanoseconds
-from logs.topics import TOPICS, most_in
+from logs.recording import foxglove, messages
+from logs.recording.events import event_from_message, event_to_message, in_words
+from logs.recording.sound import in_mission
+from logs.recording.times import nanoseconds
+from logs.recording.topics import TOPICS, most_in
 
 CHUNK_BYTES = 256 * 1024
 """Larger chunks compress better but stall the writer (and lose more if the process is killed)."""

@@ -25,15 +25,15 @@ from executive.records import (
     Verified,
 )
 from executive.types import Frame, Intrinsics
-from logs import blueprint, markdown, rerun_scene, viewer
-from logs.event_messages import in_words
 from logs.images import jpeg_scaled
 from logs.recorder import Stamp
-from logs.rerun_candidates import CandidatesView
-from logs.rerun_scene import Taken
-from logs.rerun_times import MISSION_TIME, TICK, At, Moment
-from logs.rerun_tree import TreeView
+from logs.recording.events import in_words
 from logs.unwritten import Unwritten
+from logs.viewer import blueprint, markdown, program, scene
+from logs.viewer.candidates import CandidatesView
+from logs.viewer.scene import Taken
+from logs.viewer.timelines import MISSION_TIME, TICK, At, Moment
+from logs.viewer.tree import TreeView
 
 APPLICATION = "robot-executive"
 FLUSH_S = 5.0
@@ -60,7 +60,7 @@ class RerunSink:
         Raises:
             ExecutiveError: if the viewer does not start.
         """
-        self._viewer = viewer.start() if view else None
+        self._viewer = program.start() if view else None
         self._stream = rr.RecordingStream(APPLICATION)
         sinks: list[rr.FileSink | rr.GrpcSink] = []
         if path is not None:
@@ -71,7 +71,7 @@ class RerunSink:
         self._stream.set_sinks(*sinks, default_blueprint=blueprint.mission_blueprint())
         self._stream.set_time(MISSION_TIME, duration=0.0)
         self._stream.set_time(TICK, sequence=0)
-        rerun_scene.log_frames(self._stream)
+        scene.log_frames(self._stream)
         self._candidates = CandidatesView(self._stream)
         self._moved: list[At[Transform]] = []
         self._taken: list[At[Taken]] = []
@@ -111,14 +111,14 @@ class RerunSink:
             case Picture(frame):
                 self._write_picture(moment, frame)
             case Seen():
-                rerun_scene.log_detections(self._stream, record, self._scale)
+                scene.log_detections(self._stream, record, self._scale)
                 self._detections_shown = True
             case Scene(entities):
-                rerun_scene.log_scene(self._stream, entities)
+                scene.log_scene(self._stream, entities)
                 self._candidates.place(entities)
                 self._stream.send_blueprint(blueprint.mission_blueprint(entities))
             case Path():
-                rerun_scene.log_path(self._stream, record)
+                scene.log_path(self._stream, record)
             case Finished(outcome):
                 self._stream.log(blueprint.BELIEF, _document(markdown.outcome(outcome)))
 
@@ -155,14 +155,14 @@ class RerunSink:
         self._stream.log(blueprint.BELIEF, _document(markdown.belief(tick.situation)))
 
     def _write_picture(self, moment: Moment, frame: Frame) -> None:
-        self._scale = rerun_scene.PICTURE_WIDTH / frame.intrinsics.width
+        self._scale = scene.PICTURE_WIDTH / frame.intrinsics.width
         intrinsics = frame.intrinsics.scaled(self._scale)
         if intrinsics != self._intrinsics:
             self._intrinsics = intrinsics
-            rerun_scene.log_intrinsics(self._stream, intrinsics)
+            scene.log_intrinsics(self._stream, intrinsics)
         self._taken.append(At(moment, Taken(frame.pose, jpeg_scaled(frame, self._scale))))
         if self._detections_shown:
-            rerun_scene.clear_detections(self._stream)
+            scene.clear_detections(self._stream)
             self._detections_shown = False
 
     def _write_thought(self, thought: LlmCall | Verified) -> None:
@@ -185,12 +185,12 @@ class RerunSink:
         self._moved, self._taken = [], []
         try:
             if moved:
-                rerun_scene.send_transforms(self._stream, moved)
+                scene.send_transforms(self._stream, moved)
         except Exception as error:
             self._tell(Transforms.__name__, error)
         try:
             if taken:
-                rerun_scene.send_pictures(self._stream, taken)
+                scene.send_pictures(self._stream, taken)
         except Exception as error:
             self._tell(Picture.__name__, error)
 

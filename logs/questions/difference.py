@@ -9,7 +9,7 @@ from typing import Any
 from executive.records import NodeState, Tick
 from executive.text import printable
 from executive.types import Outcome
-from logs.reader import At, Run
+from logs.recording.reader import At, Run
 
 OF_THE_RUN = ("mission_time_s", "thinking_time_s", "wall_time_s", "run_dir")
 """What an outcome says about this one run, whatever was decided."""

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Shape
 from executive.types import Vector3
-from logs.candidates import State, states
+from logs.viewer.states import State, states
 
 CANDIDATES = "candidates"
 TARGET = "target"

@@ -14,12 +14,12 @@ from executive.records import LlmCall, Mishap, Tick, TreeShape, Utterance, Verif
 from executive.text import printable
 from executive.toml_file import parse_toml
 from executive.types import Outcome
-from logs import messages
-from logs.event_messages import event_from_message
-from logs.mcap_file import Damage, is_whole, records
-from logs.parsing import MISFITS, Parsing, in_few_words
-from logs.sound import in_mission
-from logs.times import nanoseconds
+from logs.recording import messages
+from logs.recording.events import event_from_message
+from logs.recording.mcap_file import Damage, is_whole, records
+from logs.recording.parsing import MISFITS, Parsing, in_few_words
+from logs.recording.sound import in_mission
+from logs.recording.times import nanoseconds
 
 FILE_NAME = "mission.mcap"
 

@@ -6,7 +6,7 @@ from math import ceil
 from xml.sax.saxutils import escape
 
 from executive.text import printable
-from logs.report import Span
+from logs.questions.report import Span
 
 ROW, HEIGHT, MARGIN = 22.0, 14.0, 12.0
 """Distance of rows, height of a bar, around everything (pixels)."""
