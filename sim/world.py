@@ -8,11 +8,12 @@ import pybullet
 from scipy.spatial.transform import Rotation
 
 from executive.events import Inbox
+from executive.geometry import Floats
 from executive.interfaces import Camera, Recorder
 from executive.records import Picture, Scene, Transforms
 from executive.types import Pose
 from sim.body.description import describe_robot, robot_entities
-from sim.body.hardware import Floats, Hardware
+from sim.body.hardware import Hardware
 from sim.body.laser import Laser
 from sim.body.skill import CONTROL_S, Thinker
 from sim.bullet.bodies import build_home, frame_pose, home_entities, place_objects

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from executive.perception.pipeline import locate, rays, transform
+from executive.geometry import rays, transform
+from executive.perception.pipeline import locate
 from executive.types import Pose, Vector3
 from sim.__main__ import HEIGHT, WIDTH, main
 from sim.bullet.bodies import build_home, frame_pose, place_objects

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from executive.perception.pipeline import back_project, locate, transform
+from executive.geometry import back_project, transform
+from executive.perception.pipeline import locate
 from executive.types import Box, Detection, Frame, Intrinsics, Pose
 
 INTRINSICS = Intrinsics(width=64, height=48, fx=60.0, fy=60.0, cx=31.5, cy=23.5)

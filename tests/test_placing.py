@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import Floats
 from executive.types import Pose
 from sim.home.home import load_home
 from sim.manipulation.placing import RIM_M, TIGHT_M, free_spots, stands
 from sim.manipulation.registration import locate_fallen
 from sim.objects.objects import load_objects
 from sim.objects.resting import forms
-from sim.objects.solids import Floats, sample_surface
+from sim.objects.solids import sample_surface
 
 MODELS = load_objects()
 EYE = np.array([1.2, 1.0, 1.4])

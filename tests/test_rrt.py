@@ -5,8 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from executive.geometry import Floats
 from sim.manipulation.rrt import connect
-from sim.objects.solids import Floats
 
 LOWER, UPPER = np.zeros(2), np.full(2, 40.0)
 START, GOAL = np.array([5.0, 5.0]), np.array([35.0, 5.0])

@@ -6,8 +6,9 @@ from math import dist, inf
 
 import numpy as np
 
+from executive.geometry import Floats
 from sim.home.home import Home, load_home
-from sim.navigation.grid import Floats, OccupancyGrid, Point, Unreachable, plan
+from sim.navigation.grid import OccupancyGrid, Point, Unreachable, plan
 
 
 class Lengths(OccupancyGrid):

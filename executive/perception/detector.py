@@ -15,7 +15,7 @@ from executive.files import read_text
 from executive.perception.onnx_file import read_onnx
 from executive.perception.onnx_trial import network, pictures, run, try_out
 from executive.perception.segmentation import segment
-from executive.perception.yolo import Boxes, Floats, check_probabilities, layout_of, read
+from executive.perception.yolo import Boxes, Floats32, check_probabilities, layout_of, read
 from executive.text import printable
 from executive.types import Box, Detection, Frame
 
@@ -51,8 +51,8 @@ class Found:
         classes: (n,), indices.
     """
 
-    boxes: Floats
-    scores: Floats
+    boxes: Floats32
+    scores: Floats32
     classes: NDArray[np.int64]
 
 
@@ -128,7 +128,7 @@ class OnnxDetector:
             self._layout = layout_of(outputs, classes, metadata, where)
             check_probabilities(self._layout.rows(outputs, where), self._layout, classes, where)
 
-    def _run(self, picture: NDArray[np.uint8]) -> list[Floats]:
+    def _run(self, picture: NDArray[np.uint8]) -> list[Floats32]:
         """All outputs."""
         try:
             return run(self._network, picture, self._takes_bytes)
@@ -219,7 +219,7 @@ def suppress(boxes: Boxes, least: float) -> Boxes:
     return Boxes(boxes.corners[order], boxes.scores[order], boxes.classes[order])
 
 
-def _whole_pixels(edges: Floats, frame: Frame) -> Box | None:
+def _whole_pixels(edges: Floats32, frame: Frame) -> Box | None:
     """The box in whole pixels within the picture; None if nothing is left of it."""
     height, width = frame.color.shape[:2]
     left, top = np.floor(np.clip(edges[:2], 0, (width, height))).astype(int).tolist()

@@ -7,15 +7,14 @@ from functools import partial
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from executive.computing import Computation, Worker
 from executive.events import Inbox
+from executive.geometry import back_project
 from executive.interfaces import Camera, Detector, Recorder
 from executive.records import Note, Picture, Seen
 from executive.text import printable
-from executive.types import Box, Detection, Failed, Frame, Intrinsics, Pose, Saw
+from executive.types import Box, Detection, Failed, Frame, Saw
 
 log = logging.getLogger(__name__)
 
@@ -101,45 +100,3 @@ def _touches_edge(box: Box, frame: Frame) -> bool:
     right, bottom = box.left + box.width, box.top + box.height
     nearest = min(box.left, box.top, lens.width - right, lens.height - bottom)
     return nearest < _EDGE_PIXELS
-
-
-def back_project(
-    frame: Frame, rows: NDArray[np.intp], columns: NDArray[np.intp]
-) -> NDArray[np.float32]:
-    """Points in `map` (n, 3; metres) seen at these pixels; pixels without depth are left out."""
-    depth = frame.depth[rows, columns]
-    hit = np.isfinite(depth)
-    in_camera = rays(frame.intrinsics, rows[hit], columns[hit]) * depth[hit, None]
-    return transform(frame.pose, in_camera).astype(np.float32)
-
-
-def back_project_grid(frame: Frame, rows: slice, columns: slice) -> NDArray[np.float64]:
-    """Points in `map` (h, w, 3; metres) seen in a part of the picture; NaN without depth."""
-    row, column = np.mgrid[rows, columns]
-    depth = frame.depth[rows, columns].astype(np.float64).ravel()
-    depth[~np.isfinite(depth)] = np.nan
-    in_camera = rays(frame.intrinsics, row.ravel(), column.ravel()) * depth[:, None]
-    return transform(frame.pose, in_camera).reshape(*row.shape, 3)
-
-
-def rays(
-    intrinsics: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.intp]
-) -> NDArray[np.float64]:
-    """Directions (n, 3) in `camera_optical` through pixels, with z = 1.
-
-    As in OpenCV and ROS, whole coordinates are the middles of pixels.
-    """
-    return np.stack(
-        [
-            (columns - intrinsics.cx) / intrinsics.fx,
-            (rows - intrinsics.cy) / intrinsics.fy,
-            np.ones(len(rows)),
-        ],
-        axis=-1,
-    )
-
-
-def transform(pose: Pose, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points (n, 3) from the child frame of `pose` to its parent frame."""
-    moved: NDArray[np.float64] = Rotation.from_quat(pose.orientation).apply(points) + pose.position
-    return moved

@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from executive.perception.pipeline import back_project_grid
+from executive.geometry import Floats, back_project_grid
 from executive.types import Box, Frame
 
-Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 AROUND = 0.25

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from executive.errors import InputError
 
-Floats = NDArray[np.float32]
+Floats32 = NDArray[np.float32]
 
 MASKS = 32
 """Coefficients of a mask after the classes, in exports for segmentation."""
@@ -37,7 +37,7 @@ class Layout:
     columns: int
     turned: bool = False
 
-    def rows(self, outputs: Sequence[Floats], where: str) -> Floats:
+    def rows(self, outputs: Sequence[Floats32], where: str) -> Floats32:
         """The output as (n, columns).
 
         Raises:
@@ -45,7 +45,7 @@ class Layout:
         """
         output = outputs[self.output] if self.output < len(outputs) else np.zeros(0, np.float32)
         if output.ndim == 3 and output.shape[2 - self.turned] == self.columns:
-            rows: Floats = output[0]
+            rows: Floats32 = output[0]
             return rows.T if self.turned else rows
         raise InputError(where, f"its output is now {output.shape}", "export it for one size")
 
@@ -60,13 +60,13 @@ class Boxes:
         classes: (n,), indices.
     """
 
-    corners: Floats
-    scores: Floats
+    corners: Floats32
+    scores: Floats32
     classes: NDArray[np.int64]
 
 
 def layout_of(
-    outputs: Sequence[Floats], classes: int, metadata: Mapping[str, str], where: str
+    outputs: Sequence[Floats32], classes: int, metadata: Mapping[str, str], where: str
 ) -> Layout:
     """Which output is to be read, and how; what fits several layouts is told by what it says.
 
@@ -99,7 +99,7 @@ def layout_of(
     return others[0]
 
 
-def _layouts(outputs: Sequence[Floats], classes: int) -> Iterator[Layout]:
+def _layouts(outputs: Sequence[Floats32], classes: int) -> Iterator[Layout]:
     """All that fit by their numbers of columns."""
     masks = any(o.ndim == 4 and MASKS in (o.shape[1], o.shape[3]) for o in outputs)
     for number, output in enumerate(outputs):
@@ -119,7 +119,7 @@ def _layouts(outputs: Sequence[Floats], classes: int) -> Iterator[Layout]:
                 yield Layout(number, "grid", grid)
 
 
-def _looks_ended(rows: Floats) -> bool:
+def _looks_ended(rows: Floats32) -> bool:
     """Whether the rows can be corners, score and class: no class is a fraction."""
     numbers, scores = rows[:, 5], rows[:, 4]
     of_classes = (numbers == np.floor(numbers)) & (numbers >= 0)
@@ -128,7 +128,7 @@ def _looks_ended(rows: Floats) -> bool:
 
 
 @np.errstate(all="ignore")
-def read(rows: Floats, layout: Layout, classes: int) -> Boxes:
+def read(rows: Floats32, layout: Layout, classes: int) -> Boxes:
     """Boxes with their best class; what are no numbers, have no area or no class is left out."""
     if layout.kind == "ended":
         corners, best, numbers = rows[:, :4], rows[:, 4], rows[:, 5]
@@ -146,14 +146,14 @@ def read(rows: Floats, layout: Layout, classes: int) -> Boxes:
     return Boxes(corners[good], best[good], numbers[good].astype(np.int64))
 
 
-def probabilities(rows: Floats, layout: Layout, classes: int) -> Floats:
+def probabilities(rows: Floats32, layout: Layout, classes: int) -> Floats32:
     """The columns that should be from 0 to 1."""
     if layout.kind == "ended":
         return rows[:, 4:5]
     return rows[:, 4 : 4 + classes + (layout.kind == "objectness")]
 
 
-def check_probabilities(rows: Floats, layout: Layout, classes: int, where: str) -> None:
+def check_probabilities(rows: Floats32, layout: Layout, classes: int, where: str) -> None:
     """See whether scores are probabilities.
 
     Raises:

@@ -22,6 +22,7 @@ import numpy as np
 
 from executive.errors import InputError
 from executive.events import Inbox
+from executive.geometry import Floats
 from executive.interfaces import LanguageModel
 from executive.shell import DONE, entry_point
 from executive.usage import Parser
@@ -33,7 +34,7 @@ from kb.benchmark.questions import DataSet, Question, placements, survey
 from kb.benchmark.trials import Answer, Journal, order, ranking, writing
 from kb.llm.key import Key
 from kb.llm.llama import LlamaCpp, embedded_model
-from kb.llm.precedents import Floats, log_expected, shares, usual
+from kb.llm.precedents import log_expected, shares, usual
 from kb.llm.server.server import Server
 from kb.ontology.names import words_of
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from executive.errors import InputError, ModelError
 from executive.events import Ended, Inbox
+from executive.geometry import Floats
 from executive.interfaces import LanguageModel
 from executive.terminal import show_over
 from executive.types import RankRequest, Replied, Scored, Usage
@@ -17,7 +18,7 @@ from kb.advice.advisor import PlaceAdvisor
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import rank_request
 from kb.benchmark.questions import DataSet, Question
-from kb.llm.precedents import Floats, shares, usual
+from kb.llm.precedents import shares, usual
 from kb.ontology.ontology import Ontology
 
 PLAIN = "the model's likelihood of the answer"

@@ -14,7 +14,8 @@ The constants were chosen for the embedded model on the train and valid folds of
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+
+from executive.geometry import Floats
 
 LIKELIHOOD_WEIGHT = 0.2
 """Models are far too sure of which words come next; this makes probabilities of it."""
@@ -29,8 +30,6 @@ LEAST = 0.005
 
 NO_LENGTH = 1e-6
 """States differ by ones and tens; those that differ by less than this are the same."""
-
-Floats = NDArray[np.float64]
 
 
 def shares(places: Sequence[Sequence[str]], options: Sequence[str]) -> Floats:

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from executive.geometry import Floats
 from executive.types import Message, RankRequest
 from kb.llm.context import Context
 from kb.llm.gguf import Checkpoint, Gguf
-from kb.llm.precedents import LIKELIHOOD_WEIGHT, Floats, log_expected, shares
+from kb.llm.precedents import LIKELIHOOD_WEIGHT, log_expected, shares
 
 SCORED_AT_ONCE = 63
 """Options that are scored side by side."""

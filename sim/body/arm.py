@@ -5,7 +5,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.body.hardware import ARM, Floats, Hardware
+from executive.geometry import Floats
+from sim.body.hardware import ARM, Hardware
 from sim.body.skill import CONTROL_S, CannotError, Skill, wait_until
 
 SPEED = 0.6

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.body.hardware import Floats, Hardware
+from executive.geometry import Floats
+from sim.body.hardware import Hardware
 from sim.body.skill import CONTROL_S, CannotError, Skill
 
 BRAKING = 2.0

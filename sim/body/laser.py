@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from pybullet_utils.bullet_client import BulletClient
 
-from sim.body.hardware import Floats, Hardware
+from executive.geometry import Floats
+from sim.body.hardware import Hardware
 
 RAYS = 180
 RANGE_M = 3.5

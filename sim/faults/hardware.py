@@ -3,8 +3,9 @@
 import numpy as np
 from pybullet_utils.bullet_client import BulletClient
 
+from executive.geometry import Floats
 from sim.body.base import CARRYING, CREEPING
-from sim.body.hardware import FINGER_TRAVEL, Floats, Hardware
+from sim.body.hardware import FINGER_TRAVEL, Hardware
 from sim.faults.injector import Mishaps
 from sim.faults.orders import Drop, Slip, Stuck
 

@@ -5,7 +5,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from executive.geometry import Floats
+
 Corners = Sequence[tuple[float, float]]
 
 

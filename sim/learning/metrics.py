@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from executive.geometry import Floats
+
 Ints = NDArray[np.int64]
 ENOUGH = 0.5
 """Boxes that overlap at least this much (IoU) are of the same thing."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.body.hardware import Floats
+from executive.geometry import Floats
 from sim.home.furniture import Surface
 from sim.home.home import Furniture
 

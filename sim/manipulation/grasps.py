@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import Floats
 from executive.types import Pose
 from sim.body.hardware import FINGER_TRAVEL
 from sim.objects.objects import ObjectModel
-from sim.objects.solids import Floats, sample_surface, signed_distance
+from sim.objects.solids import sample_surface, signed_distance
 
 WIDEST = 2 * FINGER_TRAVEL - 0.0045
 """The widest stretch that the open fingers pass on both sides (metres)."""

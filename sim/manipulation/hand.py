@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import Floats
 from executive.types import Pose
 from sim.body.arm import hold
-from sim.body.hardware import Floats, Hardware
+from sim.body.hardware import Hardware
 from sim.body.skill import CONTROL_S, CannotError, Skill
 from sim.bullet.client import GRAVITY_M_S2
 from sim.manipulation.grasps import HandPose

@@ -8,7 +8,8 @@ from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
 from executive.computing import still_wanted
-from sim.body.hardware import ARM, BASE, Floats, Hardware
+from executive.geometry import Floats
+from sim.body.hardware import ARM, BASE, Hardware
 from sim.bullet.client import connect
 from sim.manipulation.grasps import HandPose
 

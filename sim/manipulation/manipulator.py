@@ -13,10 +13,11 @@ from typing import TypeVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import Floats
 from executive.types import Detection, Pose
 from sim.body.arm import SLOW, follow
 from sim.body.base import CREEPING, drive
-from sim.body.hardware import FINGER_TRAVEL, FOLDED, Floats, Hardware
+from sim.body.hardware import FINGER_TRAVEL, FOLDED, Hardware
 from sim.body.head import look_at
 from sim.body.skill import CannotError, Skill, Thinker, attempt, pause, wait_until
 from sim.bullet.client import GRAVITY_M_S2

@@ -6,8 +6,8 @@ from itertools import product
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import Floats
 from executive.types import Pose
-from sim.body.hardware import Floats
 from sim.home.furniture import OPEN, Surface
 from sim.home.home import Furniture
 from sim.manipulation.clutter import level_points, rising_points

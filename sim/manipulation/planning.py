@@ -6,9 +6,10 @@ from itertools import pairwise
 import numpy as np
 import pybullet as p
 
+from executive.geometry import Floats
 from executive.records import Shape
 from executive.types import Pose
-from sim.body.hardware import FOLDED, Floats
+from sim.body.hardware import FOLDED
 from sim.bullet.bodies import build_home, create_body
 from sim.home.home import Home
 from sim.manipulation.clutter import CELL_M, Column

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from sim.body.hardware import Floats
+from executive.geometry import Floats
 from sim.home.home import Furniture
 from sim.manipulation.grasps import HandPose
 from sim.manipulation.planning import CHECKED, PlanningWorld

@@ -7,10 +7,11 @@ import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import Floats
 from executive.types import Pose
 from sim.objects.objects import ObjectModel
 from sim.objects.resting import forms
-from sim.objects.solids import Floats, signed_distance
+from sim.objects.solids import signed_distance
 
 _POINTS = 250
 _YAWS, _BEHIND = 12, (0.0, 0.5, 1.0)

@@ -3,10 +3,10 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from ompl import base, geometric, util
 
-Floats = NDArray[np.float64]
+from executive.geometry import Floats
+
 Free = Callable[[Floats], bool]
 
 _STEP = 8.0

@@ -4,8 +4,9 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from executive.geometry import Floats
 from sim.body.base import RADIUS_M
-from sim.body.hardware import Floats, Hardware
+from sim.body.hardware import Hardware
 from sim.body.skill import CannotError
 from sim.home.home import Furniture, Home
 from sim.manipulation.clutter import CELL_M, Column, columns

@@ -11,7 +11,8 @@ from trimesh.exchange.obj import export_obj
 from trimesh.visual import TextureVisuals
 from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
-from sim.modelling.parts import Floats, Part
+from executive.geometry import Floats
+from sim.modelling.parts import Part
 from sim.objects.objects import ObjectModel
 
 _GLTF_FROM_OURS = np.array([[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1]], dtype=float)

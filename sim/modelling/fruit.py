@@ -6,7 +6,8 @@ Apple, peach and orange are alike in shape and size, as the real ones are.
 import numpy as np
 from PIL.Image import Image
 
-from sim.modelling.parts import Floats, Part, cap, lathe, loft, ring, sphere, sweep
+from executive.geometry import Floats
+from sim.modelling.parts import Part, cap, lathe, loft, ring, sphere, sweep
 from sim.modelling.skins import Label, blend, gradient, mottled, noise, plain
 
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from sim.modelling.parts import Floats, Part, box, cap, lathe, loft, ring, solid
+from executive.geometry import Floats
+from sim.modelling.parts import Part, box, cap, lathe, loft, ring, solid
 from sim.modelling.skins import Label, brushed, mottled, plain
 
 _TIN = ("#9a9fa4", "#d4d7da", "#b4b9be")

@@ -14,7 +14,8 @@ from PIL.Image import Image
 from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
-Floats = NDArray[np.float64]
+from executive.geometry import Floats
+
 AROUND = 20
 """Points of a round ring."""
 

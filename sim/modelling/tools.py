@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from sim.modelling.parts import Floats, Part, box, cap, lathe, loft, prism, ring, solid, sweep
+from executive.geometry import Floats
+from sim.modelling.parts import Part, box, cap, lathe, loft, prism, ring, solid, sweep
 from sim.modelling.skins import Label, brushed, mottled, plain
 
 _STEEL = ("#6c7379", "#a2a9af", "#868e95")

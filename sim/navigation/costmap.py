@@ -7,7 +7,7 @@ see through; the planner takes the marks for obstacles.
 import numpy as np
 from scipy.spatial import KDTree
 
-from sim.body.hardware import Floats
+from executive.geometry import Floats
 from sim.body.laser import Scan
 from sim.navigation.grid import FOOTPRINT_M, OccupancyGrid
 

@@ -13,10 +13,10 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
+from executive.geometry import Floats
 from sim.home.home import Home
 
 Point = tuple[float, float]
-Floats = NDArray[np.float64]
 Slices = tuple[slice, slice]
 
 FOOTPRINT_M = 0.33

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Generator
 
+from executive.geometry import Floats
 from executive.interfaces import Recorder
 from executive.records import Path
 from sim.body.base import BlockedError, Limits, drive
-from sim.body.hardware import Floats, Hardware
+from sim.body.hardware import Hardware
 from sim.body.laser import Laser
 from sim.body.skill import Skill, Thinker, pause
 from sim.home.home import PlanarPose

@@ -6,8 +6,8 @@ from functools import cache
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import Floats
 from executive.types import Pose, Vector3
-from sim.body.hardware import Floats
 from sim.objects.objects import ObjectModel
 from sim.objects.solids import sample_surface
 

@@ -4,14 +4,12 @@ from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from executive.computing import still_wanted
+from executive.geometry import Floats
 from executive.records import Shape
 from executive.types import Quaternion
-
-Floats = NDArray[np.float64]
 
 
 def signed_distance(shapes: Sequence[Shape], points: Floats) -> Floats:

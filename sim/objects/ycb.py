@@ -11,19 +11,18 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
 from executive.errors import InputError
 from executive.files import read_bytes
+from executive.geometry import Floats
 from executive.records import Shape
 from executive.types import Pose
 from sim.objects.objects import WHITE, ObjectModel
 from sim.objects.solids import signed_distance
 
-Floats = NDArray[np.float64]
 MESH = Path("google_16k", "textured.obj")
 _NUMBER = re.compile(r"\d{3}(-[a-z])?_")
 """`013_apple`, `070-a_colored_wood_blocks`: without it, YCB's names are the ontology's."""
