@@ -1,4 +1,7 @@
-"""Teaching the detector: `frames` renders what it learns from, `train` makes an ONNX file of it."""
+"""Teaching the detector: `frames` renders what it learns from, `train` makes an ONNX file of it.
+
+`evaluate` says how good a detector is in scenes that it never learned from.
+"""
 
 from executive.start import begin
 
@@ -16,6 +19,7 @@ from executive.errors import InputError
 from executive.shell import DONE, entry_point
 from executive.terminal import show_over
 from executive.usage import Parser
+from sim.learning import evaluation
 from sim.learning.frames import SHARD, make_shards
 
 
@@ -59,6 +63,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     train.add_argument("--seed", type=int, default=0)
     train.add_argument("--threads", type=int, help="default: one for each core")
     train.set_defaults(run=_train)
+    judged = commands.add_parser("evaluate", help="judge a detector in scenes that are new to it")
+    evaluation.add_options(judged)
+    judged.set_defaults(run=evaluation.evaluate)
     options = parser.parse_args(arguments)
     try:
         options.run(options)

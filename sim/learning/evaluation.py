@@ -1,15 +1,11 @@
-"""How good a detector is in scenes that it never learned from: `python -m sim.learning.evaluation`.
+"""How good a detector is in scenes that it never learned from: `python -m sim.learning evaluate`.
 
 Renders scenes of seeds that training may not use, and prints a report in Markdown; `--picture`
 draws which things are taken for which. `--validation` takes other such scenes: those that choose
 between networks, so that the ones that judge the chosen network have had no say.
 """
 
-from executive.start import begin
-
-if __name__ == "__main__":
-    begin()
-
+import argparse
 import os
 import sys
 import tempfile
@@ -27,11 +23,9 @@ from executive.errors import InputError
 from executive.perception.detector import LEARNED, LEAST_CONFIDENCE, Found, OnnxDetector
 from executive.perception.pipeline import locate
 from executive.perception.segmentation import segment
-from executive.shell import DONE, entry_point
 from executive.terminal import show_over
 from executive.text import printable
 from executive.types import Box, Detection, Frame
-from executive.usage import Parser
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.metrics import ClassReport, Ints, Judged, by_class, confusion, match
 from sim.learning.scenes import Scene, SceneMaker
@@ -209,10 +203,8 @@ def draw_confusion(table: Ints, names: Sequence[str]) -> str:
     return "\n".join([*parts, "</svg>"]) + "\n"
 
 
-@entry_point
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Judge a detector."""
-    parser = Parser(prog="python -m sim.learning.evaluation", description=__doc__)
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """What `python -m sim.learning evaluate` takes."""
     parser.add_argument("--detector", default="learned", help="learned (default), or a FILE.onnx")
     parser.add_argument("--scenes", type=int, default=500, metavar="N", help="default: 500")
     parser.add_argument("--validation", action="store_true", help="scenes to choose a network by")
@@ -224,7 +216,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         help="default: one for each core",
     )
     parser.add_argument("--picture", type=Path, metavar="FILE.svg", help="draw confusions")
-    options = parser.parse_args(arguments)
+
+
+def evaluate(options: argparse.Namespace) -> None:
+    """Judge a detector, and print the report.
+
+    Raises:
+        InputError: if the detector's file cannot be read, or the picture cannot be written.
+    """
     path = LEARNED if options.detector == "learned" else Path(options.detector)
     milliseconds = time_of_one(OnnxDetector(path, lambda name: (name,)))
     first = VALIDATION_SEED if options.validation else EVALUATION_SEED
@@ -238,7 +237,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         pictures = [one.picture for one in judgements]
         table = confusion(pictures, len(class_names()), LEAST_CONFIDENCE)
         _write(options.picture, draw_confusion(table, class_names()))
-    return DONE
 
 
 def _write(path: Path, text: str) -> None:
@@ -247,7 +245,3 @@ def _write(path: Path, text: str) -> None:
     except OSError as error:
         right = "give a file in a folder that exists"
         raise InputError(f"--picture {path}", f"cannot write: {error.strerror}", right) from None
-
-
-if __name__ == "__main__":
-    sys.exit(main())

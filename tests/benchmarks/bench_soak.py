@@ -3,8 +3,8 @@
 Random missions in the instant world, drawn from seeds: faults of the world, collaborators that
 raise, hang and talk nonsense, odd people, models that write garbage, stops at random moments. With
 `--physics` they run in PyBullet, and with `--stops` the whole program is started and told to stop.
-After each the invariants of tests/soaking are checked. What is violated is printed with its seed:
-`--seed SEED --missions 1` runs that household again.
+After each the invariants of tests/helpers/soaking are checked. What is violated is printed with its
+seed: `--seed SEED --missions 1` runs that household again.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 from progress import measure
 from soaking.case import missions_of, run_household

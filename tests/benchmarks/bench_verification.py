@@ -30,7 +30,7 @@ from kb.ontology.names import spoken
 from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 TEMPERATURES = (0.6, 0.9, 1.2, 1.5)
 WAYS = ("freely", "in the format", "with known names")

@@ -1,0 +1,101 @@
+"""What truly came of a mission, and how far the robot had to drive for it."""
+
+import inspect
+from dataclasses import replace
+from itertools import pairwise
+from math import dist, inf
+
+import pytest
+
+import trees.robot
+from executive.campaign.journal import Row
+from executive.campaign.observer import ACTIVITIES
+from executive.campaign.routes import Routes
+from executive.campaign.truth import completed, shortest_m, whereabouts
+from executive.testing.bench import four_rooms, run_mission
+from executive.types import Kind, Pick, PutDown
+from sim.navigation.grid import OccupancyGrid, plan
+from trees.nodes import Action
+
+
+@pytest.mark.parametrize(
+    ("words", "truth"),
+    [("Find an apple", "dining_table"), ("Take an apple", "hand"), ("Bring an apple", "delivery")],
+)
+def test_what_was_done_is_completed_where_each_command_wants_the_thing(
+    words: str, truth: str
+) -> None:
+    run = run_mission(words, llm=False)
+    assert whereabouts("apple", run.world) == truth
+    assert completed(run.outcome, truth)
+    assert not completed(run.outcome, "bed")
+    assert not completed(run.outcome, "")
+
+
+def test_a_robot_that_only_says_so_has_completed_nothing() -> None:
+    run = run_mission("Find an apple", llm=False)
+    assert not completed(replace(run.outcome, location="sofa"), "dining_table")
+    assert not completed(replace(run.outcome, visited=("sofa",)), "dining_table")
+
+
+@pytest.mark.parametrize(("truth", "done"), [("sofa", True), ("hand", False), ("", False)])
+def test_what_was_put_down_is_on_some_furniture(truth: str, done: bool) -> None:
+    outcome = replace(run_mission("Find an apple", llm=False).outcome, kind=Kind.PUT_DOWN)
+    assert completed(outcome, truth) == done
+
+
+@pytest.mark.parametrize("kind", [Pick, PutDown])
+def test_a_robot_that_says_that_it_failed_has_completed_nothing(kind: type) -> None:
+    fault = lambda goal: "the hand is stuck" if isinstance(goal, kind) else None  # noqa: E731
+    run = run_mission("Bring an apple", llm=False, fault=fault)
+    assert not completed(run.outcome, "delivery")
+
+
+def test_the_shortest_way_leads_through_doors_and_is_the_same_back() -> None:
+    routes = Routes(four_rooms())
+    bed, wagon = routes.stand("bed"), routes.stand("counter_wagon")
+    assert routes.length(bed, wagon) > dist(bed, wagon)
+    assert routes.length(bed, wagon) == pytest.approx(routes.length(wagon, bed), rel=0.05)
+    assert routes.length(bed, (-5.0, 0.0)) == inf
+
+
+def test_the_shortest_way_is_no_longer_than_the_comfortable_one() -> None:
+    routes, comfortable = Routes(four_rooms()), OccupancyGrid.from_home(four_rooms())
+    start = four_rooms().robot_start[:2]
+    saved = []
+    for place in four_rooms().places():
+        way = plan(comfortable, start, routes.stand(place.name))
+        length = sum(dist(a, b) for a, b in pairwise(way))
+        saved.append(length - routes.length(start, routes.stand(place.name)))
+    assert min(saved) > -0.02
+    assert max(saved) > 0.05
+
+
+def test_how_far_it_has_to_drive_depends_on_where_the_command_ends() -> None:
+    routes = Routes(four_rooms())
+    outcome = run_mission("Take an apple", llm=False).outcome
+    take, find, bring = (
+        shortest_m(replace(outcome, kind=kind), four_rooms(), routes)
+        for kind in (Kind.TAKE, Kind.FIND, Kind.BRING)
+    )
+    table, person = routes.stand("dining_table"), routes.stand("person")
+    assert find == pytest.approx(take + routes.length(table, person))
+    assert bring == pytest.approx(take + routes.length(table, routes.stand("delivery")))
+    assert shortest_m(replace(outcome, object=None), four_rooms(), routes) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("done", "path_m", "spl"), [(True, 4.0, 1.0), (True, 8.0, 0.5), (True, 3.9, 1.0), (False, 4, 0)]
+)
+def test_spl_is_the_share_of_the_way_that_was_needed(done: bool, path_m: float, spl: float) -> None:
+    row = Row("ours", "home", "none", "okb", True, 0, "", 0, completed=done)
+    assert replace(row, path_m=path_m, shortest_m=4.0).spl == spl
+
+
+def test_the_time_of_every_deed_of_the_robot_is_counted() -> None:
+    deeds = {
+        name
+        for name, kind in vars(trees.robot).items()
+        if inspect.isclass(kind) and issubclass(kind, Action) and not inspect.isabstract(kind)
+    }
+    assert deeds == set(ACTIVITIES)

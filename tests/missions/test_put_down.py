@@ -1,0 +1,230 @@
+"""A full table, a full hand: where things are put down then, and what the robot says of it."""
+
+import io
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from executive.app.parts import near_person
+from executive.app.session import Session
+from executive.config import load_settings
+from executive.events import Inbox
+from executive.language.grammar import EnglishInterpreter
+from executive.language.put_down import HELD, to_put_down
+from executive.replay.replay import replay
+from executive.testing.bench import four_rooms
+from executive.types import DELIVERY, SOMETHING, DriveTo, Goal, Kind, PutDown, Status
+from executive.user import Scripted
+from sim.fake import FakeWorld
+
+FULL = "there is no free spot on the delivery"
+NEAR = ("coffee_table", "sofa", "dining_table")
+
+Serve = Callable[..., tuple[Session, FakeWorld]]
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Serve]:
+    """Makes a session in which these places have no room, with a person who answers so."""
+    sessions: list[Session] = []
+
+    def make(answers: Iterable[str | None], *full: str) -> tuple[Session, FakeWorld]:
+        inbox = Inbox()
+        settings = load_settings(world="fake", llm="none", runs=tmp_path)
+        session = Session(settings, inbox=inbox, user=Scripted(inbox, answers), out=io.StringIO())
+        sessions.append(session)
+        assert isinstance(session.world, FakeWorld)
+        session.world.fault = lambda goal: fault(goal, full)
+        return session, session.world
+
+    yield make
+    for session in sessions:
+        if session.folder:
+            for run in session.folder.parent.iterdir():
+                assert replay(run).parting is None
+        session.close()
+
+
+def fault(goal: Goal, full: tuple[str, ...]) -> str | None:
+    no_room = isinstance(goal, PutDown) and goal.place in full
+    return f"there is no free spot on the {goal.place}" if no_room else None
+
+
+def test_a_full_delivery_table_is_no_dead_end(serve: Serve) -> None:
+    session, world = serve([], DELIVERY)
+    outcome = session.run("Bring the hammer")
+    assert outcome.status == Status.DONE
+    assert outcome.reason == (
+        f"I put the hammer on the coffee_table; I could not put it on the delivery table: {FULL}."
+    )
+    assert (world.held, world.resting_place("hammer")) == (None, "coffee_table")
+    assert session.run("Take the power_drill").status == Status.DONE
+
+
+def test_the_next_furniture_is_tried_if_the_nearest_is_full_or_out_of_reach(serve: Serve) -> None:
+    session, world = serve([])
+    shut = DriveTo("sofa")
+    world.fault = lambda g: "shut" if g == shut else fault(g, (DELIVERY, "coffee_table"))
+    assert session.run("Bring the hammer").status == Status.DONE
+    assert world.resting_place("hammer") == "dining_table"
+
+
+def test_the_person_is_asked_where_to_put_it_if_all_that_is_near_is_full(serve: Serve) -> None:
+    session, world = serve(["in the pantry", "on the desk"], DELIVERY, *NEAR)
+    outcome = session.run("Bring the hammer")
+    assert (outcome.status, outcome.inquiries) == (Status.DONE, 2)
+    assert world.resting_place("hammer") == "desk"
+    assert outcome.reason.startswith("I put the hammer on the desk; ")
+    assert isinstance(session.user, Scripted)
+    first, second = session.user.asked
+    assert first.text == (
+        f"I could not put it on the delivery table: {FULL}; "
+        "nor on the coffee_table, the sofa, the dining_table. Where shall I put the hammer?"
+    )
+    assert second.text.startswith("I know no such place. Where shall I put the hammer? I know: ")
+
+
+def test_what_finds_no_room_stays_in_the_hand_and_can_be_brought_later(serve: Serve) -> None:
+    session, world = serve([], DELIVERY, *NEAR)
+    outcome = session.run("Bring the hammer")
+    assert outcome.status == Status.NOT_DONE
+    assert outcome.reason.endswith("the script has no more answers; I still hold the hammer")
+    assert world.held == "hammer"
+    world.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
+    assert session.run("Bring the hammer").status == Status.DONE
+    assert world.resting_place("hammer") == "sofa"
+
+
+def test_what_falls_on_the_way_to_other_furniture_is_said_to_have_fallen(tmp_path: Path) -> None:
+    settings = load_settings(
+        world="fake", llm="none", user="none", runs=tmp_path, fault=("drop@32",)
+    )
+    session = Session(settings, out=io.StringIO(), recorded=False)
+    assert isinstance(session.world, FakeWorld)
+    session.world.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
+    outcome = session.run("Bring the hammer")
+    session.close()
+    assert (outcome.status, session.world.held) == (Status.NOT_DONE, None)
+    assert outcome.reason.startswith("the hammer fell from my hand")
+
+
+@pytest.mark.parametrize("words", ["Put it down", "Empty your hand", "Put down the hammer"])
+def test_the_hand_is_emptied_on_request(serve: Serve, words: str) -> None:
+    session, world = serve([])
+    session.run("Take the hammer")
+    outcome = session.run(words)
+    assert (outcome.status, outcome.kind) == (Status.DONE, Kind.PUT_DOWN)
+    assert outcome.reason == "I put the hammer on the delivery table."
+    assert (world.held, world.resting_place("hammer")) == (None, DELIVERY)
+    assert session.run("Find the hammer").location == DELIVERY
+
+
+def test_nothing_is_put_down_that_is_not_in_the_hand(serve: Serve) -> None:
+    session, world = serve([])
+    assert session.run("Put it down").reason == "my hand is empty"
+    session.run("Take the hammer")
+    assert session.run("Put the mug down").reason == "my hand holds the hammer, not the mug"
+    assert world.held == "hammer"
+
+
+def test_a_hand_that_cannot_be_emptied_is_said_to_be_full(serve: Serve) -> None:
+    session, world = serve([], DELIVERY, *NEAR)
+    session.run("Take the hammer")
+    outcome = session.run("Put it down")
+    assert outcome.status == Status.NOT_DONE
+    assert outcome.reason.endswith("I still hold the hammer")
+    assert world.held == "hammer"
+
+
+def test_what_is_not_known_by_name_is_put_down_all_the_same(serve: Serve) -> None:
+    session, world = serve(["yes"])
+    world.held = "hammer"
+    del world.things["hammer"]
+    outcome = session.run("Put that down")
+    assert (outcome.status, outcome.reason) == (
+        Status.DONE,
+        f"I put {SOMETHING} on the delivery table.",
+    )
+    assert world.resting_place("hammer") == DELIVERY
+
+
+@pytest.mark.parametrize("words", ["Take the power_drill", "Bring the power_drill"])
+def test_a_full_hand_is_offered_to_be_emptied_for_another_thing(serve: Serve, words: str) -> None:
+    session, world = serve(["Yes, please."], DELIVERY)
+    session.run("Take the hammer")
+    outcome = session.run(words)
+    assert isinstance(session.user, Scripted)
+    assert [question.text for question in session.user.asked] == [
+        "My hand holds the hammer. Shall I put it down first?"
+    ]
+    assert (outcome.status, outcome.object) == (Status.DONE, "power_drill")
+    assert world.resting_place("hammer") == "coffee_table"
+    assert outcome.visited == ("shelf_lobby",)
+
+
+@pytest.mark.parametrize("answer", ["no", "I don't know", None])
+def test_what_may_not_be_put_down_stays_in_the_hand(serve: Serve, answer: str | None) -> None:
+    session, world = serve([answer])
+    session.run("Take the hammer")
+    outcome = session.run("Bring the power_drill")
+    assert (outcome.status, world.held) == (Status.NOT_DONE, "hammer")
+    assert outcome.reason == "my hand holds the hammer; ask me first to bring that"
+
+
+def test_a_full_hand_without_room_for_what_it_holds_says_so(serve: Serve) -> None:
+    session, world = serve(["yes"], DELIVERY, *NEAR)
+    session.run("Take the hammer")
+    outcome = session.run("Bring the power_drill")
+    assert (outcome.status, world.held) == (Status.NOT_DONE, "hammer")
+    assert FULL in outcome.reason
+
+
+def test_the_furniture_by_the_person_is_that_of_the_room_first_and_then_the_nearest() -> None:
+    assert near_person(four_rooms())[:4] == (*NEAR, "desk")
+
+
+@pytest.mark.parametrize(
+    ("words", "thing"),
+    [
+        ("Put it down.", HELD),
+        ("please put that down now", HELD),
+        ("Could you put down the thing, please?", HELD),
+        ("Put down what you hold", HELD),
+        ("Empty your hand!", HELD),
+        ("drop it", HELD),
+        ("Let go of it", HELD),
+        ("let go", HELD),
+        ("put the mug down", "mug"),
+        ("Set down the sugar box, please", "sugar box"),
+        ("Drop the hammer", "hammer"),
+    ],
+)
+def test_reads_a_request_to_empty_the_hand(words: str, thing: str) -> None:
+    command = EnglishInterpreter().command(words)
+    assert command is not None
+    assert (command.kind, command.target) == (Kind.PUT_DOWN, thing)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "put",
+        "put the mug on the desk",
+        "put the mug down on the desk",
+        "drop",
+        "put it back",
+        "set",
+    ],
+)
+def test_what_asks_for_more_than_an_empty_hand_is_not_read_as_that(words: str) -> None:
+    command = EnglishInterpreter().command(words)
+    assert command is None or command.kind != Kind.PUT_DOWN
+
+
+@given(st.text() | st.from_regex(r"(put|drop|please|down|the| )*"))
+def test_what_is_to_be_put_down_is_never_nothing(words: str) -> None:
+    thing = to_put_down(" ".join(words.split()))
+    assert thing is None or thing.strip()
