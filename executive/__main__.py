@@ -35,7 +35,7 @@ from executive.shell import (
 )
 from executive.terminal import Terminal
 from executive.text import printable, too_long
-from executive.types import Outcome, Status
+from executive.types import MissionStatus, Outcome
 from executive.usage import Parser
 from executive.user import STOPPING, Console
 
@@ -43,10 +43,10 @@ if TYPE_CHECKING:
     from executive.app.session import Session
 
 EXIT = {
-    Status.DONE: DONE,
-    Status.NOT_DONE: NOT_DONE,
-    Status.NOT_UNDERSTOOD: BAD_INPUT,
-    Status.STOPPED: STOPPED,
+    MissionStatus.DONE: DONE,
+    MissionStatus.NOT_DONE: NOT_DONE,
+    MissionStatus.NOT_UNDERSTOOD: BAD_INPUT,
+    MissionStatus.STOPPED: STOPPED,
 }
 
 log = logging.getLogger(__name__)

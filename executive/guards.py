@@ -1,8 +1,8 @@
 """What stands between the executive and the code of others: nothing that they raise gets through.
 
-Robot, eyes, person and model may be anybody's code. What raises when it is asked to start something
-is a request that failed, in words, and so an event like any other: it is recorded, and a replay is
-the same. What raises otherwise is noted in the log, and the mission goes on.
+Robot, perception, person and model may be anybody's code. What raises when it is asked to start
+something is a request that failed, in words, and so an event like any other: it is recorded, and a
+replay is the same. What raises otherwise is noted in the log, and the mission goes on.
 """
 
 import logging
@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from executive.errors import ExecutiveError
 from executive.events import Inbox
-from executive.interfaces import Eyes, LanguageModel, Recorder, Robot, User
+from executive.interfaces import LanguageModel, Perception, Recorder, Robot, User
 from executive.records import Note, Record
 from executive.text import printable, writable
 from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, RankRequest
@@ -151,20 +151,20 @@ def _part(goal: Goal) -> str:
             return "arm"
 
 
-class GuardedEyes(_Guard):
-    """Implements `Eyes` around some that may raise."""
+class GuardedPerception(_Guard):
+    """Implements `Perception` around some that may raise."""
 
-    def __init__(self, eyes: Eyes, inbox: Inbox, recorder: Recorder) -> None:
-        """Guard these eyes."""
+    def __init__(self, perception: Perception, inbox: Inbox, recorder: Recorder) -> None:
+        """Guard this perception."""
         super().__init__(inbox, recorder)
-        self._eyes = eyes
+        self._perception = perception
 
     def see(self) -> int:
         """Take a picture and recognise."""
-        return self._start("my camera failed", lambda: self._eyes.see())
+        return self._start("my camera failed", lambda: self._perception.see())
 
     def _cancel(self, request: int) -> None:
-        self._eyes.cancel(request)
+        self._perception.cancel(request)
 
 
 class GuardedUser(_Guard):

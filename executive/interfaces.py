@@ -12,10 +12,10 @@ from executive.types import (
     Candidate,
     ChatRequest,
     Command,
+    CommandKind,
     Detection,
     Frame,
     Goal,
-    Kind,
     Place,
     Question,
     RankRequest,
@@ -67,7 +67,7 @@ class Detector(Protocol):
         ...
 
 
-class Eyes(Protocol):
+class Perception(Protocol):
     """A camera and a detector together: takes a picture and says what is in it, and where."""
 
     def see(self) -> int:
@@ -251,7 +251,7 @@ class Advisor(Protocol):
         """Score what the words may ask the robot to do."""
         ...
 
-    def command_ranked(self, scored: Scored) -> Kind:
+    def command_ranked(self, scored: Scored) -> CommandKind:
         """The likeliest of these kinds of command."""
         ...
 
@@ -259,8 +259,8 @@ class Advisor(Protocol):
         """`command`: what do the words ask for?"""
         ...
 
-    def command_read(self, reply: str) -> tuple[Kind, str] | None:
-        """Kind and object of the reply, if it has the format and the object exists."""
+    def command_read(self, reply: str) -> tuple[CommandKind, str] | None:
+        """CommandKind and object of the reply, if it has the format and the object exists."""
         ...
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:

@@ -175,7 +175,7 @@ class Transforms:
 
 
 @dataclass(frozen=True, slots=True)
-class Path:
+class PlannedPath:
     """The way that the robot means to drive: points in `map` (metres)."""
 
     points: tuple[Vector3, ...]
@@ -211,7 +211,7 @@ Record = (
     | Seen
     | Scene
     | Transforms
-    | Path
+    | PlannedPath
     | Mishap
     | Finished
 )

@@ -20,14 +20,14 @@ from executive.types import (
     SOMETHING,
     Candidate,
     Command,
+    CommandKind,
     Detection,
-    Kind,
+    MissionStatus,
     Outcome,
     Replied,
     Result,
     Scored,
     Source,
-    Status,
 )
 
 
@@ -63,7 +63,7 @@ class Situation:
     guess: str = ""
     """A known name that the target may be a slip of, or that is all of it that is known."""
     object: str | None = None
-    among: tuple[str, ...] = ()
+    default_locations: tuple[str, ...] = ()
     """The ontology's default locations for the object."""
     consultation: Consultation = field(default_factory=Consultation)
     candidates: tuple[Candidate, ...] = ()
@@ -107,7 +107,7 @@ class Situation:
     thinking_time_s: float = 0.0
     model_failure: str = ""
     """Why the language model was of no help, as a clause; empty if it was, or was not asked."""
-    status: Status = Status.NOT_DONE
+    status: MissionStatus = MissionStatus.NOT_DONE
     reason: str = ""
     """What is told at the end: what was done, or why it was not."""
     stopped_by: str = ""
@@ -133,10 +133,10 @@ class Situation:
                     self.llm_calls += 1
             case StopRequested(by) if not self.is_over:
                 self.stopped_by = by
-                self.status, self.reason = Status.STOPPED, f"stopped by {by}"
+                self.status, self.reason = MissionStatus.STOPPED, f"stopped by {by}"
             case Broke(reason) if not self.is_over:
                 self.broke = reason
-                self.status, self.reason = Status.NOT_DONE, reason
+                self.status, self.reason = MissionStatus.NOT_DONE, reason
             case HandFelt(holding):
                 self._feel(holding)
             case DeadlinePassed() | StopRequested() | Broke():
@@ -168,7 +168,7 @@ class Situation:
         """Whether it is settled how the mission ends: what comes later does not change that."""
         return self.decided or self.is_cut_short
 
-    def asks_to(self, kind: Kind) -> bool:
+    def asks_to(self, kind: CommandKind) -> bool:
         """Whether this kind of deed was asked for."""
         return self.command is not None and self.command.kind == kind
 
@@ -227,7 +227,7 @@ class Situation:
             "command": asdict(self.command) if self.command else None,
             "options": list(self.options),
             "object": self.object,
-            "among": list(self.among),
+            "among": list(self.default_locations),
             "consultation": asdict(self.consultation),
             "candidates": [asdict(c) for c in self.candidates],
             "candidate": asdict(self.candidate) if self.candidate else None,

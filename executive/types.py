@@ -21,7 +21,7 @@ Color = tuple[float, float, float, float]
 # --- what is asked, and what came of it ---
 
 
-class Kind(StrEnum):
+class CommandKind(StrEnum):
     """What the person wants done with the thing."""
 
     FIND = "find"
@@ -31,7 +31,7 @@ class Kind(StrEnum):
     """What is in the hand, by the person."""
 
 
-SEARCHING = (Kind.FIND, Kind.TAKE, Kind.BRING)
+SEARCHING = (CommandKind.FIND, CommandKind.TAKE, CommandKind.BRING)
 """The deeds for which a thing is looked for: a language model may read these into words."""
 
 
@@ -44,7 +44,7 @@ class Source(StrEnum):
     MEMORY = "memory"
 
 
-class Status(StrEnum):
+class MissionStatus(StrEnum):
     """How a mission ended."""
 
     DONE = "done"
@@ -57,7 +57,7 @@ class Status(StrEnum):
 class Command:
     """A request that was understood: do `kind` to whatever `target` names."""
 
-    kind: Kind
+    kind: CommandKind
     target: str
     words: str
 
@@ -80,10 +80,10 @@ class Outcome:
     """One mission's result: what `--json` prints and `outcome.json` keeps."""
 
     command: str
-    kind: Kind | None
+    kind: CommandKind | None
     target: str | None
     object: str | None
-    status: Status
+    status: MissionStatus
     reason: str
     source: Source | None
     location: str | None

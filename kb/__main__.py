@@ -36,7 +36,7 @@ def show(ontology: Ontology, words: str) -> int:
         for title, known in (
             ("also called", ontology.synonyms(name)),
             ("is a", ontology.classes_of(name)),
-            ("usually at", ontology.default_locations(name)),
+            ("usually at", ontology.among(name)),
             ("preferred by", ontology.preferred_by(name)),
         ):
             print(printable(f"  {title:12} {', '.join(known) or '-'}"))

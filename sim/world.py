@@ -21,8 +21,8 @@ from sim.bullet.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetec
 from sim.bullet.client import aim_window, connect
 from sim.bullet.contacts import FreshContacts
 from sim.faults.hardware import FaultyHardware
-from sim.faults.injector import FaultyCamera, Mishaps
-from sim.faults.world import Poltergeist
+from sim.faults.injector import FaultInjector, FaultyCamera
+from sim.faults.world import WorldFaults
 from sim.home.home import Home
 from sim.manipulation.manipulator import Manipulator
 from sim.manipulation.planning import PlanningWorld
@@ -59,7 +59,7 @@ class PhysicsWorld:
         seed: int = 0,
         gui: bool = False,
         camera_hz: float = 1.0,
-        mishaps: Mishaps | None = None,
+        injector: FaultInjector | None = None,
     ) -> None:
         """Build the home with the robot in it.
 
@@ -71,7 +71,7 @@ class PhysicsWorld:
             seed: moves and turns things a little from where the home has them; 0 does not.
             gui: show PyBullet's window.
             camera_hz: pictures for the log per second while something moves; 0 for none.
-            mishaps: what goes wrong by order.
+            injector: what goes wrong by order.
         """
         self._home = home
         self._models = models
@@ -85,13 +85,13 @@ class PhysicsWorld:
         self._disturb(seed)
         self._let_sleep()
         self._planning = PlanningWorld(home)
-        self._hardware, self._poltergeist = self._haunted(mishaps)
+        self._hardware, self._world_faults = self._with_faults(injector)
         self._contacts = FreshContacts(self._client, self._hardware.body, self._things)
         numbers = count()
         camera = SimulatedCamera(self._client, self._camera_pose, LOOKING, numbers)
         glancing = SimulatedCamera(self._client, self._camera_pose, GLANCING, numbers)
-        self.camera: Camera = FaultyCamera(camera, mishaps) if mishaps else camera
-        self._glancing: Camera = FaultyCamera(glancing, mishaps) if mishaps else glancing
+        self.camera: Camera = FaultyCamera(camera, injector) if injector else camera
+        self._glancing: Camera = FaultyCamera(glancing, injector) if injector else glancing
         self.detector = SimulatedDetector(camera, self._things)
         laser = Laser(self._client, self._hardware)
         grid = OccupancyGrid.from_home(home)
@@ -105,7 +105,7 @@ class PhysicsWorld:
         self._steps = 0
         self._owed = 0.0
         self._last_act = 0
-        movable = {**self._things, **(self._poltergeist.bodies() if self._poltergeist else {})}
+        movable = {**self._things, **(self._world_faults.bodies() if self._world_faults else {})}
         self._frames = FrameTree(self._client, self._hardware, movable)
         self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
 
@@ -145,7 +145,7 @@ class PhysicsWorld:
 
     def describe(self) -> None:
         """Record the whole scene, where everything is, and what the camera sees from the start."""
-        extra = self._poltergeist.entities() if self._poltergeist else ()
+        extra = self._world_faults.entities() if self._world_faults else ()
         robot = robot_entities(describe_robot())
         entities = (*home_entities(self._home, self._models), *extra, *robot)
         self._recorder.record(Scene(entities))
@@ -184,8 +184,8 @@ class PhysicsWorld:
         if not self._waits:
             if self.robot.active:
                 self._last_act = self._periods
-            if self._poltergeist:
-                self._poltergeist.act()
+            if self._world_faults:
+                self._world_faults.act()
             self.robot.feel()
         self.robot.control()
         self._waits = self.robot.computing
@@ -239,13 +239,13 @@ class PhysicsWorld:
 
     # --- helpers ---
 
-    def _haunted(self, mishaps: Mishaps | None) -> tuple[Hardware, Poltergeist | None]:
+    def _with_faults(self, injector: FaultInjector | None) -> tuple[Hardware, WorldFaults | None]:
         """The robot, and what happens to it and the world by order."""
         start = self._home.robot_start
-        if mishaps is None:
+        if injector is None:
             return Hardware(self._client, start), None
-        hardware = FaultyHardware(self._client, start, mishaps)
-        return hardware, Poltergeist(self._client, self._home, self._things, hardware, mishaps)
+        hardware = FaultyHardware(self._client, start, injector)
+        return hardware, WorldFaults(self._client, self._home, self._things, hardware, injector)
 
     def _disturb(self, seed: int) -> None:
         """Move and turn the things a little, once, before anything begins."""

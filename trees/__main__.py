@@ -17,9 +17,9 @@ from executive.errors import InputError
 from executive.shell import DONE, entry_point
 from executive.situation import Situation
 from executive.usage import Parser
+from trees.context import MissionContext, Parameters
 from trees.drawing import svg
 from trees.mission import mission
-from trees.team import Rules, Team
 
 KNOWLEDGE = ("okb", "okb+llm", "okb+llm+mem")
 
@@ -46,22 +46,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def build(knowledge: str, elicit: str) -> Behaviour:
-    """The tree of these settings, with nobody in the team: it is to be looked at, not ticked."""
+    """The tree of these settings, with nobody in the context: it is to be looked at, not ticked."""
     nobody: Any = object()
     llm = None if knowledge == "okb" else nobody
     return mission(
-        Team(
+        MissionContext(
             situation=Situation(),
             clock=nobody,
             recorder=nobody,
             interpreter=nobody,
             knowledge=nobody,
             robot=nobody,
-            eyes=nobody,
+            perception=nobody,
             user=nobody,
             model=llm,
             advisor=llm,
-            rules=Rules(elicit=elicit),
+            parameters=Parameters(elicit=elicit),
         )
     )
 

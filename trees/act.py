@@ -3,41 +3,41 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import DELIVERY, Kind
+from executive.types import DELIVERY, CommandKind
+from trees.context import MissionContext
 from trees.deliver import deliver
 from trees.nodes import Check, Step, fallback, sequence
 from trees.person import Report
 from trees.robot import DriveBack
-from trees.team import Team
 
 
-def act(team: Team) -> Behaviour:
+def act(context: MissionContext) -> Behaviour:
     """A thing that was found, and is in the hand if it has to be -> reported or delivered."""
-    situation = team.situation
+    situation = context.situation
 
     def from_a_place() -> Check:
-        return Check("found at a place", team, lambda: situation.found is not None)
+        return Check("found at a place", context, lambda: situation.found is not None)
 
     return fallback(
         "act",
         sequence(
             "is there already",
-            asked_to(team, Kind.BRING),
-            Check("at the delivery place", team, lambda: situation.is_delivered),
-            Report("report", team, "The {object} is here already, on the delivery table."),
+            asked_to(context, CommandKind.BRING),
+            Check("at the delivery place", context, lambda: situation.is_delivered),
+            Report("report", context, "The {object} is here already, on the delivery table."),
         ),
         sequence(
             "bring",
-            asked_to(team, Kind.BRING),
-            deliver(team),
+            asked_to(context, CommandKind.BRING),
+            deliver(context),
             fallback(
                 "say so",
                 sequence(
                     "elsewhere",
-                    Check("on other furniture", team, lambda: situation.put_at != DELIVERY),
+                    Check("on other furniture", context, lambda: situation.put_at != DELIVERY),
                     Report(
                         "report",
-                        team,
+                        context,
                         "I put the {object} on {surface}; "
                         "I could not put it on the delivery table: {why}.",
                     ),
@@ -45,38 +45,38 @@ def act(team: Team) -> Behaviour:
                 sequence(
                     "from there",
                     from_a_place(),
-                    Report("report", team, "Here is the {object} from {place}."),
+                    Report("report", context, "Here is the {object} from {place}."),
                 ),
-                Report("report", team, "Here is the {object}."),
+                Report("report", context, "Here is the {object}."),
             ),
         ),
         sequence(
             "find",
-            asked_to(team, Kind.FIND),
+            asked_to(context, CommandKind.FIND),
             from_a_place(),
-            DriveBack("come back", team, "person"),
-            Report("report", team, "The {object} is at {place}."),
+            DriveBack("come back", context, "person"),
+            Report("report", context, "The {object} is at {place}."),
         ),
         sequence(
             "take",
-            asked_to(team, Kind.TAKE),
+            asked_to(context, CommandKind.TAKE),
             from_a_place(),
-            Check("in my hand", team, lambda: situation.has_it),
-            Report("report", team, "I took the {object} from {place} and hold it."),
+            Check("in my hand", context, lambda: situation.has_it),
+            Report("report", context, "I took the {object} from {place} and hold it."),
         ),
         sequence(
             "have it",
-            Check("had it before", team, lambda: situation.has_it and not situation.found),
-            Check("not asked to bring", team, lambda: not situation.asks_to(Kind.BRING)),
-            Report("report", team, "I hold the {object}."),
+            Check("had it before", context, lambda: situation.has_it and not situation.found),
+            Check("not asked to bring", context, lambda: not situation.asks_to(CommandKind.BRING)),
+            Report("report", context, "I hold the {object}."),
         ),
-        SayHowFar("not all of it", team),
+        SayHowFar("not all of it", context),
     )
 
 
-def asked_to(team: Team, kind: Kind) -> Check:
+def asked_to(context: MissionContext, kind: CommandKind) -> Check:
     """Whether this kind of deed was asked for."""
-    return Check(f"asked to {kind}", team, lambda: team.situation.asks_to(kind))
+    return Check(f"asked to {kind}", context, lambda: context.situation.asks_to(kind))
 
 
 class SayHowFar(Step):
@@ -85,8 +85,8 @@ class SayHowFar(Step):
     def update(self) -> Status:
         """Who asks where a thing is wants to know it, even if the robot cannot come back."""
         found, why = self.situation.found, self.situation.reason
-        if self.situation.asks_to(Kind.FIND) and found:
+        if self.situation.asks_to(CommandKind.FIND) and found:
             return self.fail(f"the {self.situation.object} is at {found.place}, but {why}")
-        if self.situation.asks_to(Kind.TAKE) and not self.situation.has_it:
+        if self.situation.asks_to(CommandKind.TAKE) and not self.situation.has_it:
             return self.fail(f"the {self.situation.object} is not in my hand any more")
         return self.fail(why)

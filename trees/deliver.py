@@ -6,61 +6,61 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.types import DELIVERY, FLOOR
+from trees.context import MissionContext
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import the
 from trees.put_down import put_down_somewhere
 from trees.robot import DriveBack, LookForLost, PickUp, PutDownAt, SeeLost
-from trees.team import Team
 
 
-def deliver(team: Team) -> Behaviour:
+def deliver(context: MissionContext) -> Behaviour:
     """Carry it and put it down; what falls on the way, or falls over there, is picked up once."""
     return sequence(
         "deliver",
         fallback(
             "bring it there",
-            DriveBack("carry", team, DELIVERY),
+            DriveBack("carry", context, DELIVERY),
             sequence(
                 "after a fall",
-                pick_up_again(team, FLOOR),
-                DriveBack("carry", team, DELIVERY),
+                pick_up_again(context, FLOOR),
+                DriveBack("carry", context, DELIVERY),
             ),
-            SayItFell("it fell", team),
+            SayItFell("it fell", context),
         ),
         fallback(
             "leave it there",
-            PutDownAt("put down", team, DELIVERY),
+            PutDownAt("put down", context, DELIVERY),
             sequence(
                 "after a fall",
-                pick_up_again(team, DELIVERY, FLOOR),
-                PutDownAt("put down", team, DELIVERY),
+                pick_up_again(context, DELIVERY, FLOOR),
+                PutDownAt("put down", context, DELIVERY),
             ),
-            put_down_somewhere(team, "on other furniture"),
-            SayItFell("it fell", team),
+            put_down_somewhere(context, "on other furniture"),
+            SayItFell("it fell", context),
         ),
     )
 
 
-def pick_up_again(team: Team, *spots: str) -> Behaviour:
+def pick_up_again(context: MissionContext, *spots: str) -> Behaviour:
     """Look for what fell from the hand at these spots, and pick it up."""
-    situation = team.situation
+    situation = context.situation
 
     def views() -> Iterator[tuple[str, int]]:
-        return ((spot, view) for spot in spots for view in range(team.robot.views(spot)))
+        return ((spot, view) for spot in spots for view in range(context.robot.views(spot)))
 
     def choose(look: tuple[str, int]) -> None:
         situation.spot, situation.view = look
 
     return sequence(
         "pick it up again",
-        Check("it fell", team, lambda: bool(situation.lost)),
+        Check("it fell", context, lambda: bool(situation.lost)),
         FirstOf(
             "look around",
             views,
             choose,
-            sequence("glance", LookForLost("aim", team), SeeLost("see", team)),
+            sequence("glance", LookForLost("aim", context), SeeLost("see", context)),
         ),
-        PickUp("pick", team),
+        PickUp("pick", context),
     )
 
 

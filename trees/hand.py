@@ -4,38 +4,38 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.language.put_down import HELD
-from executive.types import DELIVERY, SOMETHING, Kind
+from executive.types import DELIVERY, SOMETHING, CommandKind
+from trees.context import MissionContext
 from trees.nodes import Step, fallback, sequence
 from trees.person import AskToPutDown, Report, full_hand, the
 from trees.put_down import put_down_somewhere
-from trees.team import Team
 
 
-def hand_is_free(team: Team) -> Behaviour:
+def hand_is_free(context: MissionContext) -> Behaviour:
     """Go on if the hand is free for what is asked; else offer to empty it first."""
     return fallback(
         "hand is free",
-        HandIsFree("nothing else is in it", team),
+        HandIsFree("nothing else is in it", context),
         sequence(
             "make room",
-            AskToPutDown("ask to put it down", team),
-            put_down_somewhere(team, "put it down", DELIVERY),
+            AskToPutDown("ask to put it down", context),
+            put_down_somewhere(context, "put it down", DELIVERY),
         ),
-        HandStaysFull("not free", team),
+        HandStaysFull("not free", context),
     )
 
 
-def empty_hand(team: Team) -> Behaviour:
+def empty_hand(context: MissionContext) -> Behaviour:
     """Put down what is in the hand, because the person says so."""
     return sequence(
         "empty the hand",
-        HoldsWhatIsMeant("holds it", team),
+        HoldsWhatIsMeant("holds it", context),
         fallback(
             "put it down",
-            put_down_somewhere(team, "by the person", DELIVERY),
-            StillHolds("still in my hand", team),
+            put_down_somewhere(context, "by the person", DELIVERY),
+            StillHolds("still in my hand", context),
         ),
-        Report("report", team, "I put {the_object} on {surface}."),
+        Report("report", context, "I put {the_object} on {surface}."),
     )
 
 
@@ -46,7 +46,7 @@ class HandIsFree(Step):
         """Fail if another thing than the one that is asked for is in it."""
         assert self.situation.command
         held = self.situation.in_hand
-        if held in (None, self.situation.object) or self.situation.command.kind == Kind.FIND:
+        if held in (None, self.situation.object) or self.situation.command.kind == CommandKind.FIND:
             return Status.SUCCESS
         return self.fail(full_hand(held))
 
@@ -88,7 +88,7 @@ class HoldsWhatIsMeant(Step):
         held, target = self.situation.in_hand, self.situation.command.target
         if held is None:
             return self.fail("my hand is empty")
-        named = self.team.knowledge.objects_named(target)
+        named = self.context.knowledge.objects_named(target)
         if target != HELD and held not in (SOMETHING, *named):
             return self.fail(f"my hand holds {the(held)}, not the {target}")
         self.situation.object = held

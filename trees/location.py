@@ -13,56 +13,61 @@ from executive.interfaces import Advisor, LanguageModel
 from executive.records import Verified
 from executive.situation import Consultation, candidates_from
 from executive.types import DELIVERY, ChatRequest, Replied, Result, Scored, Source
+from trees.context import MissionContext
 from trees.nodes import Action, Check, EachOf, Optionally, Step, fallback, sequence, why_of
 from trees.person import AskWhere, tell
-from trees.team import Team
 
 
-def resolve_location(team: Team) -> Behaviour:
+def resolve_location(context: MissionContext) -> Behaviour:
     """An object -> `situation.candidates`, likeliest first, with who said so."""
-    sources: list[Behaviour] = [OntologyKnowsPlace("ontology knows one place", team)]
-    if team.model is not None:
-        elicit = rank_places if team.rules.elicit == "rank" else generate_places
-        sources.append(elicit(team))
-    return fallback("which places", *sources, AskWhere("ask where", team))
+    sources: list[Behaviour] = [OntologyKnowsPlace("ontology knows one place", context)]
+    if context.model is not None:
+        elicit = rank_places if context.parameters.elicit == "rank" else generate_places
+        sources.append(elicit(context))
+    return fallback("which places", *sources, AskWhere("ask where", context))
 
 
-def rank_places(team: Team) -> Behaviour:
+def rank_places(context: MissionContext) -> Behaviour:
     """The model scores the known places: it cannot invent any."""
-    return RankPlaces("llm ranks places", team)
+    return RankPlaces("llm ranks places", context)
 
 
-def generate_places(team: Team) -> Behaviour:
+def generate_places(context: MissionContext) -> Behaviour:
     """The model writes a list, of which only real places are kept (the paper's way)."""
-    begin = BeginConsultation("begin", team)
+    begin = BeginConsultation("begin", context)
     return sequence(
         "llm lists places",
         begin,
-        Inquire("inquire", team),
+        Inquire("inquire", context),
         fallback(
             "read or summarize",
-            ReadReply("read", team),
-            sequence("repair", Summarize("summarize", team), ReadReply("read again", team)),
+            ReadReply("read", context),
+            sequence("repair", Summarize("summarize", context), ReadReply("read again", context)),
         ),
         fallback(
             "verify or ask again",
-            existence_check(team),
-            sequence("retry", Again("again", team), ReadReply("read", team), existence_check(team)),
+            existence_check(context),
+            sequence(
+                "retry",
+                Again("again", context),
+                ReadReply("read", context),
+                existence_check(context),
+            ),
         ),
-        AdoptFurniture("adopt", team),
+        AdoptFurniture("adopt", context),
     )
 
 
-def existence_check(team: Team) -> Behaviour:
+def existence_check(context: MissionContext) -> Behaviour:
     """Keep what exists, expand rooms into their furniture; fail if nothing is left."""
-    thought = team.situation
+    thought = context.situation
 
     def choose(room: str) -> None:
         thought.consultation.room = room
 
     return sequence(
         "existence check",
-        VerifyNames("names exist", team),
+        VerifyNames("names exist", context),
         EachOf(
             "each room",
             lambda: tuple(thought.consultation.rooms),
@@ -72,13 +77,13 @@ def existence_check(team: Team) -> Behaviour:
                 thought,
                 sequence(
                     "expand room",
-                    AskFurniture("furniture", team),
-                    ReadReply("read", team),
-                    VerifyFurniture("furniture exists", team),
+                    AskFurniture("furniture", context),
+                    ReadReply("read", context),
+                    VerifyFurniture("furniture exists", context),
                 ),
             ),
         ),
-        Check("something is left", team, lambda: bool(thought.consultation.furniture)),
+        Check("something is left", context, lambda: bool(thought.consultation.furniture)),
     )
 
 
@@ -88,8 +93,8 @@ class MemoryKnowsPlaces(Step):
     def update(self) -> Status:
         """Recall it."""
         assert self.situation.object
-        known = self.team.facts.places_of(self.situation.object)
-        here = self.team.knowledge.has_place
+        known = self.context.facts.places_of(self.situation.object)
+        here = self.context.knowledge.has_place
         places = [place for place in known if place == DELIVERY or here(place)]
         if not places:
             return self.fail(f"I have not seen the {self.situation.object}")
@@ -103,13 +108,13 @@ class OntologyKnowsPlace(Step):
     def update(self) -> Status:
         """Look it up; several are kept to narrow down what the model may say."""
         assert self.situation.object
-        usual = self.team.knowledge.usual_places(self.situation.object)
+        usual = self.context.knowledge.usual_places(self.situation.object)
         if len(usual) == 1 and usual[0] in self.situation.looks.visited:
             return self.fail(f"{usual[0]} is its place, but it is not there")
         if len(usual) == 1:
             self.situation.candidates = candidates_from(usual, Source.ONTOLOGY)
             return self.succeed(usual[0])
-        self.situation.among = usual
+        self.situation.default_locations = usual
         return self.fail(f"the ontology has {len(usual) or 'no'} places for it")
 
 
@@ -125,24 +130,24 @@ class BeginConsultation(Step):
 class ModelAction(Action):
     """One call of the language model."""
 
-    def __init__(self, name: str, team: Team) -> None:
-        """Give the model as long as the rules allow."""
-        super().__init__(name, team, team.rules.model_s)
-        assert team.model is not None
-        assert team.advisor is not None
-        self.model: LanguageModel = team.model
-        self.advisor: Advisor = team.advisor
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Give the model as long as the parameters allow."""
+        super().__init__(name, context, context.parameters.model_s)
+        assert context.model is not None
+        assert context.advisor is not None
+        self.model: LanguageModel = context.model
+        self.advisor: Advisor = context.advisor
         self._began: float | None = None
 
     def initialise(self) -> None:
         """Mark the time, and start."""
-        self._began = self.team.clock.now()
+        self._began = self.context.clock.now()
         super().initialise()
 
     def terminate(self, new_status: Status) -> None:
         """Count the time spent thinking."""
         if self._began is not None:
-            self.situation.thinking_time_s += self.team.clock.now() - self._began
+            self.situation.thinking_time_s += self.context.clock.now() - self._began
             self._began = None
         super().terminate(new_status)
 
@@ -165,7 +170,7 @@ class ModelAction(Action):
         """Once a mission."""
         if not self.situation.model_failure:
             self.situation.model_failure = why
-            tell(self.team, f"My language model does not answer: {why}.")
+            tell(self.context, f"My language model does not answer: {why}.")
 
 
 class RankPlaces(ModelAction):
@@ -174,7 +179,9 @@ class RankPlaces(ModelAction):
     def start(self) -> int:
         """Ask for the scores."""
         assert self.situation.object
-        return self.model.rank(self.advisor.ranking(self.situation.object, self.situation.among))
+        return self.model.rank(
+            self.advisor.ranking(self.situation.object, self.situation.default_locations)
+        )
 
     def ended(self, result: Result) -> Status:
         """Keep as many as are worth a visit; all of them if the ontology named them."""
@@ -183,8 +190,8 @@ class RankPlaces(ModelAction):
         ranked = self.situation.not_visited(self.advisor.ranked(result))
         if not ranked:
             return self.fail("the language model ranked only places that were looked at")
-        if not self.situation.among:
-            ranked = ranked[: self.team.rules.top]
+        if not self.situation.default_locations:
+            ranked = ranked[: self.context.parameters.top_k]
         self.situation.candidates = ranked
         return self.succeed(", ".join(map(str, ranked)))
 
@@ -220,7 +227,7 @@ class Inquire(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for the likely places."""
-        return self.advisor.inquiry(self.thing, self.situation.among)
+        return self.advisor.inquiry(self.thing, self.situation.default_locations)
 
 
 class Summarize(Chat):
@@ -236,7 +243,7 @@ class Again(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for places from the list."""
-        return self.advisor.again(self.thing, self.situation.among)
+        return self.advisor.again(self.thing, self.situation.default_locations)
 
 
 class AskFurniture(Chat):
@@ -245,7 +252,7 @@ class AskFurniture(Chat):
     def request(self) -> ChatRequest:
         """Ask for the room at hand."""
         room = self.situation.consultation.room
-        return self.advisor.furniture(self.thing, room, self.situation.among)
+        return self.advisor.furniture(self.thing, room, self.situation.default_locations)
 
 
 class ReadReply(Step):
@@ -253,8 +260,8 @@ class ReadReply(Step):
 
     def update(self) -> Status:
         """Read it."""
-        assert self.team.advisor
-        names = self.team.advisor.read(self.situation.consultation.reply)
+        assert self.context.advisor
+        names = self.context.advisor.read(self.situation.consultation.reply)
         if names is None:
             return self.fail("the language model's reply is not in the output format")
         self.situation.consultation.names = names
@@ -268,14 +275,14 @@ class VerifyNames(Step):
 
     def update(self) -> Status:
         """Hold the names against the ontology."""
-        assert self.team.advisor
-        consultation, among = self.situation.consultation, self.situation.among
-        verdict = self.team.advisor.verify(consultation.names, among)
+        assert self.context.advisor
+        consultation, among = self.situation.consultation, self.situation.default_locations
+        verdict = self.context.advisor.verify(consultation.names, among)
         new = [name for name in verdict.furniture if name not in consultation.furniture]
         consultation.furniture.extend(new)
         if self.takes_rooms:
             consultation.rooms = list(verdict.rooms)
-        self.team.recorder.record(
+        self.context.recorder.record(
             Verified(self.name, verdict.furniture, verdict.rooms, verdict.dropped)
         )
         if not (verdict.furniture or (verdict.rooms and self.takes_rooms)):

@@ -11,9 +11,9 @@ confirmed     hand is free    place; else LLM, verified if gone, search    table
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import Kind
-from executive.types import Status as MissionStatus
+from executive.types import CommandKind, MissionStatus
 from trees.act import act, asked_to
+from trees.context import MissionContext
 from trees.grasp import grasp
 from trees.hand import empty_hand, hand_is_free
 from trees.nodes import Check, Optionally, Step, fallback, sequence
@@ -21,45 +21,48 @@ from trees.object import resolve_object
 from trees.person import Apologise
 from trees.robot import DriveBack
 from trees.search import search
-from trees.team import Team
 from trees.understand import understand
 
 
-def mission(team: Team) -> Behaviour:
+def mission(context: MissionContext) -> Behaviour:
     """The whole tree. It always ends in success; how the mission ended is in the situation."""
-    situation = team.situation
+    situation = context.situation
     return fallback(
         "mission",
         sequence(
             "serve",
-            understand(team),
-            Check("about a thing to look for", team, lambda: not situation.asks_to(Kind.PUT_DOWN)),
-            resolve_object(team),
-            hand_is_free(team),
-            search(team),
-            grasp(team),
-            act(team),
-            Conclude("done", team),
+            understand(context),
+            Check(
+                "about a thing to look for",
+                context,
+                lambda: not situation.asks_to(CommandKind.PUT_DOWN),
+            ),
+            resolve_object(context),
+            hand_is_free(context),
+            search(context),
+            grasp(context),
+            act(context),
+            Conclude("done", context),
         ),
         sequence(
             "put down",
-            asked_to(team, Kind.PUT_DOWN),
-            empty_hand(team),
-            Conclude("done", team),
+            asked_to(context, CommandKind.PUT_DOWN),
+            empty_hand(context),
+            Conclude("done", context),
         ),
-        sequence("give up", come_back(team), Apologise("apologise", team)),
+        sequence("give up", come_back(context), Apologise("apologise", context)),
     )
 
 
-def come_back(team: Team) -> Behaviour:
+def come_back(context: MissionContext) -> Behaviour:
     """Return to the person, if the robot left and can."""
     return Optionally(
         "if away",
-        team.situation,
+        context.situation,
         sequence(
             "come back",
-            Check("is away", team, lambda: team.situation.away),
-            DriveBack("drive", team, "person"),
+            Check("is away", context, lambda: context.situation.away),
+            DriveBack("drive", context, "person"),
         ),
     )
 

@@ -16,7 +16,7 @@ from py_trees.decorators import Decorator, FailureIsSuccess
 from executive.situation import Situation
 from executive.text import printable
 from executive.types import Failed, Result
-from trees.team import Team
+from trees.context import MissionContext
 
 LONGEST = 400
 """Of a reason that an adapter gives (characters): it is to be a clause of a sentence."""
@@ -37,11 +37,11 @@ def fallback(name: str, *children: Behaviour) -> Selector:
 class Step(Behaviour):
     """Decides at once, from what is known: a condition, or a change of the situation."""
 
-    def __init__(self, name: str, team: Team) -> None:
-        """Keep the team at hand."""
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Keep the context at hand."""
         super().__init__(name)
-        self.team = team
-        self.situation = team.situation
+        self.context = context
+        self.situation = context.situation
 
     @abstractmethod
     def update(self) -> Status:
@@ -61,9 +61,9 @@ class Step(Behaviour):
 class Check(Step):
     """A condition that a function of the situation decides."""
 
-    def __init__(self, name: str, team: Team, holds: Callable[[], bool]) -> None:
+    def __init__(self, name: str, context: MissionContext, holds: Callable[[], bool]) -> None:
         """Name the condition as it reads when true."""
-        super().__init__(name, team)
+        super().__init__(name, context)
         self._holds = holds
 
     def update(self) -> Status:
@@ -78,9 +78,9 @@ class Action(Step):
     anew by returning `self.start_again()`. After `patience_s` (mission time) the action fails.
     """
 
-    def __init__(self, name: str, team: Team, patience_s: float) -> None:
+    def __init__(self, name: str, context: MissionContext, patience_s: float) -> None:
         """Wait no longer than `patience_s` for each start."""
-        super().__init__(name, team)
+        super().__init__(name, context)
         self._patience_s = patience_s
         self._request: int | None = None
         self._deadline = 0.0
@@ -114,7 +114,7 @@ class Action(Step):
         """Start, once more."""
         self.feedback_message = ""
         self._request = self.start()
-        self._deadline = self.team.clock.now() + self._patience_s
+        self._deadline = self.context.clock.now() + self._patience_s
         self.situation.deadlines[self.name] = self._deadline
         return Status.RUNNING
 
@@ -125,7 +125,7 @@ class Action(Step):
         if result is not None:
             self._wait_no_more()
             return self.ended(result)
-        if self.team.clock.now() < self._deadline:
+        if self.context.clock.now() < self._deadline:
             return Status.RUNNING
         self.cancel(self._request)
         self._wait_no_more()

@@ -7,36 +7,36 @@ knowledge (paper, section "Integrated use of ontological knowledge base and LLM"
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from trees.context import MissionContext
 from trees.nodes import Check, Step, fallback, sequence
 from trees.person import AskDoYouMean, AskWhichObject
-from trees.team import Team
 
 
-def resolve_object(team: Team) -> Behaviour:
+def resolve_object(context: MissionContext) -> Behaviour:
     """Words for a thing -> `situation.object`."""
     return fallback(
         "which object",
-        known_object(team),
+        known_object(context),
         sequence(
             "a slip",
-            GuessName("is like a known name", team),
-            AskDoYouMean("ask do you mean", team),
-            known_object(team),
+            GuessName("is like a known name", context),
+            AskDoYouMean("ask do you mean", context),
+            known_object(context),
         ),
         sequence(
             "ask",
-            Check("person may help", team, lambda: not team.situation.no_help),
-            AskWhichObject("ask which object", team),
+            Check("person may help", context, lambda: not context.situation.no_help),
+            AskWhichObject("ask which object", context),
         ),
     )
 
 
-def known_object(team: Team) -> Behaviour:
+def known_object(context: MissionContext) -> Behaviour:
     """What can be told without a question."""
     return fallback(
         "known object",
-        OntologyKnowsObject("ontology knows it", team),
-        PersonPrefersOne("the person prefers one", team),
+        OntologyKnowsObject("ontology knows it", context),
+        PersonPrefersOne("the person prefers one", context),
     )
 
 
@@ -47,7 +47,7 @@ class OntologyKnowsObject(Step):
         """Look the words up."""
         assert self.situation.command
         target = self.situation.command.target
-        named = self.team.knowledge.objects_named(target)
+        named = self.context.knowledge.objects_named(target)
         if len(named) == 1:
             self.situation.object = named[0]
             return self.succeed(named[0])
@@ -60,7 +60,7 @@ class PersonPrefersOne(Step):
 
     def update(self) -> Status:
         """Look for a favourite."""
-        favourites = self.team.knowledge.preferred(self.situation.options)
+        favourites = self.context.knowledge.preferred(self.situation.options)
         if len(favourites) != 1:
             return self.fail(f"{len(favourites) or 'none'} of them is a favourite")
         self.situation.object = favourites[0]
@@ -79,7 +79,7 @@ class GuessName(Step):
         target = self.situation.command.target
         if self.situation.options:
             return self.fail(f"'{target}' is known")
-        knowledge = self.team.knowledge
+        knowledge = self.context.knowledge
         names = knowledge.names_in(target)
         if len(names) > 1:
             self.situation.several = True

@@ -10,16 +10,16 @@ from executive.records import Utterance
 from executive.situation import candidates_from, table
 from executive.text import printable, too_long
 from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
+from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
-from trees.team import Team
 
 
 class Ask(Action):
     """Puts a question, and puts it again while the answer makes no sense."""
 
-    def __init__(self, name: str, team: Team) -> None:
-        """Wait for each answer as long as the rules allow."""
-        super().__init__(name, team, team.rules.answer_s)
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Wait for each answer as long as the parameters allow."""
+        super().__init__(name, context, context.parameters.answer_s)
         self._tries = 0
 
     @abstractmethod
@@ -36,7 +36,7 @@ class Ask(Action):
 
     def declines(self, answer: str) -> bool:
         """Whether the answer is that there is none."""
-        return self.team.interpreter.declines(answer)
+        return self.context.interpreter.declines(answer)
 
     def initialise(self) -> None:
         """Ask for the first time."""
@@ -49,20 +49,20 @@ class Ask(Action):
         question = replace(question, text=printable(question.text))
         self._tries += 1
         self.situation.inquiries += 1
-        self.team.recorder.record(Utterance("robot", question.text))
-        return self.team.user.ask(question)
+        self.context.recorder.record(Utterance("robot", question.text))
+        return self.context.user.ask(question)
 
     def ended(self, result: Result) -> Status:
         """Take the answer, ask again, or accept that there is none."""
         if not isinstance(result, Answered):
             return self._no_help(why_of(result))
-        self.team.recorder.record(Utterance("person", result.text))
+        self.context.recorder.record(Utterance("person", result.text))
         unread = too_long(result.text)
         if not unread and self.declines(result.text):
             return self._no_help("you could not tell me")
         if not unread and self.understood(result.text):
             return self.succeed(result.text)
-        if self._tries < self.team.rules.questions:
+        if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
 
@@ -72,7 +72,7 @@ class Ask(Action):
 
     def cancel(self, request: int) -> None:
         """Withdraw the question."""
-        self.team.user.cancel(request)
+        self.context.user.cancel(request)
 
     def _no_help(self, why: str) -> Status:
         self.situation.no_help = why
@@ -90,11 +90,11 @@ class AskYesNo(Ask):
 
     def declines(self, answer: str) -> bool:
         """A no is an answer."""
-        return self.team.interpreter.agrees(answer) is None and super().declines(answer)
+        return self.context.interpreter.agrees(answer) is None and super().declines(answer)
 
     def understood(self, answer: str) -> bool:
         """Hear yes and no."""
-        self._agrees = self.team.interpreter.agrees(answer)
+        self._agrees = self.context.interpreter.agrees(answer)
         if self._agrees:
             self.agreed()
         return self._agrees is not None
@@ -118,7 +118,7 @@ class AskDoYouMean(AskYesNo):
         assert self.situation.command
         target, guess = self.situation.command.target, self.situation.guess
         text = f"I know no '{target}'. Do you mean {guess}?"
-        objects = self.team.knowledge.objects_named(guess)
+        objects = self.context.knowledge.objects_named(guess)
         return Question(QuestionKind.CONFIRM, guess, text, objects)
 
     def agreed(self) -> None:
@@ -129,8 +129,8 @@ class AskDoYouMean(AskYesNo):
 
     def understood(self, answer: str) -> bool:
         """Instead of yes or no, the person may say what they mean: "no, the mug"."""
-        names = self.team.knowledge.names_in(answer)
-        refused = self.team.interpreter.agrees(answer) is False
+        names = self.context.knowledge.names_in(answer)
+        refused = self.context.interpreter.agrees(answer) is False
         if len(names) != 1 or (refused and names[0] == self.situation.guess):
             return super().understood(answer)
         self.situation.guess = names[0]
@@ -164,12 +164,12 @@ class AskWhichObject(Ask):
 
     def _other_names(self, target: str) -> tuple[str, ...]:
         """The nearest known names, less the one that the person did not mean."""
-        names = self.team.knowledge.nearest_names(target)
+        names = self.context.knowledge.nearest_names(target)
         return tuple(name for name in names if name != self.situation.guess)
 
     def understood(self, answer: str) -> bool:
         """One object is enough; several narrow the next question down."""
-        named = self.team.knowledge.objects_named(answer)
+        named = self.context.knowledge.objects_named(answer)
         if self.situation.options:
             named = tuple(n for n in named if n in self.situation.options)
         if len(named) > 1:
@@ -184,7 +184,7 @@ class AskWhichObject(Ask):
         target = self.situation.command.target
         if self.situation.options:
             return f"'{target}' may be {_either(self.situation.options)}"
-        nearest = _either(self.team.knowledge.nearest_names(target))
+        nearest = _either(self.context.knowledge.nearest_names(target))
         return f"I know no '{target}'" + (f"; the nearest that I know is {nearest}" * bool(nearest))
 
 
@@ -198,16 +198,16 @@ class AskWhere(Ask):
         if so_far := self.situation.search_so_far:
             text = f"{so_far}. {text}"
         if self._tries:
-            known = ", ".join(place.name for place in self.team.knowledge.places())
+            known = ", ".join(place.name for place in self.context.knowledge.places())
             text = f"I know no such place. {text} I know: {known}."
         return Question(QuestionKind.WHERE_IS, name, text)
 
     def understood(self, answer: str) -> bool:
         """Any places that exist become the candidates."""
-        places = _places(self.team, answer)
+        places = _places(self.context, answer)
         if places:
             assert self.situation.object
-            self.team.facts.heard(self.situation.object, places)
+            self.context.facts.heard(self.situation.object, places)
             self.situation.candidates = candidates_from(places, Source.USER)
         return bool(places)
 
@@ -224,13 +224,13 @@ class AskWhereToPut(Ask):
         held = self.situation.in_hand or ""
         text = f"{self.unresolved()}. Where shall I put {the(held)}?"
         if self._tries:
-            known = ", ".join(place.name for place in self.team.knowledge.places())
+            known = ", ".join(place.name for place in self.context.knowledge.places())
             text = f"I know no such place. Where shall I put {the(held)}? I know: {known}."
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
-        self.situation.surfaces = _places(self.team, answer)
+        self.situation.surfaces = _places(self.context, answer)
         return bool(self.situation.surfaces)
 
     def unresolved(self) -> str:
@@ -269,16 +269,16 @@ class Announce(Step):
         candidates = self.situation.candidates
         places = ", then ".join(candidate.place for candidate in candidates)
         why = says[candidates[0].source]
-        tell(self.team, f"I look for the {self.situation.object} at {places}: {why}.")
+        tell(self.context, f"I look for the {self.situation.object} at {places}: {why}.")
         return self.succeed(places)
 
 
 class Report(Step):
     """Tells what was done."""
 
-    def __init__(self, name: str, team: Team, text: str) -> None:
+    def __init__(self, name: str, context: MissionContext, text: str) -> None:
         """`text` may use {object}, {the_object}, {place}, {surface} and {why}."""
-        super().__init__(name, team)
+        super().__init__(name, context)
         self._text = text
 
     def update(self) -> Status:
@@ -294,7 +294,7 @@ class Report(Step):
             )
         )
         self.situation.reason = said
-        tell(self.team, said)
+        tell(self.context, said)
         return self.succeed(said)
 
 
@@ -303,15 +303,15 @@ class Apologise(Step):
 
     def update(self) -> Status:
         """Say the reason that the failed behaviour left."""
-        tell(self.team, f"Sorry: {self.situation.why}.")
+        tell(self.context, f"Sorry: {self.situation.why}.")
         return self.succeed(self.situation.why)
 
 
-def tell(team: Team, text: str) -> None:
+def tell(context: MissionContext, text: str) -> None:
     """Say something, on one line, to the person and to the log."""
     said = printable(text)
-    team.recorder.record(Utterance("robot", said))
-    team.user.tell(said)
+    context.recorder.record(Utterance("robot", said))
+    context.user.tell(said)
 
 
 def full_hand(held: str) -> str:
@@ -326,11 +326,11 @@ def the(held: str) -> str:
     return held if held == SOMETHING else f"the {held}"
 
 
-def _places(team: Team, answer: str) -> tuple[str, ...]:
+def _places(context: MissionContext, answer: str) -> tuple[str, ...]:
     """The places that an answer names; the table by the person is one, too."""
     if DELIVERY in re.findall(r"[a-z]+", answer.lower()):
         return (DELIVERY,)
-    return team.knowledge.places_named(answer)
+    return context.knowledge.places_named(answer)
 
 
 def _either(names: tuple[str, ...]) -> str:

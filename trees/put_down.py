@@ -5,47 +5,47 @@ from collections.abc import Iterator
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from trees.context import MissionContext
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut
 from trees.robot import DriveToSurface, PutDownThere
-from trees.team import Team
 
 NEAR = 3
 """How many pieces of furniture by the person are tried before they are asked."""
 
 
-def put_down_somewhere(team: Team, name: str, *first: str) -> Behaviour:
+def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behaviour:
     """A full hand -> `situation.put_at`: the places of `first`, then near ones, then asked for."""
-    situation = team.situation
+    situation = context.situation
 
     def near() -> Iterator[str]:
         yield from first
-        yield from team.near_person[:NEAR]
+        yield from context.near_person[:NEAR]
 
     def choose(place: str) -> None:
         situation.surface = place
 
     return fallback(
         name,
-        FirstOf("near the person", near, choose, go_and_put(team)),
+        FirstOf("near the person", near, choose, go_and_put(context)),
         sequence(
             "where the person says",
-            Check("still in my hand", team, lambda: situation.in_hand is not None),
-            Check("person may help", team, lambda: not situation.no_help),
-            AskWhereToPut("ask where to put it", team),
-            FirstOf("there", lambda: situation.surfaces, choose, go_and_put(team)),
+            Check("still in my hand", context, lambda: situation.in_hand is not None),
+            Check("person may help", context, lambda: not situation.no_help),
+            AskWhereToPut("ask where to put it", context),
+            FirstOf("there", lambda: situation.surfaces, choose, go_and_put(context)),
         ),
-        NotPutDown("no room", team),
+        NotPutDown("no room", context),
     )
 
 
-def go_and_put(team: Team) -> Behaviour:
+def go_and_put(context: MissionContext) -> Behaviour:
     """Take it to the surface at hand, and put it down there."""
     return sequence(
         "go and put",
-        Check("still in my hand", team, lambda: team.situation.in_hand is not None),
-        DriveToSurface("drive", team),
-        PutDownThere("put down", team),
+        Check("still in my hand", context, lambda: context.situation.in_hand is not None),
+        DriveToSurface("drive", context),
+        PutDownThere("put down", context),
     )
 
 

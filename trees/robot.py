@@ -22,8 +22,8 @@ from executive.types import (
     Saw,
     Succeeded,
 )
+from trees.context import MissionContext
 from trees.nodes import UNSAID, Action, why_of
-from trees.team import Team
 
 
 class BodyAction(Action):
@@ -32,9 +32,9 @@ class BodyAction(Action):
     Whatever fails, or takes too long, comes by here: it is noted where it counts, once for all.
     """
 
-    def __init__(self, name: str, team: Team) -> None:
-        """Give the robot as long as the rules allow."""
-        super().__init__(name, team, team.rules.action_s)
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Give the robot as long as the parameters allow."""
+        super().__init__(name, context, context.parameters.action_s)
 
     @abstractmethod
     def attempt(self) -> str:
@@ -63,9 +63,9 @@ class RobotAction(BodyAction):
     searches = False
     """Whether it serves to look for the thing, so that its failure leaves a place unseen."""
 
-    def __init__(self, name: str, team: Team) -> None:
+    def __init__(self, name: str, context: MissionContext) -> None:
         """Have no goal yet."""
-        super().__init__(name, team)
+        super().__init__(name, context)
         self._goal: Goal = Halt()
 
     @abstractmethod
@@ -77,7 +77,7 @@ class RobotAction(BodyAction):
         self._goal = self.goal()
         self.feedback_message = _in_words(self._goal)
         self.situation.restless = True
-        return self.team.robot.start(self._goal)
+        return self.context.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
         """Succeed as the robot did; note if it lost what it held."""
@@ -114,7 +114,7 @@ class RobotAction(BodyAction):
 
     def cancel(self, request: int) -> None:
         """Brake."""
-        self.team.robot.cancel(request)
+        self.context.robot.cancel(request)
 
 
 class DriveToCandidate(RobotAction):
@@ -143,9 +143,9 @@ class Visit(DriveToCandidate):
 class DriveBack(RobotAction):
     """Goes to where things are asked for or delivered: `person` or `delivery`."""
 
-    def __init__(self, name: str, team: Team, place: str) -> None:
+    def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
-        super().__init__(name, team)
+        super().__init__(name, context)
         self._place = place
 
     def goal(self) -> Goal:
@@ -194,9 +194,9 @@ class LookForLost(RobotAction):
 class PickUp(RobotAction):
     """Grasps the thing where it was seen, and lifts it; what the fingers feel decides."""
 
-    def __init__(self, name: str, team: Team) -> None:
+    def __init__(self, name: str, context: MissionContext) -> None:
         """Reach for it."""
-        super().__init__(name, team)
+        super().__init__(name, context)
         self._finished = False
 
     def initialise(self) -> None:
@@ -227,7 +227,7 @@ class PickUp(RobotAction):
         if isinstance(result, Succeeded):
             assert self.situation.found
             self.situation.in_hand = name
-            self.team.facts.took(name, self.situation.found.place)
+            self.context.facts.took(name, self.situation.found.place)
             self.situation.lost = ""
             self.situation.unplaced.clear()
         return super().ended(result)
@@ -245,9 +245,9 @@ class PickUp(RobotAction):
 class PutDownAt(RobotAction):
     """Puts the held thing down."""
 
-    def __init__(self, name: str, team: Team, place: str) -> None:
+    def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
-        super().__init__(name, team)
+        super().__init__(name, context)
         self._place = place
         self._held: str | None = None
 
@@ -263,7 +263,7 @@ class PutDownAt(RobotAction):
         if isinstance(result, Succeeded):
             place = self._place_now()
             if self._held and self._held != SOMETHING:
-                self.team.facts.put(self._held, place)
+                self.context.facts.put(self._held, place)
             self.situation.in_hand, self.situation.put_at = None, place
         return super().ended(result)
 
@@ -274,9 +274,9 @@ class PutDownAt(RobotAction):
 class PutDownThere(PutDownAt):
     """Puts the held thing down on the surface at hand."""
 
-    def __init__(self, name: str, team: Team) -> None:
+    def __init__(self, name: str, context: MissionContext) -> None:
         """Wait for the surface to be chosen."""
-        super().__init__(name, team, "")
+        super().__init__(name, context, "")
 
     def _place_now(self) -> str:
         return self.situation.surface
@@ -294,14 +294,14 @@ class DriveToSurface(RobotAction):
 class SeeTarget(BodyAction):
     """Takes a picture and succeeds if the thing is in it, surely and wholly."""
 
-    def __init__(self, name: str, team: Team, closer: bool = False) -> None:
+    def __init__(self, name: str, context: MissionContext, closer: bool = False) -> None:
         """`closer`, a part of the thing is enough."""
-        super().__init__(name, team)
+        super().__init__(name, context)
         self._closer = closer
 
     def start(self) -> int:
         """Look."""
-        return self.team.eyes.see()
+        return self.context.perception.see()
 
     def ended(self, result: Result) -> Status:
         """Keep the surest detection of the thing, and where it was; remember all that was seen."""
@@ -316,7 +316,7 @@ class SeeTarget(BodyAction):
             self.situation.looks.without(place, view)
             self.feedback_message = f"no {self.situation.object} in view"
             return Status.FAILURE
-        if seen.confidence < self.team.rules.sure:
+        if seen.confidence < self.context.parameters.min_confidence:
             self.situation.doubtful = seen
             self.feedback_message = f"perhaps {seen.label}, confidence {seen.confidence:.2f}"
             return Status.FAILURE
@@ -339,12 +339,12 @@ class SeeTarget(BodyAction):
 
     def cancel(self, request: int) -> None:
         """Look no more."""
-        self.team.eyes.cancel(request)
+        self.context.perception.cancel(request)
 
     def _where(self, seen: Detection) -> Candidate:
         """Here; but what is seen on furniture behind this place is on that."""
         assert self.situation.candidate
-        below = self.team.place_at(seen.position) if seen.position else None
+        below = self.context.place_at(seen.position) if seen.position else None
         return replace(self.situation.candidate, place=below or self.situation.candidate.place)
 
     def _surest(self, saw: Saw) -> Detection | None:
@@ -355,9 +355,9 @@ class SeeTarget(BodyAction):
         """A thing may be on furniture behind this place; with none below it, it counts as here."""
         assert self.situation.candidate
         for seen in detections:
-            if seen.confidence < self.team.rules.sure:
+            if seen.confidence < self.context.parameters.min_confidence:
                 continue
-            self.team.facts.saw((seen.label,), self._where(seen).place)
+            self.context.facts.saw((seen.label,), self._where(seen).place)
 
 
 class SeeLost(SeeTarget):

@@ -4,60 +4,60 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.types import Candidate
+from trees.context import MissionContext
 from trees.location import MemoryKnowsPlaces, resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Announce, AskWhere
 from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
-from trees.team import Team
 
 
-def search(team: Team) -> Behaviour:
+def search(context: MissionContext) -> Behaviour:
     """An object -> `situation.detection` and `situation.found`."""
-    situation = team.situation
+    situation = context.situation
 
     def look(name: str, *candidates: Behaviour) -> Behaviour:
-        return sequence(name, *candidates, Announce("announce", team), visit_candidates(team))
+        return sequence(name, *candidates, Announce("announce", context), visit_candidates(context))
 
     return fallback(
         "search",
-        Check("in my hand", team, lambda: situation.in_hand == situation.object),
-        look("look where it was", MemoryKnowsPlaces("memory knows it", team)),
-        look("look where it may be", resolve_location(team)),
+        Check("in my hand", context, lambda: situation.in_hand == situation.object),
+        look("look where it was", MemoryKnowsPlaces("memory knows it", context)),
+        look("look where it may be", resolve_location(context)),
         look(
             "look where the person says",
-            Check("person may help", team, lambda: not situation.no_help),
-            AskWhere("ask where", team),
+            Check("person may help", context, lambda: not situation.no_help),
+            AskWhere("ask where", context),
         ),
-        GiveUpSearch("not found", team),
+        GiveUpSearch("not found", context),
     )
 
 
-def visit_candidates(team: Team) -> Behaviour:
+def visit_candidates(context: MissionContext) -> Behaviour:
     """Drive from candidate to candidate and look, until the thing is seen."""
 
     def choose(candidate: Candidate) -> None:
-        team.situation.candidate = candidate
+        context.situation.candidate = candidate
 
     return FirstOf(
         "visit",
-        lambda: team.situation.candidates,
+        lambda: context.situation.candidates,
         choose,
-        sequence("go and look", Visit("drive", team), look_over(team)),
+        sequence("go and look", Visit("drive", context), look_over(context)),
     )
 
 
-def look_over(team: Team) -> Behaviour:
+def look_over(context: MissionContext) -> Behaviour:
     """Look at every part of the place until the thing is seen; remember if it is not there."""
 
     def views() -> range:
-        assert team.situation.candidate
-        place = team.situation.candidate.place
-        parts = team.robot.views(place)
-        team.situation.looks.begin(place, parts)
+        assert context.situation.candidate
+        place = context.situation.candidate.place
+        parts = context.robot.views(place)
+        context.situation.looks.begin(place, parts)
         return range(parts)
 
     def choose(view: int) -> None:
-        team.situation.view = view
+        context.situation.view = view
 
     return fallback(
         "look over",
@@ -65,22 +65,22 @@ def look_over(team: Team) -> Behaviour:
             "each view",
             views,
             choose,
-            sequence("glance", LookAtCandidate("aim", team), see(team)),
+            sequence("glance", LookAtCandidate("aim", context), see(context)),
         ),
-        NotHere("not here", team),
+        NotHere("not here", context),
     )
 
 
-def see(team: Team) -> Behaviour:
+def see(context: MissionContext) -> Behaviour:
     """Look for the thing; what is not sure, or not wholly in the picture, is looked at closer."""
     return fallback(
         "look hard",
-        SeeTarget("see", team),
+        SeeTarget("see", context),
         sequence(
             "look twice",
-            Check("perhaps it is", team, lambda: team.situation.doubtful is not None),
-            LookCloser("aim closer", team),
-            SeeTarget("see closer", team, closer=True),
+            Check("perhaps it is", context, lambda: context.situation.doubtful is not None),
+            LookCloser("aim closer", context),
+            SeeTarget("see closer", context, closer=True),
         ),
     )
 
@@ -96,7 +96,7 @@ class NotHere(Step):
         looks = self.situation.looks
         if not looks.all_without(place):
             return self.fail(looks.why_not_all(name, place))
-        self.team.facts.missed(name, place)
+        self.context.facts.missed(name, place)
         self.situation.gone = self.situation.detection is not None
         return self.fail(f"no {name} at {place}")
 

@@ -4,30 +4,29 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.types import Command, Question, QuestionKind, Replied, Result, Scored
-from executive.types import Status as MissionStatus
+from executive.types import Command, MissionStatus, Question, QuestionKind, Replied, Result, Scored
+from trees.context import MissionContext
 from trees.location import ModelAction
 from trees.nodes import Step, fallback, sequence
 from trees.person import AskYesNo
-from trees.team import Team
 
 
-def understand(team: Team) -> Behaviour:
+def understand(context: MissionContext) -> Behaviour:
     """Words -> `situation.command`."""
-    readers: list[Behaviour] = [ReadCommand("grammar reads it", team)]
-    if team.model is not None:
-        readers.append(let_the_model_read(team))
-    return fallback("understand", *readers, NotUnderstood("not understood", team))
+    readers: list[Behaviour] = [ReadCommand("grammar reads it", context)]
+    if context.model is not None:
+        readers.append(let_the_model_read(context))
+    return fallback("understand", *readers, NotUnderstood("not understood", context))
 
 
-def let_the_model_read(team: Team) -> Behaviour:
+def let_the_model_read(context: MissionContext) -> Behaviour:
     """The model chooses what may be meant, among what exists; the person has the last word."""
-    read: type[ModelAction] = RankKinds if team.rules.elicit == "rank" else WriteCommand
+    read: type[ModelAction] = RankKinds if context.parameters.elicit == "rank" else WriteCommand
     return sequence(
         "llm reads it",
-        HasKnownName("speaks of a known thing", team),
-        read("choose", team),
-        ConfirmCommand("ask do you mean", team),
+        HasKnownName("speaks of a known thing", context),
+        read("choose", context),
+        ConfirmCommand("ask do you mean", context),
     )
 
 
@@ -36,8 +35,8 @@ class ReadCommand(Step):
 
     def update(self) -> Status:
         """Read the words."""
-        self.team.recorder.record(Utterance("person", self.situation.words))
-        command = self.team.interpreter.command(self.situation.words)
+        self.context.recorder.record(Utterance("person", self.situation.words))
+        command = self.context.interpreter.command(self.situation.words)
         if command is None:
             return self.fail("this is no command that the grammar knows")
         self.situation.command = command
@@ -49,7 +48,7 @@ class HasKnownName(Step):
 
     def update(self) -> Status:
         """Look for the names; a model that writes may still choose another."""
-        names = self.team.knowledge.names_in(self.situation.words)
+        names = self.context.knowledge.names_in(self.situation.words)
         if not names:
             return self.fail("no known thing is named")
         self.situation.guess = " and ".join(names)
@@ -98,7 +97,7 @@ class ConfirmCommand(AskYesNo):
         """Say what would be done."""
         assert self.situation.command
         kind, target = self.situation.command.kind, self.situation.command.target
-        knowledge = self.team.knowledge
+        knowledge = self.context.knowledge
         objects = [o for name in knowledge.names_in(target) for o in knowledge.objects_named(name)]
         text = f"Do you mean: {kind} {target}?"
         return Question(QuestionKind.CONFIRM, target, text, tuple(objects))

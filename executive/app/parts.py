@@ -4,11 +4,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from executive.app.rules import rules
 from executive.config import Settings
 from executive.events import Inbox
-from executive.guards import GuardedEyes, GuardedRecorder, GuardedRobot, GuardedUser
-from executive.interfaces import Advisor, Clock, Eyes, LanguageModel, Recorder, Robot, User
+from executive.guards import GuardedPerception, GuardedRecorder, GuardedRobot, GuardedUser
+from executive.interfaces import Advisor, Clock, LanguageModel, Perception, Recorder, Robot, User
 from executive.language.grammar import EnglishInterpreter
 from executive.situation import Situation
 from executive.types import DELIVERY, Vector3
@@ -17,7 +16,7 @@ from kb.advice.prompts import Prompts
 from kb.facts import FactStore
 from kb.ontology.ontology import Ontology
 from sim.home.home import Furniture, Home
-from trees.team import Team
+from trees.context import MissionContext, Parameters
 
 OURS = "ours"
 """The policy of those who did not choose another."""
@@ -60,7 +59,7 @@ def build_advisor(grounds: Grounds) -> Advisor | None:
     return advisor
 
 
-def build_team(
+def build_context(
     grounds: Grounds,
     advisor: Advisor | None,
     situation: Situation,
@@ -69,28 +68,40 @@ def build_team(
     clock: Clock,
     recorder: Recorder,
     robot: Robot,
-    eyes: Eyes,
+    perception: Perception,
     user: User,
-) -> Team:
+) -> MissionContext:
     """The collaborators of one mission; those that may be anybody's code, under guard.
 
     The model of the `grounds` is under guard already: its adviser asks it, too.
     """
-    return Team(
+    return MissionContext(
         situation=situation,
         clock=clock,
         recorder=GuardedRecorder(recorder),
         interpreter=EnglishInterpreter(),
         knowledge=grounds.knowledge,
         robot=GuardedRobot(robot, inbox, recorder),
-        eyes=GuardedEyes(eyes, inbox, recorder),
+        perception=GuardedPerception(perception, inbox, recorder),
         user=GuardedUser(user, inbox, recorder),
         model=grounds.model,
         advisor=advisor,
-        rules=rules(grounds.settings),
+        parameters=parameters(grounds.settings),
         facts=grounds.facts,
         place_at=place_at(grounds),
         near_person=near_person(grounds.home),
+    )
+
+
+def parameters(settings: Settings) -> Parameters:
+    """What the behaviours keep to."""
+    return Parameters(
+        elicit=settings.elicitation,
+        top_k=settings.top,
+        answer_s=settings.answer_timeout_s,
+        model_s=settings.llm_timeout_s,
+        action_s=settings.action_timeout_s,
+        min_confidence=settings.sure,
     )
 
 

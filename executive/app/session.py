@@ -14,7 +14,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TextIO
 
-from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_team
+from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_context
 from executive.app.run_folder import new_folder, to_json, write
 from executive.clock import SimulatedClock
 from executive.config import Settings
@@ -33,11 +33,11 @@ from executive.interfaces import (
 )
 from executive.language.control import control
 from executive.loop import Executive, who_interrupts
-from executive.perception.pipeline import Eyes
+from executive.perception.pipeline import CameraPerception
 from executive.records import EventTaken, Finished
 from executive.situation import Situation
 from executive.text import one_line, too_long, writable
-from executive.types import Answered, Halt, Outcome, Status
+from executive.types import Answered, Halt, MissionStatus, Outcome
 from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
 from kb.advice.prompts import Prompts
 from kb.facts import FactStore
@@ -49,7 +49,7 @@ from logs.recorder import FanOut, Sink
 from logs.recording.sink import McapSink
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.faults.fake import FaultyFakeRobot
-from sim.faults.injector import FaultyCamera, FaultyDetector, Mishaps
+from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import parse_faults, refuse_physical
 from sim.home.home import Home, home_text, load_home
 from sim.objects.objects import load_objects
@@ -112,12 +112,12 @@ class Session:
         guarded = GuardedModel(self.model, self.inbox, self.recorder) if self.model else None
         self.grounds = Grounds(settings, self.home, self.knowledge, guarded, prompts, self.facts)
         self.advisor = advise(self.grounds)
-        self.mishaps = build_mishaps(settings, self.home, self.recorder, lambda: self.clock.now())
+        self.injector = build_injector(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
-            settings, self.home, self.inbox, self.recorder, self.knowledge, gui, self.mishaps
+            settings, self.home, self.inbox, self.recorder, self.knowledge, gui, self.injector
         )
         self.clock = SimulatedClock(self.inbox, self.world)
-        self.eyes = Eyes(camera, detector, self.inbox, self.recorder)
+        self.perception = CameraPerception(camera, detector, self.inbox, self.recorder)
         self.user = user or build_user(
             settings, self.inbox, self.world.resting_place, out or sys.stderr
         )
@@ -223,8 +223,8 @@ class Session:
         except Exception as error:
             log.warning("the mission goes on without logs: %s", in_words(error))
         self.recorder.open([*logs, *self._sinks], started)
-        if self.mishaps:
-            self.mishaps.begin()
+        if self.injector:
+            self.injector.begin()
         try:
             self.world.describe()
         except Exception as error:
@@ -232,7 +232,7 @@ class Session:
 
     def _carry_out(self, situation: Situation) -> None:
         """Have the tree decide, from the words on."""
-        team = build_team(
+        context = build_context(
             self.grounds,
             self.advisor,
             situation,
@@ -240,11 +240,11 @@ class Session:
             clock=self.clock,
             recorder=self.recorder,
             robot=self.robot,
-            eyes=self.eyes,
+            perception=self.perception,
             user=self.user,
         )
         executive = Executive(
-            MissionTree(mission(team)),
+            MissionTree(mission(context)),
             situation,
             inbox=self.inbox,
             clock=self.clock,
@@ -254,7 +254,7 @@ class Session:
         self.inbox.post(Started(situation.words))
         if control(situation.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
-            team.user.tell(NOTHING_TO_STOP)
+            context.user.tell(NOTHING_TO_STOP)
         try:
             executive.run()
         finally:
@@ -314,7 +314,7 @@ class Session:
         }
         from logs.viewer.sink import RerunSink
 
-        return working(
+        return open_sinks(
             lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
             lambda: RerunSink(folder / "mission.rrd", view=self._view),
         )
@@ -332,11 +332,11 @@ def files_used(settings: Settings) -> dict[str, bytes]:
 
 def refused(why: str) -> Outcome:
     """The outcome of words that are not read."""
-    situation = Situation(status=Status.NOT_UNDERSTOOD, reason=why)
+    situation = Situation(status=MissionStatus.NOT_UNDERSTOOD, reason=why)
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
 
 
-def working(*makers: Callable[[], Sink]) -> list[Sink]:
+def open_sinks(*makers: Callable[[], Sink]) -> list[Sink]:
     """The logs that can be opened; for the others a warning, because the mission goes on."""
     sinks = []
     for make in makers:
@@ -348,9 +348,9 @@ def working(*makers: Callable[[], Sink]) -> list[Sink]:
     return sinks
 
 
-def build_mishaps(
+def build_injector(
     settings: Settings, home: Home, recorder: Recorder, now: Callable[[], float]
-) -> Mishaps | None:
+) -> FaultInjector | None:
     """The faults that the settings order; None if there are none.
 
     Raises:
@@ -359,7 +359,7 @@ def build_mishaps(
     faults = parse_faults(settings.fault, home)
     if settings.world == "fake":
         refuse_physical(faults)
-    return Mishaps(faults, recorder, now, settings.seed) if faults else None
+    return FaultInjector(faults, recorder, now, settings.seed) if faults else None
 
 
 def build_simulation(
@@ -369,7 +369,7 @@ def build_simulation(
     recorder: Recorder,
     knowledge: Knowledge,
     gui: bool = False,
-    mishaps: Mishaps | None = None,
+    injector: FaultInjector | None = None,
 ) -> tuple[SimulatedHome, Robot, Camera, Detector]:
     """The world that the settings name, with its robot and the robot's senses."""
     world: SimulatedHome
@@ -378,9 +378,9 @@ def build_simulation(
     detector: Detector
     if settings.world == "fake":
         world = instant = FakeWorld(home, inbox, recorder)
-        robot = FaultyFakeRobot(instant, mishaps) if mishaps else FakeRobot(instant)
+        robot = FaultyFakeRobot(instant, injector) if injector else FakeRobot(instant)
         camera, detector = FakeCamera(instant), FakeDetector(instant)
-        camera = FaultyCamera(camera, mishaps) if mishaps else camera
+        camera = FaultyCamera(camera, injector) if injector else camera
     else:
         from executive.perception.detector import LEARNED, OnnxDetector
         from sim.world import PhysicsWorld
@@ -394,14 +394,14 @@ def build_simulation(
             seed=settings.seed,
             gui=gui,
             camera_hz=settings.camera_hz,
-            mishaps=mishaps,
+            injector=injector,
         )
         robot, camera, detector = physics.robot, physics.camera, physics.detector
         if settings.detector != "simulated":
             file = LEARNED if settings.detector == "learned" else Path(settings.detector)
             detector = OnnxDetector(file, knowledge.objects_named)
-    if mishaps:
-        detector = FaultyDetector(detector, mishaps, tuple(home.objects))
+    if injector:
+        detector = FaultyDetector(detector, injector, tuple(home.objects))
     return world, robot, camera, detector
 
 

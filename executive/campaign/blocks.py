@@ -1,4 +1,4 @@
-"""One household of a campaign: a system, a situation and a seed, and all commands in turn.
+"""One block of a campaign: a system, a situation and a seed, and all commands in turn.
 
 What is kept from command to command, and what is not:
 
@@ -29,7 +29,7 @@ from executive.types import ChatRequest, Message, Outcome
 
 
 @dataclass(frozen=True, slots=True)
-class Household:
+class Block:
     """Who lives where, and what is asked of the robot."""
 
     settings: Settings
@@ -44,7 +44,7 @@ class Household:
     def keys(self) -> tuple[Key, ...]:
         """Its missions."""
         s, used = self.settings, self.settings_used
-        where = (self.policy, short(s.home), short(used.llm) if used.uses_llm else "none")
+        where = (self.policy, label_of(s.home), label_of(used.llm) if used.uses_llm else "none")
         return tuple(Key(*where, s.knowledge, s.defaults, s.seed, w) for w in self.commands)
 
     @property
@@ -53,7 +53,7 @@ class Household:
         return self.settings.model_copy(update=dict(POLICIES[self.policy].settings))
 
 
-def short(name_or_file: str) -> str:
+def label_of(name_or_file: str) -> str:
     """What tables call a home or a model: its name, or its file's less folder and ending."""
     suffixes = (".toml", ".gguf")
     return Path(name_or_file).stem if name_or_file.endswith(suffixes) else name_or_file
@@ -66,17 +66,17 @@ def shuffled(commands: Iterable[str], seed: int) -> tuple[str, ...]:
     return tuple(order)
 
 
-def run(household: Household, before: Iterable[Entry] = ()) -> Generator[Entry, None, None]:
-    """Run the missions of a household that are not in `before`, each when it is asked for.
+def run(block: Block, before: Iterable[Entry] = ()) -> Generator[Entry, None, None]:
+    """Run the missions of a block that are not in `before`, each when it is asked for.
 
     Raises:
         ExecutiveError: if the settings, the home or the model file are wrong; what goes wrong in
             a mission is an entry instead.
     """
     ended = {entry.row.key: entry for entry in before}
-    rest = _Rest(household)
+    rest = _Rest(block)
     try:
-        for turn, key in enumerate(household.keys):
+        for turn, key in enumerate(block.keys):
             if key in ended:
                 rest.recall(ended[key])
             else:
@@ -86,13 +86,13 @@ def run(household: Household, before: Iterable[Entry] = ()) -> Generator[Entry, 
 
 
 class _Rest:
-    """What outlives the missions of a household: the model, and what was said to it."""
+    """What outlives the missions of a block: the model, and what was said to it."""
 
-    def __init__(self, household: Household) -> None:
-        self._recorded = household.recorded
-        self._settings = household.settings_used
-        self._policy_name = household.policy
-        self._policy = POLICIES[household.policy]
+    def __init__(self, block: Block) -> None:
+        self._recorded = block.recorded
+        self._settings = block.settings_used
+        self._policy_name = block.policy
+        self._policy = POLICIES[block.policy]
         self._inbox = Inbox()
         self._model = self._policy.model(self._settings, self._inbox)
         self._dialogue: list[tuple[str, str]] = []
@@ -196,8 +196,8 @@ def grid(
     commands: tuple[str, ...],
     seeds: int,
     runs: Path | None = None,
-) -> tuple[Household, ...]:
-    """Every household of a campaign, seed by seed, so that early tables are already fair.
+) -> tuple[Block, ...]:
+    """Every block of a campaign, seed by seed, so that early tables are already fair.
 
     okb asks no model: it is run once in each home, under the first policy.
 
@@ -211,7 +211,7 @@ def grid(
     """
     watched = {"runs": runs} if runs else {"camera_hz": 0.0}
     found = (
-        Household(
+        Block(
             base.model_copy(
                 update={"knowledge": system, "defaults": defaults, "seed": seed, **watched}
             ),
@@ -226,4 +226,4 @@ def grid(
         for system in systems
         if system != KnowledgeSystem.OKB or policy == policies[0]
     )
-    return tuple({household.keys: household for household in found}.values())
+    return tuple({block.keys: block for block in found}.values())

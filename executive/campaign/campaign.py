@@ -20,7 +20,7 @@ from executive.campaign.claim import lock_folder
 from executive.campaign.journal import CRASHED, Entry, Journal, in_order, write_tables
 from executive.campaign.report import paper
 from executive.campaign.report.report import not_counted, write_report
-from executive.campaign.runners import Engine, Here, Pool
+from executive.campaign.runners import InProcess, ProcessPool, Runner
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.errors import InputError
 from executive.files import read_text
@@ -53,7 +53,7 @@ class Campaign:
         most = options.seeds * len(commands) * len(settings) * len(self._policies)
         if most > MOST_MISSIONS:
             raise InputError("--seeds", f"more than {MOST_MISSIONS:,} missions", "give fewer")
-        self._households = blocks.grid(
+        self._blocks = blocks.grid(
             settings,
             self._policies,
             [KnowledgeSystem(name) for name in options.systems],
@@ -61,10 +61,10 @@ class Campaign:
             options.seeds,
             options.runs.resolve() if options.runs else None,
         )
-        self._keys = {key for household in self._households for key in household.keys}
+        self._keys = {key for block in self._blocks for key in block.keys}
         self._as_in_paper = as_in_paper(settings, commands)
         self._interrupted = False
-        self._engine = self._engine_for(options)
+        self._runner = self._runner_for(options)
         make_folder(self._out)
         with ExitStack() as until_it_fails:
             self._lock = until_it_fails.enter_context(lock_folder(self._out, "--out"))
@@ -85,7 +85,7 @@ class Campaign:
         progress = Progress(len(self._keys), lambda: len(self._entries()))
         try:
             with on_stop_signals(self._interrupt):
-                self._engine.run(self._households, self._journal, progress)
+                self._runner.run(self._blocks, self._journal, progress)
             progress.show()
         except KeyboardInterrupt:
             print("\nstopped; the same command goes on from here", file=sys.stderr)
@@ -100,10 +100,14 @@ class Campaign:
             print(printable(not_counted(without_model)), file=sys.stderr)
         return NOT_DONE if without_model else DONE
 
-    def _engine_for(self, options: argparse.Namespace) -> Engine:
+    def _runner_for(self, options: argparse.Namespace) -> Runner:
         if options.cluster:
             return cluster(options.cluster)
-        return Here() if options.workers == 1 else Pool(options.workers, lambda: self._interrupted)
+        return (
+            InProcess()
+            if options.workers == 1
+            else ProcessPool(options.workers, lambda: self._interrupted)
+        )
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         """Note it, too: the exception is lost if it is raised within a callback."""
@@ -207,18 +211,18 @@ def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
         ("--home", {settings.home for settings in found}),
         ("--llm", {settings.llm for settings in found}),
     ):
-        if len(names) > len({blocks.short(name) for name in names}):
+        if len(names) > len({blocks.label_of(name) for name in names}):
             raise InputError(option, f"two of {', '.join(sorted(names))} are called the same")
     return found
 
 
 def at_any_folder(name_or_file: str) -> str:
     """A file as other processes find it, too; the name of anything else as it is."""
-    is_file = blocks.short(name_or_file) != name_or_file
+    is_file = blocks.label_of(name_or_file) != name_or_file
     return str(Path(name_or_file).resolve()) if is_file else name_or_file
 
 
-def cluster(address: str) -> Engine:
+def cluster(address: str) -> Runner:
     """The workers of a Dask cluster.
 
     Raises:

@@ -1,9 +1,9 @@
 """A campaign on a Dask cluster: workers run missions, this process keeps the journal.
 
-A worker is given one mission of its household after the other, with what was said in those before,
-and keeps the household's model loaded in between. What it returns is written down here, and only
+A worker is given one mission of its block after the other, with what was said in those before,
+and keeps the block's model loaded in between. What it returns is written down here, and only
 here, so that no mission counts twice. If a worker is lost, the scheduler gives its mission to
-another one, which takes the household over.
+another one, which takes the block over.
 """
 
 import threading
@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from distributed import Client, Future, KilledWorker, wait
 
 from executive.campaign import blocks
-from executive.campaign.blocks import Household
+from executive.campaign.blocks import Block
 from executive.campaign.journal import Entry, Journal
-from executive.campaign.runners import POLL_S, own
+from executive.campaign.runners import POLL_S, entries_of
 from executive.errors import ExecutiveError, InputError
 
 CONNECTING_S = 20
@@ -26,22 +26,22 @@ CONNECTING_S = 20
 
 @dataclass(slots=True)
 class _Turns:
-    """How far a household is, and the address of the worker that has its model loaded."""
+    """How far a block is, and the address of the worker that has its model loaded."""
 
-    household: Household
+    block: Block
     before: list[Entry]
     worker: str = ""
 
     @property
     def next(self) -> int | None:
-        """Which of the household's missions is to be run now; None if all have ended."""
+        """Which of the block's missions is to be run now; None if all have ended."""
         ended = {entry.row.key for entry in self.before}
-        left = (turn for turn, key in enumerate(self.household.keys) if key not in ended)
+        left = (turn for turn, key in enumerate(self.block.keys) if key not in ended)
         return next(left, None)
 
 
 class Cluster:
-    """Implements `Engine`: each worker process of a cluster runs one mission at a time."""
+    """Implements `Runner`: each worker process of a cluster runs one mission at a time."""
 
     def __init__(self, address: str) -> None:
         """Use the workers of the scheduler at this address, `tcp://host:8786`."""
@@ -50,7 +50,7 @@ class Cluster:
         self._under_way: dict[Future[Entry], _Turns] = {}
 
     def run(
-        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
     ) -> None:
         """Run what is left on as many workers as there are, while they come and go.
 
@@ -58,7 +58,7 @@ class Cluster:
             ExecutiveError: if there is no scheduler at the address, or it is lost.
         """
         before = journal.entries()
-        turns = (_Turns(household, own(household, before)) for household in campaign)
+        turns = (_Turns(block, entries_of(block, before)) for block in campaign)
         self._waiting = [one for one in turns if one.next is not None]
         with self._connect() as client:
             try:
@@ -78,7 +78,7 @@ class Cluster:
             raise InputError(f"--cluster {self._address}", str(error), right) from None
 
     def _hand_out(self, client: Client) -> None:
-        """Give each idle worker a mission; it goes on with its own household if it has one."""
+        """Give each idle worker a mission; it goes on with its own block if it has one."""
         workers = set(client.nthreads())
         for worker in workers - {turns.worker for turns in self._under_way.values()}:
             if not self._waiting:
@@ -88,7 +88,7 @@ class Cluster:
             turns.worker = worker
             future = client.submit(
                 next_mission,
-                turns.household,
+                turns.block,
                 turns.before,
                 workers=[worker],
                 allow_other_workers=True,
@@ -119,7 +119,7 @@ def _result(future: Future[Entry], turns: _Turns) -> Entry:
     except KilledWorker:
         assert turns.next is not None
         error = ExecutiveError("its worker process died, and so did those of other attempts")
-        return Entry(blocks.crash(turns.next, turns.household.keys[turns.next], error))
+        return Entry(blocks.crash(turns.next, turns.block.keys[turns.next], error))
     except CancelledError:
         raise ExecutiveError("the scheduler is lost; the same command goes on from here") from None
 
@@ -127,18 +127,18 @@ def _result(future: Future[Entry], turns: _Turns) -> Entry:
 # --- in a worker process of the cluster ---
 
 _turn = threading.Lock()
-_household: Household | None = None
+_household: Block | None = None
 _so_far = 0
 _missions: Generator[Entry, None, None] | None = None
 
 
-def next_mission(household: Household, before: Sequence[Entry]) -> Entry:
-    """Run the first mission of the household that is not in `before`; one at a time."""
+def next_mission(block: Block, before: Sequence[Entry]) -> Entry:
+    """Run the first mission of the block that is not in `before`; one at a time."""
     global _household, _so_far, _missions
     with _turn:
-        if _missions is None or (household, len(before)) != (_household, _so_far):
+        if _missions is None or (block, len(before)) != (_household, _so_far):
             if _missions:
                 _missions.close()
-            _missions = blocks.run(household, before)
-        _household, _so_far = household, len(before) + 1
+            _missions = blocks.run(block, before)
+        _household, _so_far = block, len(before) + 1
         return next(_missions)

@@ -51,7 +51,7 @@ class Row:
     seed: int
     command: str
     turn: int
-    """Its place in the order of its household's commands, from 0."""
+    """Its place in the order of its block's commands, from 0."""
     kind: str = ""
     object: str = ""
     status: str = CRASHED

@@ -1,6 +1,6 @@
 """Who runs the missions of a campaign: this process, a pool of them, or the workers of a cluster.
 
-An engine is given what is left to do, and appends each mission to the journal when it has ended.
+An runner is given what is left to do, and appends each mission to the journal when it has ended.
 """
 
 import multiprocessing
@@ -12,7 +12,7 @@ from multiprocessing.synchronize import Event
 from typing import Protocol
 
 from executive.campaign import blocks
-from executive.campaign.blocks import Household
+from executive.campaign.blocks import Block
 from executive.campaign.journal import Entry, Journal
 from executive.errors import ExecutiveError
 from executive.shell import leave_stopping_to_the_parent
@@ -21,38 +21,38 @@ POLL_S = 0.5
 """How often the journal is looked at while workers write it."""
 
 
-class Engine(Protocol):
+class Runner(Protocol):
     """Runs missions; a KeyboardInterrupt ends it when the missions under way have ended."""
 
     def run(
-        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
     ) -> None:
         """Run every mission that is not in the journal; call `progress` now and then."""
         ...
 
 
-def own(household: Household, entries: Sequence[Entry]) -> list[Entry]:
-    """The household's missions among these that are results."""
-    keys = set(household.keys)
+def entries_of(block: Block, entries: Sequence[Entry]) -> list[Entry]:
+    """The block's missions among these that are results."""
+    keys = set(block.keys)
     return [e for e in entries if e.row.key in keys and not e.row.model_failure]
 
 
-class Here:
+class InProcess:
     """This process, one mission after the other."""
 
     def run(
-        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
     ) -> None:
         """Run what is left."""
         before = journal.entries()
-        for household in campaign:
-            for entry in blocks.run(household, own(household, before)):
+        for block in campaign:
+            for entry in blocks.run(block, entries_of(block, before)):
                 journal.append(entry)
                 progress()
 
 
-class Pool:
-    """Worker processes on this machine, each with one household at a time."""
+class ProcessPool:
+    """Worker processes on this machine, each with one block at a time."""
 
     def __init__(self, workers: int, interrupted: Callable[[], bool]) -> None:
         """Use so many; `interrupted` tells whether Ctrl-C was pressed.
@@ -63,7 +63,7 @@ class Pool:
         self._interrupted = interrupted
 
     def run(
-        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
     ) -> None:
         """Run what is left; if a worker is killed, go on with the rest.
 
@@ -84,7 +84,7 @@ class Pool:
                     ) from None
 
     def _run(
-        self, campaign: Sequence[Household], journal: Journal, progress: Callable[[], None]
+        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
     ) -> None:
         before = journal.entries()
         context = multiprocessing.get_context("spawn")
@@ -94,8 +94,7 @@ class Pool:
         )
         try:
             left = {
-                pool.submit(work, household, own(household, before), journal)
-                for household in campaign
+                pool.submit(work, block, entries_of(block, before), journal) for block in campaign
             }
             while left:
                 if self._interrupted():
@@ -124,11 +123,11 @@ def start_worker(stop: Event) -> None:
     leave_stopping_to_the_parent()
 
 
-def work(household: Household, before: Sequence[Entry], journal: Journal) -> None:
-    """Run a household until it ends or all shall stop."""
+def work(block: Block, before: Sequence[Entry], journal: Journal) -> None:
+    """Run a block until it ends or all shall stop."""
     if _stop and _stop.is_set():
         return
-    for entry in blocks.run(household, before):
+    for entry in blocks.run(block, before):
         journal.append(entry)
         if _stop and _stop.is_set():
             return

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from executive.campaign.routes import Routes
 from executive.interfaces import SimulatedHome
-from executive.types import DELIVERY, Kind, Outcome, Status
+from executive.types import DELIVERY, CommandKind, MissionStatus, Outcome
 from sim.home.home import PERSON, Home
 
 HAND = "hand"
@@ -25,20 +25,23 @@ def completed(outcome: Outcome, truth: str) -> bool:
         outcome: what the robot says.
         truth: where the thing is, as `whereabouts` tells when the mission has ended.
     """
-    if outcome.status != Status.DONE:
+    if outcome.status != MissionStatus.DONE:
         return False
     match outcome.kind:
-        case Kind.FIND:
+        case CommandKind.FIND:
             return truth == outcome.location and truth in outcome.visited
-        case Kind.TAKE:
+        case CommandKind.TAKE:
             return truth == HAND
-        case Kind.PUT_DOWN:
+        case CommandKind.PUT_DOWN:
             return truth not in (HAND, "")
         case _:
             return truth == DELIVERY
 
 
-ENDS: Mapping[Kind | None, tuple[str, ...]] = {Kind.FIND: (PERSON,), Kind.BRING: (DELIVERY,)}
+ENDS: Mapping[CommandKind | None, tuple[str, ...]] = {
+    CommandKind.FIND: (PERSON,),
+    CommandKind.BRING: (DELIVERY,),
+}
 """Where commands end, beyond the thing: the robot reports to the person, and brings to a table."""
 
 

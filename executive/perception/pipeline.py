@@ -1,4 +1,4 @@
-"""From pictures to things in the map: pure functions over arrays, and the Eyes that use them."""
+"""From pictures to things in the map: pure functions over arrays, and what uses them."""
 
 import logging
 import traceback
@@ -22,7 +22,7 @@ _EDGE_PIXELS = 3
 """A detection this near to the edge of the picture may go on beyond it."""
 
 
-class Eyes:
+class CameraPerception:
     """A camera and a detector: takes a picture, recognises, and finds where things are by depth.
 
     The picture is taken within `see`. What takes longer is computed meanwhile nothing moves.

@@ -1,5 +1,5 @@
 """Recorded missions run again."""
 
-from executive.replay.replay import Replay, replay
+from executive.replay.replaying import Replay, replay
 
 __all__ = ["Replay", "replay"]

@@ -86,7 +86,7 @@ class RecordedTime:
 
 
 class Absent:
-    """Stands in for robot, eyes, model and person: numbers requests, whose ends are recorded."""
+    """Stands in for robot, perception, model and person: numbers requests that end as recorded."""
 
     name = "absent"
     context_tokens = 4096

@@ -11,7 +11,7 @@ from executive.events import Event, Inbox, Started
 from executive.interfaces import Detector, Facts, User
 from executive.language.grammar import EnglishInterpreter
 from executive.loop import Executive
-from executive.perception.pipeline import Eyes
+from executive.perception.pipeline import CameraPerception
 from executive.records import Record, Tick, Verified
 from executive.situation import Situation
 from executive.types import Goal, Outcome
@@ -21,11 +21,11 @@ from kb.llm.scripted import Scripted as ScriptedModel
 from kb.ontology.ontology import Ontology
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.faults.fake import FaultyFakeRobot
-from sim.faults.injector import FaultyCamera, FaultyDetector, Mishaps
+from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import parse_faults
 from sim.home.home import Home, load_home
+from trees.context import MissionContext, NoFacts, Parameters
 from trees.mission import mission
-from trees.team import NoFacts, Rules, Team
 from trees.tree import MissionTree
 
 
@@ -94,7 +94,7 @@ def run_mission(
     mishaps: Iterable[str] = (),
     seed: int = 0,
     during: Callable[[Goal, Inbox], None] = lambda goal, inbox: None,
-    rules: dict[str, Any] | None = None,
+    parameters: dict[str, Any] | None = None,
     person: Callable[[Inbox], User] | None = None,
     model: Callable[[Inbox], ScriptedModel] | None = None,
     first: Iterable[Event] = (),
@@ -115,7 +115,7 @@ def run_mission(
     recogniser = detector(world)
     robot = FakeRobot(world)
     if mishaps:
-        faults = Mishaps(parse_faults(mishaps, home), notebook, clock.now, seed)
+        faults = FaultInjector(parse_faults(mishaps, home), notebook, clock.now, seed)
         robot = FaultyFakeRobot(world, faults)
         camera = FaultyCamera(camera, faults)  # type: ignore[assignment]
         recogniser = FaultyDetector(recogniser, faults, tuple(home.objects))
@@ -139,23 +139,23 @@ def run_mission(
     if llm:
         thinker = model(inbox) if model else ScriptedModel(replies, inbox)
     knowledge = ontology(defaults)
-    team = Team(
+    context = MissionContext(
         situation=situation,
         clock=clock,
         recorder=notebook,
         interpreter=EnglishInterpreter(),
         knowledge=knowledge,
         robot=robot,
-        eyes=Eyes(camera, recogniser, inbox, notebook),
+        perception=CameraPerception(camera, recogniser, inbox, notebook),
         user=user,
         model=thinker,
         advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,
-        rules=Rules(elicit=elicit, **(rules or {})),
+        parameters=Parameters(elicit=elicit, **(parameters or {})),
         facts=facts or NoFacts(),
         near_person=near_person(home),
     )
     executive = Executive(
-        MissionTree(mission(team)),
+        MissionTree(mission(context)),
         situation,
         inbox=inbox,
         clock=clock,

@@ -12,7 +12,7 @@ from executive.interfaces import Facts, LanguageModel
 from executive.types import (
     Candidate,
     ChatRequest,
-    Kind,
+    CommandKind,
     Message,
     Place,
     RankRequest,
@@ -20,7 +20,7 @@ from executive.types import (
     Verdict,
 )
 from kb.advice import commands, ranking, verification
-from kb.advice.history import Memory, history_budget
+from kb.advice.history import DialogueHistory, history_budget
 from kb.advice.large_homes import Alike, as_many_as_fit, fits, of_all_kinds
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import Known
@@ -66,7 +66,7 @@ class PlaceAdvisor:
             home = self._prompts.rooms(self._choices())
         self._system = Message("system", home)
         self._scored_alike: dict[tuple[str, ...], Alike] = {}
-        self._memory: Memory | None = None
+        self._memory: DialogueHistory | None = None
 
     def inquiry(self, name: str, among: tuple[str, ...]) -> ChatRequest:
         """`general_pos`, or `multiple_pos` when `among` is given."""
@@ -108,7 +108,7 @@ class PlaceAdvisor:
         if self._memory is None:
             system = self._model.count_tokens(self._system.content)
             budget = history_budget(self._model.context_tokens, system)
-            self._memory = Memory(budget, self._model.count_tokens)
+            self._memory = DialogueHistory(budget, self._model.count_tokens)
         self._memory.add(request.messages[-1].content, reply)
 
     def read(self, reply: str) -> tuple[str, ...] | None:
@@ -123,7 +123,7 @@ class PlaceAdvisor:
         """Score what the words may ask the robot to do."""
         return commands.rank_request(words, self._prompts.understanding)
 
-    def command_ranked(self, scored: Scored) -> Kind:
+    def command_ranked(self, scored: Scored) -> CommandKind:
         """The likeliest of these kinds of command."""
         return commands.likeliest(scored)
 
@@ -132,8 +132,8 @@ class PlaceAdvisor:
         objects = self._ontology.objects()
         return commands.chat_request(words, objects, self._prompts.understanding)
 
-    def command_read(self, reply: str) -> tuple[Kind, str] | None:
-        """Kind and object of the reply, if it has the format and the object exists."""
+    def command_read(self, reply: str) -> tuple[CommandKind, str] | None:
+        """CommandKind and object of the reply, if it has the format and the object exists."""
         asked = commands.read(reply)
         if asked is None or len(self._ontology.objects_named(asked.object)) != 1:
             return None

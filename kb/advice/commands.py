@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
 
-from executive.types import SEARCHING, ChatRequest, Kind, RankRequest, Scored
+from executive.types import SEARCHING, ChatRequest, CommandKind, RankRequest, Scored
 from kb.advice.prompts import Understanding
 from kb.advice.verification import last_first
 
@@ -19,7 +19,7 @@ class Asked(BaseModel):
 
     model_config = ConfigDict(frozen=True)
 
-    kind: Kind
+    kind: CommandKind
     object: str
 
     @field_validator("kind", mode="before")
@@ -69,7 +69,7 @@ def chat_request(words: str, objects: Sequence[str], texts: Understanding) -> Ch
     return ChatRequest("command", texts.inquiry(words, objects, held), held)
 
 
-def likeliest(scored: Scored) -> Kind:
+def likeliest(scored: Scored) -> CommandKind:
     """The kind with the highest score; the first of equals."""
     best = max(range(len(scored.scores)), key=scored.scores.__getitem__)
-    return Kind(scored.request.places[best])
+    return CommandKind(scored.request.places[best])

@@ -19,7 +19,7 @@ def history_budget(context_tokens: int, system_tokens: int) -> int:
     return max(0, int(free * _SHARE_OF_DIALOGUE))
 
 
-class Memory:
+class DialogueHistory:
     """Exchanges, oldest first; the oldest are forgotten, each as a whole, to keep to the budget."""
 
     def __init__(self, budget: int, count: Callable[[str], int]) -> None:

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, fie
 
 from executive.errors import InputError
 from executive.toml_file import read_toml
-from executive.types import SEARCHING, Kind, Message, Place
+from executive.types import SEARCHING, CommandKind, Message, Place
 from kb.advice.verification import Reply
 from kb.ontology.names import unique
 
@@ -68,13 +68,13 @@ class Understanding(_Part):
     system: str
     question: str
     neutral: str
-    answers: dict[Kind, str]
-    examples: tuple[tuple[str, Kind], ...]
+    answers: dict[CommandKind, str]
+    examples: tuple[tuple[str, CommandKind], ...]
     inquiry_system: str
 
     @field_validator("answers")
     @classmethod
-    def _answers_for_all(cls, answers: dict[Kind, str]) -> dict[Kind, str]:
+    def _answers_for_all(cls, answers: dict[CommandKind, str]) -> dict[CommandKind, str]:
         if missing := [kind for kind in SEARCHING if kind not in answers]:
             raise ValueError(f"there has to be an answer for {', '.join(missing)}")
         return answers

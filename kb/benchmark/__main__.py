@@ -30,8 +30,8 @@ from kb.advice.prompts import Prompts
 from kb.advice.ranking import Known
 from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
 from kb.benchmark.placements import Placements
-from kb.benchmark.questions import DataSet, Question, placements, survey
-from kb.benchmark.trials import Answer, Journal, order, ranking, writing
+from kb.benchmark.questions import DataSet, Item, placements, survey
+from kb.benchmark.trials import Answer, Journal, descending, ranking, writing
 from kb.llm.key import Key
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.precedents import log_expected, shares, usual
@@ -59,7 +59,7 @@ Tables = dict[str, list[Row]]
 """By the names of the data sets."""
 
 
-def table(data: DataSet, ask: Callable[[Question], Answer] | None, journal: Journal) -> list[Row]:
+def table(data: DataSet, ask: Callable[[Item], Answer] | None, journal: Journal) -> list[Row]:
     """Every way of finding out, the model's by `ask`."""
     rows = list(baselines(data))
     if ask is None:
@@ -85,11 +85,11 @@ def baselines(data: DataSet) -> Iterator[Row]:
     if any(question.others for question in data.questions):
         counts = [usual(_shares(q.others, places)) for q in data.questions]
         alike = [_by_words(question, places) for question in data.questions]
-        yield Row(POPULARITY, _measured(data, [order(c, places) for c in counts]))
-        yield Row(WORDS, _measured(data, [order(a, places) for a in alike]))
+        yield Row(POPULARITY, _measured(data, [descending(c, places) for c in counts]))
+        yield Row(WORDS, _measured(data, [descending(a, places) for a in alike]))
     else:
         count = usual(_shares([q.thing for q in data.questions], places))
-        yield Row(HINDSIGHT, _measured(data, [order(count, places)] * len(data.questions)))
+        yield Row(HINDSIGHT, _measured(data, [descending(count, places)] * len(data.questions)))
 
 
 def _measured(data: DataSet, orders: Sequence[Sequence[str]]) -> Measures:
@@ -97,7 +97,7 @@ def _measured(data: DataSet, orders: Sequence[Sequence[str]]) -> Measures:
     return mean(measure(found, question.thing.places) for found, question in pairs)
 
 
-def _by_words(question: Question, places: Sequence[str]) -> Floats:
+def _by_words(question: Item, places: Sequence[str]) -> Floats:
     """What precedents say if things are alike that share words or a class."""
     things = (question.thing, *question.others)
     names = [words_of(thing.name) for thing in things]

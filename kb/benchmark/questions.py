@@ -18,7 +18,7 @@ HOME = ("home", "Room")
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class Item:
     """Where is this thing? Its places are the right answer; others may be used to work it out."""
 
     thing: Known
@@ -39,7 +39,7 @@ class DataSet:
     name: str
     title: str
     answers: tuple[tuple[Place, str], ...]
-    questions: tuple[Question, ...]
+    questions: tuple[Item, ...]
 
     @property
     def places(self) -> tuple[Place, ...]:
@@ -56,17 +56,13 @@ def survey(rest: bool = False) -> DataSet:
     told = Ontology()
     places = [Place(*map(str, row)) for row in told.query(SURVEYED).rows]
     ontology = Ontology(places, defaults=False)
-    rows = [
-        Known(name, told.classes_of(name)[0], told.default_locations(name)) for name in _rows(told)
-    ]
+    rows = [Known(name, told.classes_of(name)[0], told.among(name)) for name in _rows(told)]
     return DataSet(
         "survey-rest" if rest else "survey",
         "the paper's survey, "
         + ("the other rows are recorded" if rest else "no default location is recorded"),
         tuple((place, answer(place, ontology.preposition(place))) for place in places),
-        tuple(
-            Question(row, tuple(other for other in rows if rest and other != row)) for row in rows
-        ),
+        tuple(Item(row, tuple(other for other in rows if rest and other != row)) for row in rows),
     )
 
 
@@ -87,7 +83,7 @@ def placements(data: Placements, fold: str, new: bool = False) -> DataSet:
             for name in data.places()
         ),
         tuple(
-            Question(thing, known)
+            Item(thing, known)
             for thing in data.folds[fold]
             if words_of(thing.name)[-1] not in nouns
         ),
@@ -98,7 +94,7 @@ def _rows(ontology: Ontology) -> tuple[str, ...]:
     """One object of each row: a class of which all objects have the same default locations."""
     rows: dict[str, str] = {}
     for name in ontology.objects():
-        if ontology.default_locations(name):
+        if ontology.among(name):
             above = ontology.classes_of(name)[0]
-            rows.setdefault(above if ontology.default_locations(above) else name, name)
+            rows.setdefault(above if ontology.among(above) else name, name)
     return tuple(rows.values())

@@ -17,7 +17,7 @@ from executive.types import RankRequest, Replied, Scored, Usage
 from kb.advice.advisor import PlaceAdvisor
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import rank_request
-from kb.benchmark.questions import DataSet, Question
+from kb.benchmark.questions import DataSet, Item
 from kb.llm.precedents import shares, usual
 from kb.ontology.ontology import Ontology
 
@@ -46,7 +46,7 @@ class Answer:
     tokens: int
 
 
-Ask = Callable[[Question], Answer]
+Ask = Callable[[Item], Answer]
 
 
 def ranking(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts) -> Ask:
@@ -59,19 +59,19 @@ def ranking(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts)
         assert isinstance(scored, Scored)
         return np.array(scored.scores), scored.usage
 
-    def ask(question: Question) -> Answer:
+    def ask(question: Item) -> Answer:
         request = rank_request(question.thing, data.answers, prompts.ranking, question.others)
         full, usage = scores(request)
         less, _ = scores(replace(request, precedents=()))
         plain, _ = scores(replace(request, precedents=(), neutral=()))
-        orders = {PLAIN: order(plain, names), NEUTRAL: order(less, names)}
+        orders = {PLAIN: descending(plain, names), NEUTRAL: descending(less, names)}
         if known := request.precedents:
             at = shares([precedent.places for precedent in known], names)
             of_no_kind = tuple(replace(precedent, kind="") for precedent in known)
             alike, _ = scores(replace(request, precedents=of_no_kind))
-            orders[COUNTS] = order(less + np.log(usual(at)), names)
-            orders[ALIKE] = order(alike, names)
-            orders[RANKED] = order(full, names)
+            orders[COUNTS] = descending(less + np.log(usual(at)), names)
+            orders[ALIKE] = descending(alike, names)
+            orders[RANKED] = descending(full, names)
         return Answer(question.thing.name, orders, usage.total_s, usage.evaluated_tokens)
 
     return ask
@@ -82,7 +82,7 @@ def writing(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts)
     ontology = Ontology(data.places, defaults=False)
     adviser = PlaceAdvisor(ontology, model, remembers=False, prompts=prompts)
 
-    def ask(question: Question) -> Answer:
+    def ask(question: Item) -> Answer:
         model.chat(adviser.inquiry(question.thing.name, ()))
         replied = _end(inbox)
         assert isinstance(replied, Replied)
@@ -94,7 +94,7 @@ def writing(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts)
     return ask
 
 
-def order(values: Floats, places: Sequence[str]) -> list[str]:
+def descending(values: Floats, places: Sequence[str]) -> list[str]:
     """The places, the highest value first; equals stay in their order."""
     return [places[i] for i in np.argsort(-values, kind="stable")]
 

@@ -141,7 +141,7 @@ class Ontology:
 
     def usual_places(self, name: str) -> tuple[str, ...]:
         """Default locations of the object or its nearest class; those in this home only."""
-        here = filter(self.has_place, self.default_locations(name))
+        here = filter(self.has_place, self.among(name))
         return tuple(sorted(here, key=self._order.__getitem__))
 
     def places_named(self, words: str) -> tuple[str, ...]:
@@ -175,7 +175,7 @@ class Ontology:
         """Other names of an object or a class, in any language."""
         return self._graph.called(self._thing(name)).synonyms
 
-    def default_locations(self, name: str) -> tuple[str, ...]:
+    def among(self, name: str) -> tuple[str, ...]:
         """Default locations of an object or its nearest class, in this home or not."""
         for thing in self._graph.upwards(self._thing(name)):
             if self._graph.values(thing, _class("hasDefaultLocation")):

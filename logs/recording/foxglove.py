@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from mimetypes import guess_type
-from pathlib import Path as FilePath
+from pathlib import Path
 
 from foxglove_schemas_protobuf.CameraCalibration_pb2 import CameraCalibration
 from foxglove_schemas_protobuf.Color_pb2 import Color as ColorMessage
@@ -22,7 +22,7 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from foxglove_schemas_protobuf.Vector3_pb2 import Vector3 as Vector3Message
 from google.protobuf.timestamp_pb2 import Timestamp
 
-from executive.records import Entity, Note, Path, Seen, Shape, Transform
+from executive.records import Entity, Note, PlannedPath, Seen, Shape, Transform
 from executive.types import Box, Color, Frame, Pose, Quaternion, Vector3
 from logs.images import jpeg
 
@@ -104,7 +104,7 @@ def scene_update(entities: Iterable[Entity], ns: int) -> SceneUpdate:
     return SceneUpdate(entities=[_entity(e, ns) for e in entities])
 
 
-def path_update(path: Path, ns: int) -> SceneUpdate:
+def path_update(path: PlannedPath, ns: int) -> SceneUpdate:
     """The planned way as a line a little above the floor; no points: the line is taken away."""
     if not path.points:
         return SceneUpdate(deletions=[SceneEntityDeletion(timestamp=timestamp(ns), id=PATH_ID)])
@@ -156,13 +156,13 @@ def _add_shape(message: SceneEntity, shape: Shape) -> None:
                 color=color,
                 override_color=not shape.mesh.endswith(".glb"),
                 media_type=guess_type(shape.mesh)[0] or "model/obj",
-                data=_mesh(FilePath(shape.mesh)),
+                data=_mesh(Path(shape.mesh)),
             )
         case kind:
             raise ValueError(f"shape of unknown kind {kind!r}: box, cylinder, sphere or mesh")
 
 
-def _mesh(file: FilePath) -> bytes:
+def _mesh(file: Path) -> bytes:
     try:
         return file.read_bytes()
     except OSError as error:

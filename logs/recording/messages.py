@@ -17,15 +17,15 @@ from executive.records import (
 from executive.types import (
     Candidate,
     ChatRequest,
-    Kind,
+    CommandKind,
     Message,
+    MissionStatus,
     Outcome,
     Precedent,
     RankRequest,
     Replied,
     Scored,
     Source,
-    Status,
     Usage,
 )
 from logs.recording.schema import MESSAGES, STATUS
@@ -302,10 +302,10 @@ def outcome_from_message(message: Any) -> Outcome:
     kind, source = optional("kind"), optional("source")
     return Outcome(
         command=message.command,
-        kind=Kind(kind) if kind else None,
+        kind=CommandKind(kind) if kind else None,
         target=optional("target"),
         object=optional("object"),
-        status=Status(message.status),
+        status=MissionStatus(message.status),
         reason=message.reason,
         source=Source(source) if source else None,
         location=optional("location"),

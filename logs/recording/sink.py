@@ -4,7 +4,7 @@ import mimetypes
 import os
 from collections.abc import Callable, Iterator, Mapping
 from datetime import datetime
-from pathlib import Path as FilePath
+from pathlib import Path
 from typing import Any
 
 from mcap.writer import Writer
@@ -16,8 +16,8 @@ from executive.records import (
     LlmCall,
     Mishap,
     Note,
-    Path,
     Picture,
+    PlannedPath,
     Record,
     Scene,
     Seen,
@@ -63,7 +63,7 @@ class McapSink:
 
     def __init__(
         self,
-        path: FilePath,
+        path: Path,
         started: datetime,
         attachments: Mapping[str, bytes],
         metadata: Mapping[str, str],
@@ -161,7 +161,7 @@ class McapSink:
                 yield "/camera/annotations", foxglove.image_annotations(record, taken)
             case Scene(entities):
                 yield "/scene", foxglove.scene_update(entities, ns)
-            case Path():
+            case PlannedPath():
                 yield "/scene", foxglove.path_update(record, ns)
             case Transforms(transforms):
                 yield "/tf", foxglove.frame_transforms(transforms, ns)
@@ -193,5 +193,5 @@ class McapSink:
 
 
 def _media_type(name: str) -> str:
-    suffix = FilePath(name).suffix
+    suffix = Path(name).suffix
     return _MEDIA_TYPES.get(suffix) or mimetypes.guess_type(name)[0] or "application/octet-stream"

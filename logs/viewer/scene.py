@@ -6,14 +6,14 @@ so entity paths carry no geometry.
 
 from collections.abc import Iterable, Sequence
 from itertools import groupby
-from pathlib import Path as FilePath
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import rerun as rr
 from scipy.spatial.transform import Rotation
 
-from executive.records import Entity, Path, Seen, Shape, Transform
+from executive.records import Entity, PlannedPath, Seen, Shape, Transform
 from executive.types import Color, Intrinsics, Pose
 from logs.viewer.timelines import At, time_columns
 
@@ -95,7 +95,7 @@ def _log_shapes(stream: rr.RecordingStream, entity: Entity, kind: str, shapes: l
 def _log_mesh(
     stream: rr.RecordingStream, path: str, frame: rr.CoordinateFrame, shape: Shape
 ) -> None:
-    if not FilePath(shape.mesh).is_file():
+    if not Path(shape.mesh).is_file():
         raise ValueError(f"the mesh {shape.mesh} is not there")
     turn = Rotation.from_quat(shape.pose.orientation)
     if shape.mesh.endswith(".glb"):
@@ -103,7 +103,7 @@ def _log_mesh(
     stream.log(
         path,
         frame,
-        rr.Asset3D(path=FilePath(shape.mesh), albedo_factor=_rgba(shape.color)),
+        rr.Asset3D(path=Path(shape.mesh), albedo_factor=_rgba(shape.color)),
         rr.InstancePoses3D(
             translations=[shape.pose.position],
             quaternions=[turn.as_quat()],
@@ -128,7 +128,7 @@ def send_transforms(stream: rr.RecordingStream, moved: Sequence[At[Transform]]) 
     )
 
 
-def log_path(stream: rr.RecordingStream, path: Path) -> None:
+def log_path(stream: rr.RecordingStream, path: PlannedPath) -> None:
     """Log the planned way as a line a little above the floor; no points: no line."""
     strips = [np.array(path.points) + (0.0, 0.0, 0.02)] if path.points else []
     stream.log(PLAN, rr.LineStrips3D(strips, colors=_PLANNED, radii=0.02))

@@ -2,7 +2,7 @@
 
 import atexit
 import threading
-from pathlib import Path as FilePath
+from pathlib import Path
 
 import rerun as rr
 
@@ -12,8 +12,8 @@ from executive.records import (
     LlmCall,
     Mishap,
     Note,
-    Path,
     Picture,
+    PlannedPath,
     Record,
     Scene,
     Seen,
@@ -50,7 +50,7 @@ class RerunSink:
     blueprint.
     """
 
-    def __init__(self, path: FilePath | None, *, view: bool = False) -> None:
+    def __init__(self, path: Path | None, *, view: bool = False) -> None:
         """Open the recording, named after the folder that it lies in.
 
         Args:
@@ -117,7 +117,7 @@ class RerunSink:
                 scene.log_scene(self._stream, entities)
                 self._candidates.place(entities)
                 self._stream.send_blueprint(blueprint.mission_blueprint(entities))
-            case Path():
+            case PlannedPath():
                 scene.log_path(self._stream, record)
             case Finished(outcome):
                 self._stream.log(blueprint.BELIEF, _document(markdown.outcome(outcome)))

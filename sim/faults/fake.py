@@ -1,10 +1,10 @@
-"""The robot of the instant world with mishaps: the same faults, as far as they make sense there."""
+"""The robot of the instant world with faults: the same faults, as far as they make sense there."""
 
 from collections.abc import Callable
 
 from executive.types import FLOOR, DriveTo, Failed, Goal, Pick, PutDown, Result
 from sim.fake import FakeRobot, FakeWorld
-from sim.faults.injector import Mishaps
+from sim.faults.injector import FaultInjector
 from sim.faults.orders import Blocked, Drop, Moved, Slip, Stuck
 from sim.home.floorplan import doors_between
 
@@ -12,10 +12,10 @@ from sim.home.floorplan import doors_between
 class FaultyFakeRobot(FakeRobot):
     """Implements Robot in an instant world that misbehaves whenever a goal ends."""
 
-    def __init__(self, world: FakeWorld, mishaps: Mishaps) -> None:
+    def __init__(self, world: FakeWorld, injector: FaultInjector) -> None:
         """Stand where the world says."""
         super().__init__(world)
-        self._mishaps = mishaps
+        self._injector = injector
 
     def _plan(self, goal: Goal) -> tuple[float, Callable[[], Result]]:
         delay, effect = super()._plan(goal)
@@ -27,11 +27,11 @@ class FaultyFakeRobot(FakeRobot):
         return delay, troubled
 
     def _move_things(self) -> None:
-        for fault in self._mishaps.due(Moved):
+        for fault in self._injector.due(Moved):
             if self._world.held == fault.thing:
-                self._mishaps.strike(fault, f"the robot has the {fault.thing}: it stays")
+                self._injector.strike(fault, f"the robot has the {fault.thing}: it stays")
             else:
-                self._mishaps.strike(fault, f"the {fault.thing} is taken to {fault.place}")
+                self._injector.strike(fault, f"the {fault.thing} is taken to {fault.place}")
                 self._world.things[fault.thing] = fault.place
 
     def _trouble(self, goal: Goal) -> Failed | None:
@@ -47,33 +47,33 @@ class FaultyFakeRobot(FakeRobot):
 
     def _dropped(self) -> Failed | None:
         held = self._world.held
-        due = self._mishaps.due(Drop) if held else ()
+        due = self._injector.due(Drop) if held else ()
         if not (held and due):
             return None
-        self._mishaps.strike(due[0], "the hand lets go")
+        self._injector.strike(due[0], "the hand lets go")
         self._world.held = None
         self._world.things[held] = FLOOR
         return Failed(f"the {held} fell from my hand", lost=True)
 
     def _shut_out(self, place: str) -> Failed | None:
         """Whether shut doors leave no way; where the robot comes by, they count as struck."""
-        shut = self._mishaps.active(Blocked)
+        shut = self._injector.active(Blocked)
         here = self._room_at(self._world.pose[:2])
         there = self._room_at(self._world.home.stand(place)[:2])
         if not shut or there in self._rooms_from(here, shut):
             return None
         for fault in shut:
-            self._mishaps.strike(fault, f"the door {fault.value} is shut")
+            self._injector.strike(fault, f"the door {fault.value} is shut")
         return Failed(f"the way to the {place} is blocked")
 
     def _slipped(self, name: str) -> Failed | None:
-        if self._world.held or not self._mishaps.draw(Slip, "the fingers slip"):
+        if self._world.held or not self._injector.draw(Slip, "the fingers slip"):
             return None
         return Failed(f"the {name} slipped from my fingers")
 
     def _stuck(self) -> Failed | None:
-        for fault in self._mishaps.active(Stuck):
-            self._mishaps.strike(fault, f"{fault.joint} of the arm is stuck")
+        for fault in self._injector.active(Stuck):
+            self._injector.strike(fault, f"{fault.joint} of the arm is stuck")
             return Failed(f"my arm does not follow: {fault.joint} is stuck")
         return None
 

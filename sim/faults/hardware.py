@@ -6,7 +6,7 @@ from pybullet_utils.bullet_client import BulletClient
 from executive.geometry import Floats
 from sim.body.base import CARRYING, CREEPING
 from sim.body.hardware import FINGER_TRAVEL, Hardware
-from sim.faults.injector import Mishaps
+from sim.faults.injector import FaultInjector
 from sim.faults.orders import Drop, Slip, Stuck
 
 GREASY = 0.01
@@ -16,23 +16,23 @@ _ON_THE_WAY_M_S = (CREEPING.speed + CARRYING.speed) / 2
 
 
 class FaultyHardware(Hardware):
-    """Hardware with mishaps."""
+    """Hardware with faults."""
 
     def __init__(
-        self, client: BulletClient, start: tuple[float, float, float], mishaps: Mishaps
+        self, client: BulletClient, start: tuple[float, float, float], injector: FaultInjector
     ) -> None:
         """Put the robot, folded, at (x, y, yaw) in `map`."""
-        self._mishaps = mishaps
+        self._injector = injector
         self._stuck_at: dict[Stuck, float] = {}
         super().__init__(client, start)
         self._friction = [client.getDynamicsInfo(self.body, pad)[1] for pad in self._fingers]
 
-    def suffer(self) -> None:
+    def misbehave(self) -> None:
         """What happens by itself; called once per control period."""
         self._stick()
-        for fault in self._mishaps.due(Drop):
+        for fault in self._injector.due(Drop):
             if self.touched() and np.hypot(*self.base_velocity[:2]) > _ON_THE_WAY_M_S:
-                self._mishaps.strike(fault, "the hand lets go")
+                self._injector.strike(fault, "the hand lets go")
                 super().open_fingers(2 * FINGER_TRAVEL)
 
     def command_arm(self, positions: Floats, velocities: Floats) -> None:
@@ -44,7 +44,7 @@ class FaultyHardware(Hardware):
 
     def squeeze(self, force: float) -> None:
         """Close the fingers; now and then there is grease on them."""
-        if self._mishaps.draw(Slip, "the fingers slip"):
+        if self._injector.draw(Slip, "the fingers slip"):
             self._use_friction([GREASY] * len(self._fingers))
         super().squeeze(force)
 
@@ -55,11 +55,11 @@ class FaultyHardware(Hardware):
         super().open_fingers(gap)
 
     def _stick(self) -> None:
-        active = self._mishaps.active(Stuck)
+        active = self._injector.active(Stuck)
         for fault in active:
             if fault not in self._stuck_at:
                 self._stuck_at[fault] = float(self.arm_positions[fault.index])
-                self._mishaps.strike(fault, f"{fault.joint} of the arm is stuck")
+                self._injector.strike(fault, f"{fault.joint} of the arm is stuck")
         for fault in [old for old in self._stuck_at if old not in active]:
             del self._stuck_at[fault]
 

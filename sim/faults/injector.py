@@ -21,7 +21,7 @@ F = TypeVar("F", bound=Fault)
 R = TypeVar("R", bound=Rated)
 
 
-class Mishaps:
+class FaultInjector:
     """Which faults are at work now. Each draws from chances of its own, which the seed sets."""
 
     def __init__(
@@ -73,20 +73,20 @@ class Mishaps:
 class FaultyCamera:
     """A Camera that may be blind or noisy."""
 
-    def __init__(self, camera: Camera, mishaps: Mishaps) -> None:
+    def __init__(self, camera: Camera, injector: FaultInjector) -> None:
         """Spoil the pictures of `camera`."""
         self._camera = camera
-        self._mishaps = mishaps
+        self._injector = injector
 
     def capture(self) -> Frame:
         """The picture of this moment, as far as there is one."""
         frame = self._camera.capture()
-        for fault in (*self._mishaps.due(Blind), *self._mishaps.due(Noise)):
-            self._mishaps.strike(fault, "the camera's pictures are spoilt")
-        if self._mishaps.active(Blind):
+        for fault in (*self._injector.due(Blind), *self._injector.due(Noise)):
+            self._injector.strike(fault, "the camera's pictures are spoilt")
+        if self._injector.active(Blind):
             return _black(frame)
-        for noise in self._mishaps.active(Noise):
-            frame = _noisy(frame, noise.deviation, self._mishaps.chance(noise))
+        for noise in self._injector.active(Noise):
+            frame = _noisy(frame, noise.deviation, self._injector.chance(noise))
         return frame
 
 
@@ -96,29 +96,29 @@ class FaultyDetector:
     What it takes a thing for is one of `names`.
     """
 
-    def __init__(self, detector: Detector, mishaps: Mishaps, names: Sequence[str]) -> None:
+    def __init__(self, detector: Detector, injector: FaultInjector, names: Sequence[str]) -> None:
         """Spoil what `detector` finds."""
         self._detector = detector
-        self._mishaps = mishaps
+        self._injector = injector
         self._names = names
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
         """What it makes of the picture."""
-        if self._mishaps.active(Blind):
+        if self._injector.active(Blind):
             return ()
         seen = (d for d in self._detector.detect(frame) if not self._overlooks(d))
         return tuple(self._confused(detection) for detection in seen)
 
     def _overlooks(self, detection: Detection) -> bool:
         what = f"the {detection.label} is overlooked"
-        return self._mishaps.draw(Miss, what) is not None
+        return self._injector.draw(Miss, what) is not None
 
     def _confused(self, detection: Detection) -> Detection:
-        fault = self._mishaps.draw(Confuse, f"the {detection.label} is taken for something else")
+        fault = self._injector.draw(Confuse, f"the {detection.label} is taken for something else")
         if fault is None:
             return detection
         others = [name for name in self._names if name != detection.label]
-        return replace(detection, label=str(self._mishaps.chance(fault).choice(others)))
+        return replace(detection, label=str(self._injector.chance(fault).choice(others)))
 
 
 def _black(frame: Frame) -> Frame:

@@ -12,7 +12,7 @@ from executive.types import Color, Pose
 from sim.body.skill import CONTROL_S
 from sim.bullet.bodies import create_body, frame_pose
 from sim.faults.hardware import FaultyHardware
-from sim.faults.injector import Mishaps
+from sim.faults.injector import FaultInjector
 from sim.faults.orders import Blocked, Crate, Moved
 from sim.home.floorplan import Door, doors_between, wall_axis, wall_lines
 from sim.home.furniture import box
@@ -29,7 +29,7 @@ _CELLAR = Pose((0.0, 0.0, -3.0))
 """Where crates wait that are not there yet."""
 
 
-class Poltergeist:
+class WorldFaults:
     """What happens in the world that no sensor or motor does."""
 
     def __init__(
@@ -38,7 +38,7 @@ class Poltergeist:
         home: Home,
         things: Mapping[int, str],
         hardware: FaultyHardware,
-        mishaps: Mishaps,
+        injector: FaultInjector,
     ) -> None:
         """Hang the doors that will be shut, open, and keep the crates ready.
 
@@ -47,17 +47,17 @@ class Poltergeist:
             home: its plan.
             things: names of the movable things by body id.
             hardware: the robot, which is not to be hit.
-            mishaps: what to do, and when.
+            injector: what to do, and when.
         """
         self._client = client
         self._home = home
         self._bodies = {name: body for body, name in things.items()}
         self._hardware = hardware
-        self._mishaps = mishaps
+        self._injector = injector
         self._slide = DOOR_SPEED_M_S * CONTROL_S
         self._shapes: dict[str, Shape] = {}
-        self._doors = {f: self._hang(f) for f in mishaps.ordered(Blocked)}
-        self._crates = {f: self._store(f) for f in mishaps.ordered(Crate)}
+        self._doors = {f: self._hang(f) for f in injector.ordered(Blocked)}
+        self._crates = {f: self._store(f) for f in injector.ordered(Crate)}
 
     def bodies(self) -> dict[int, str]:
         """Names of doors and crates by body id."""
@@ -70,9 +70,9 @@ class Poltergeist:
 
     def act(self) -> None:
         """Do what is due; called once per control period."""
-        self._hardware.suffer()
-        for moved in self._mishaps.due(Moved):
-            self._mishaps.strike(moved, self._move(moved))
+        self._hardware.misbehave()
+        for moved in self._injector.due(Moved):
+            self._injector.strike(moved, self._move(moved))
         for fault, leaf in self._doors.items():
             self._slide_door(fault, leaf)
         for crate, body in self._crates.items():
@@ -100,11 +100,11 @@ class Poltergeist:
         return _Leaf(door, self._build(fault, *_leaf_shape(self._home, door)))
 
     def _slide_door(self, fault: Blocked, leaf: "_Leaf") -> None:
-        shut = fault in self._mishaps.active(Blocked)
+        shut = fault in self._injector.active(Blocked)
         if shut and leaf.open == leaf.door.width:
             if self._robot_is_at(leaf.door.position):
                 return
-            self._mishaps.strike(fault, f"the door {fault.value} is shut")
+            self._injector.strike(fault, f"the door {fault.value} is shut")
         left = np.clip((0.0 if shut else leaf.door.width) - leaf.open, -self._slide, self._slide)
         if left:
             leaf.open += float(left)
@@ -118,11 +118,11 @@ class Poltergeist:
 
     def _place_crate(self, fault: Crate, body: int) -> None:
         there = frame_pose(self._client, body) != _CELLAR
-        wanted = fault in self._mishaps.active(Crate)
+        wanted = fault in self._injector.active(Crate)
         if wanted == there or (wanted and self._robot_is_at((fault.x, fault.y))):
             return
         if wanted:
-            self._mishaps.strike(fault, f"a crate stands at {fault.value}")
+            self._injector.strike(fault, f"a crate stands at {fault.value}")
         self._put(body, Pose((fault.x, fault.y, 0.0)) if wanted else _CELLAR)
 
     # --- helpers ---

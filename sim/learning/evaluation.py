@@ -29,7 +29,7 @@ from executive.types import Box, Detection, Frame
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.metrics import ClassReport, Ints, Judged, by_class, confusion, match
 from sim.learning.scenes import Scene, SceneMaker
-from sim.manipulation.registration import locate as fit
+from sim.manipulation.registration import fit_pose
 from sim.objects.objects import load_objects
 
 LEAST_REPORTED = 0.02
@@ -85,7 +85,7 @@ def _errors(picture: Judged, frame: Frame, scene: Scene) -> Iterator[float]:
         truth = scene.truths[thing]
         seen = locate(Detection(truth.name, score, box, segment(frame, box)), frame)
         points, eye = np.asarray(seen.points, np.float64), np.asarray(frame.pose.position)
-        pose = fit(load_objects()[truth.name], points, eye)
+        pose = fit_pose(load_objects()[truth.name], points, eye)
         off = np.subtract(pose.position, truth.pose.position)
         yield 1000 * float(np.hypot(off[0], off[1]))
 

@@ -36,7 +36,7 @@ from sim.manipulation.reaching import (
     plan_reach,
     plan_retreat,
 )
-from sim.manipulation.registration import locate_fallen
+from sim.manipulation.registration import fit_fallen_pose
 from sim.manipulation.surroundings import Surroundings, support
 from sim.objects.objects import ObjectModel
 from sim.objects.solids import sample_surface
@@ -130,7 +130,7 @@ class Manipulator:
         else:
             yield from self._look_at(np.median(points, axis=0))
         eye = np.asarray(self._hardware.link_pose("camera_link").position)
-        lies = partial(locate_fallen, model, points, eye, support(piece, points))
+        lies = partial(fit_fallen_pose, model, points, eye, support(piece, points))
         model, pose = yield from self._thinker.compute(lies)
         grasp, approach = yield from self._choose_grasp(model, pose, points, piece)
         yield from self._creep(approach.stance)

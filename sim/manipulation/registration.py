@@ -29,17 +29,17 @@ _NOISE_M = 0.003
 Off = Callable[[Floats], Floats]
 
 
-def locate(model: ObjectModel, points: Floats, eye: Floats) -> Pose:
+def fit_pose(model: ObjectModel, points: Floats, eye: Floats) -> Pose:
     """The pose in `map` of an upright thing that fits its visible points (n, 3) best.
 
     Fits x, y, z and yaw so that the points lie on the side of the model that `eye` (3,), where the
     camera is in `map`, can see. The yaw of a thing that looks the same from several sides is one of
     several.
     """
-    return _locate(model, points, eye)[0]
+    return _fit_pose(model, points, eye)[0]
 
 
-def locate_fallen(
+def fit_fallen_pose(
     model: ObjectModel, points: Floats, eye: Floats, support: float
 ) -> tuple[ObjectModel, Pose]:
     """How a thing lies on what is `support` high (metres), and where.
@@ -49,7 +49,7 @@ def locate_fallen(
     """
     best, least = (model, Pose()), np.inf
     for form in forms(model):
-        pose, off = _locate(form, points, eye)
+        pose, off = _fit_pose(form, points, eye)
         off += abs(pose.position[2] - support)
         if off < _FITS_M:
             return form, pose
@@ -58,7 +58,7 @@ def locate_fallen(
     return best
 
 
-def _locate(model: ObjectModel, points: Floats, eye: Floats) -> tuple[Pose, float]:
+def _fit_pose(model: ObjectModel, points: Floats, eye: Floats) -> tuple[Pose, float]:
     """The best pose of an upright thing, and how far the points are off its surface (metres)."""
     order = np.random.default_rng(_SEED).permutation(len(points))
     few = np.asarray(points[order[:_POINTS]], dtype=np.float64)

@@ -4,7 +4,7 @@ from collections.abc import Callable, Generator
 
 from executive.geometry import Floats
 from executive.interfaces import Recorder
-from executive.records import Path
+from executive.records import PlannedPath
 from sim.body.base import BlockedError, Limits, drive
 from sim.body.hardware import Hardware
 from sim.body.laser import Laser
@@ -50,7 +50,7 @@ class Navigator:
         """
         for _ in range(WAYS_TRIED):
             way = yield from self._plan(goal[:2])
-            self._recorder.record(Path(tuple((x, y, 0.0) for x, y in way)))
+            self._recorder.record(PlannedPath(tuple((x, y, 0.0) for x, y in way)))
             try:
                 yield from drive(self._hardware, way, goal[2], limits, self._blocked)
                 return

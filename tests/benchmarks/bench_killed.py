@@ -17,7 +17,7 @@ from pathlib import Path
 
 from rerun.chunk import RrdReader
 
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 from logs.recording.reader import Run
 from logs.recording.recovery import recover
 

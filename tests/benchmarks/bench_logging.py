@@ -44,14 +44,14 @@ def settings(runs: Path) -> Settings:
 
 def mission(runs: Path, *, logged: bool) -> tuple[float, dict[str, list[float]], Path]:
     """Wall time (s), time of each record by kind (s), and the run's folder."""
-    working = session.working
+    working = session.open_sinks
     if not logged:
-        session.working = lambda *makers: list[Sink]()
+        session.open_sinks = lambda *makers: list[Sink]()
     ours = session.Session(settings(runs), out=io.StringIO())
     watch = RecordTimes(ours)
     outcome = ours.run(COMMAND)
     ours.close()
-    session.working = working
+    session.open_sinks = working
     return outcome.wall_time_s, watch.seconds, Path(outcome.run_dir or "")
 
 

@@ -11,13 +11,13 @@ from pathlib import Path
 
 from executive.events import Ended, Inbox
 from executive.language.grammar import EnglishInterpreter
-from executive.types import Kind, Scored
+from executive.types import CommandKind, Scored
 from kb.advice.advisor import PlaceAdvisor
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.ontology.ontology import Ontology
 
 DEV = {
-    Kind.FIND: (
+    CommandKind.FIND: (
         "The mug has vanished.",
         "Any idea where my scissors went?",
         "I can't see the hammer anywhere.",
@@ -27,7 +27,7 @@ DEV = {
         "I lost my tennis ball.",
         "Is the pitcher in the kitchen?",
     ),
-    Kind.TAKE: (
+    CommandKind.TAKE: (
         "Hold the hammer.",
         "Lift up the cracker box.",
         "Get hold of the mug.",
@@ -37,7 +37,7 @@ DEV = {
         "Seize the spatula.",
         "Pick the pear up.",
     ),
-    Kind.BRING: (
+    CommandKind.BRING: (
         "Hand me the spatula.",
         "Pass me the sugar.",
         "I am hungry, an apple would do.",
@@ -49,7 +49,7 @@ DEV = {
     ),
 }
 HELD_OUT = {
-    Kind.FIND: (
+    CommandKind.FIND: (
         "Where did I leave the mug?",
         "The scissors are missing.",
         "Tell me where the apple is.",
@@ -59,7 +59,7 @@ HELD_OUT = {
         "Check if the pudding box is around.",
         "My wrench has disappeared again.",
     ),
-    Kind.TAKE: (
+    CommandKind.TAKE: (
         "Clutch the banana.",
         "Would you hold on to the mug for me?",
         "Get the hammer into your gripper.",
@@ -69,7 +69,7 @@ HELD_OUT = {
         "Pick that orange up.",
         "Keep hold of the drill.",
     ),
-    Kind.BRING: (
+    CommandKind.BRING: (
         "Pass the mustard, please.",
         "I would love a peach.",
         "Deliver the mug to me.",
@@ -92,7 +92,7 @@ def main() -> None:
     model = LlamaCpp(given.model or embedded_model(), inbox)
     adviser, grammar = PlaceAdvisor(Ontology(), model, remembers=False), EnglishInterpreter()
 
-    def by_model(words: str) -> Kind:
+    def by_model(words: str) -> CommandKind:
         model.rank(adviser.command_ranking(words))
         inbox.wait(None)
         [event] = inbox.take_all()

@@ -11,7 +11,17 @@ from houses import House
 from executive.__main__ import converse
 from executive.events import THE_PERSON, StopRequested
 from executive.language.control import Control, control
-from executive.types import DriveTo, Failed, Goal, Halt, Outcome, Pick, PutDown, Status, Succeeded
+from executive.types import (
+    DriveTo,
+    Failed,
+    Goal,
+    Halt,
+    MissionStatus,
+    Outcome,
+    Pick,
+    PutDown,
+    Succeeded,
+)
 
 
 @pytest.fixture
@@ -141,16 +151,16 @@ def test_what_fails_before_anything_began_has_an_outcome_too(
     def fail(**parts: object) -> None:
         raise error
 
-    monkeypatch.setattr("executive.app.session.build_team", lambda *a, **k: fail())
+    monkeypatch.setattr("executive.app.session.build_context", lambda *a, **k: fail())
     if isinstance(error, Exception):
-        assert house.session.run("Find the mug").status == Status.NOT_DONE
+        assert house.session.run("Find the mug").status == MissionStatus.NOT_DONE
     else:
         with pytest.raises(KeyboardInterrupt):
             house.session.run("Find the mug")
     assert isinstance(house.goals[-1], Halt)
     assert written(house)["reason"].endswith("; I may not be at rest")
     monkeypatch.undo()
-    assert house.run("Find the mug").status == Status.DONE
+    assert house.run("Find the mug").status == MissionStatus.DONE
 
 
 # --- the hand ---
@@ -197,7 +207,7 @@ def test_a_pick_that_takes_too_long_with_nothing_in_the_hand_failed(house: House
 def test_what_the_fingers_do_not_let_go_of_was_not_brought(house: House) -> None:
     stands_in(house, PutDown, ends=Succeeded())
     outcome = house.run("Bring the mug")
-    assert outcome.status == Status.NOT_DONE
+    assert outcome.status == MissionStatus.NOT_DONE
     assert "my fingers do not let go of it" in outcome.reason
     assert "I still hold the mug" in outcome.reason
     assert hand_is_known(house)
@@ -222,7 +232,7 @@ def test_fingers_that_cannot_tell_any_more_are_not_asked_what_they_felt(
             return house.world.held is not None
 
     house.session.robot = Numb(house.session.robot)
-    assert house.run("Bring the mug").status == Status.DONE
+    assert house.run("Bring the mug").status == MissionStatus.DONE
     assert hand_is_known(house)
 
 
@@ -242,7 +252,7 @@ def test_a_place_has_at_least_one_view(views: Any, house: House) -> None:
             return views
 
     house.session.robot = Odd(house.session.robot)
-    assert house.run("Find the mug").status == Status.DONE
+    assert house.run("Find the mug").status == MissionStatus.DONE
 
 
 def test_what_was_let_go_of_too_late_is_said_to_be_out_of_the_hand(house: House) -> None:
@@ -265,6 +275,6 @@ def test_what_was_let_go_of_too_late_is_said_to_be_out_of_the_hand(house: House)
 
 def test_a_stop_before_words_that_are_too_long_does_not_stop_the_next_mission(house: House) -> None:
     house.inbox.post(StopRequested("SIGTERM"))
-    assert house.session.run("x" * 3000).status == Status.NOT_UNDERSTOOD
+    assert house.session.run("x" * 3000).status == MissionStatus.NOT_UNDERSTOOD
     assert house.session.stopped_by == "SIGTERM"
-    assert house.session.run("Find the mug").status == Status.DONE
+    assert house.session.run("Find the mug").status == MissionStatus.DONE

@@ -12,7 +12,7 @@ import pytest
 from executive.config import Settings
 from executive.events import THE_PERSON, Ended, Event, Inbox, StopRequested
 from executive.text import LONGEST
-from executive.types import Answered, Failed, Outcome, Question, QuestionKind, Status
+from executive.types import Answered, Failed, MissionStatus, Outcome, Question, QuestionKind
 from executive.user import BUSY, FORGOTTEN, MOST_LINES, NOTHING_TO_STOP, STOPPING, Console
 
 WHERE = Question(QuestionKind.WHERE_IS, "mug", "Where is the mug?")
@@ -239,12 +239,12 @@ def run(words: str) -> Outcome:
 
 def test_words_that_say_stop_are_a_mission_that_is_over() -> None:
     outcome = run("please stop")
-    assert (outcome.status, outcome.visited) == (Status.STOPPED, ())
+    assert (outcome.status, outcome.visited) == (MissionStatus.STOPPED, ())
 
 
 def test_words_that_are_too_long_are_not_understood_at_once() -> None:
     outcome = run("!" * 20_000)
-    assert outcome.status == Status.NOT_UNDERSTOOD
+    assert outcome.status == MissionStatus.NOT_UNDERSTOOD
     assert "too long" in outcome.reason
 
 

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from executive.app.session import Session
 from executive.config import Settings
 from executive.events import Broke, StopRequested
-from executive.replay.replay import replay
-from executive.types import DriveTo, Failed, Goal, Halt, Status
+from executive.replay.replaying import replay
+from executive.types import DriveTo, Failed, Goal, Halt, MissionStatus
 from logs.recording.reader import Run
 from trees.robot import SeeTarget
 
@@ -51,7 +51,7 @@ def test_several_stops_at_once_are_one(house: House) -> None:
 
 def test_a_stop_before_the_mission_stops_it_before_anything_is_done(house: House) -> None:
     house.inbox.post(StopRequested("SIGTERM"))
-    assert house.run().status == Status.STOPPED
+    assert house.run().status == MissionStatus.STOPPED
     assert house.goals == [Halt()]
 
 
@@ -64,15 +64,15 @@ def test_a_stop_after_all_is_done_undoes_nothing_and_stops_no_other_mission(hous
             house.inbox.post(StopRequested("the person"))
 
     house.session.user.tell = told  # type: ignore[method-assign]
-    assert house.run().status == Status.DONE
+    assert house.run().status == MissionStatus.DONE
     assert isinstance(house.events()[-1], StopRequested)
-    assert house.run("Bring the power_drill").status == Status.DONE
+    assert house.run("Bring the power_drill").status == MissionStatus.DONE
 
 
 def test_what_an_earlier_mission_asked_for_is_not_delivered_to_the_next(house: House) -> None:
     late = house.inbox.open()
     house.inbox.end(late, Failed("too late"))
-    assert house.run().status == Status.DONE
+    assert house.run().status == MissionStatus.DONE
     assert "too late" not in str(house.events())
 
 
@@ -122,7 +122,7 @@ def test_a_robot_that_was_left_restless_is_halted_after_the_next_mission(house: 
 
 def test_a_drive_that_was_given_up_is_followed_by_a_halt(house: House) -> None:
     house.world.fault = lambda goal: "the way is blocked" if isinstance(goal, DriveTo) else None
-    assert house.run().status == Status.NOT_DONE
+    assert house.run().status == MissionStatus.NOT_DONE
     assert house.goals[-1] == Halt()
 
 
@@ -207,14 +207,14 @@ def test_logs_that_break_cost_no_mission(tmp_path: Path) -> None:
         out=io.StringIO(),
         sinks=[BrokenSink()],
     )
-    assert session.run("Take a power_drill").status == Status.DONE
+    assert session.run("Take a power_drill").status == MissionStatus.DONE
 
 
 def test_a_world_that_cannot_be_drawn_costs_no_mission(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(house.world, "describe", broken)
-    assert house.run("Find a unicorn").status == Status.NOT_DONE
+    assert house.run("Find a unicorn").status == MissionStatus.NOT_DONE
 
 
 # --- all of it, at random ---

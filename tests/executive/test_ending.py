@@ -12,7 +12,7 @@ from typing import IO
 
 import pytest
 
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 
 DOORS = ("executive", "executive.campaign", "kb", "logs", "sim", "trees", "kb.benchmark")
 ROBOT = [sys.executable, "-m", "executive", "--world", "fake", "--llm", "none"]

@@ -1,4 +1,4 @@
-"""Nothing that robot, eyes, person or model raise gets through: it is a failure in words."""
+"""Nothing that robot, perception, person or model raise gets through: it is a failure in words."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,8 +9,8 @@ from executive.errors import ExecutiveError
 from executive.events import Ended, Inbox
 from executive.guards import (
     LONGEST,
-    GuardedEyes,
     GuardedModel,
+    GuardedPerception,
     GuardedRecorder,
     GuardedRobot,
     GuardedUser,
@@ -82,7 +82,7 @@ def notebook() -> Notebook:
         (GuardedRobot, lambda robot: robot.start(DriveTo("desk")), "my base failed"),
         (GuardedRobot, lambda robot: robot.start(LookAt("desk", 0)), "my head failed"),
         (GuardedRobot, lambda robot: robot.start(PutDown("desk")), "my arm failed"),
-        (GuardedEyes, lambda eyes: eyes.see(), "my camera failed"),
+        (GuardedPerception, lambda perception: perception.see(), "my camera failed"),
         (GuardedUser, lambda user: user.ask(ASKED), "I cannot ask you"),
         (GuardedModel, lambda model: model.chat(CHAT), "my language model failed"),
         (GuardedModel, lambda model: model.rank(RANK), "my language model failed"),
@@ -104,7 +104,7 @@ def test_what_raises_when_it_is_asked_is_a_request_that_failed_in_words(
     assert not inbox.awaits_anything
 
 
-@pytest.mark.parametrize("guard", [GuardedRobot, GuardedEyes, GuardedUser, GuardedModel])
+@pytest.mark.parametrize("guard", [GuardedRobot, GuardedPerception, GuardedUser, GuardedModel])
 def test_what_raises_when_it_is_called_off_is_called_off_all_the_same(
     guard: Callable[..., Any], inbox: Inbox, notebook: Notebook
 ) -> None:
@@ -138,7 +138,7 @@ def test_what_gives_no_number_of_a_request_has_failed(
         def see(self) -> Any:
             return number
 
-    request = GuardedEyes(Vague(), inbox, notebook).see()
+    request = GuardedPerception(Vague(), inbox, notebook).see()
     assert inbox.is_open(request)
     assert ends(inbox)[0].reason.startswith("my camera failed: TypeError: ")
 

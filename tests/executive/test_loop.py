@@ -19,13 +19,13 @@ from executive.types import (
     Goal,
     Halt,
     LookAt,
+    MissionStatus,
     Pick,
     PutDown,
     Question,
     RankRequest,
     Scored,
     Source,
-    Status,
     Usage,
 )
 from kb.llm.scripted import Scripted as ScriptedModel
@@ -101,7 +101,7 @@ def test_while_a_person_thinks_there_is_no_tick() -> None:
     run = run_mission("Find a peach.", llm=False, person=person, notebook=notebook)
     [[before, after]] = counts
     assert before == after > 0
-    assert run.outcome.status == Status.DONE
+    assert run.outcome.status == MissionStatus.DONE
     assert run.outcome.mission_time_s > 0.25, "mission time holds the thinking"
     assert run.outcome.thinking_time_s == 0.0, "which was the person's, not the model's"
 
@@ -137,7 +137,10 @@ def test_stop_during_any_action_leaves_the_robot_at_rest(kind: type[Goal]) -> No
             inbox.post(StopRequested("the person"))
 
     run = run_mission("Bring a tennis_ball.", during=stop)
-    assert (run.outcome.status, run.outcome.reason) == (Status.STOPPED, "stopped by the person")
+    assert (run.outcome.status, run.outcome.reason) == (
+        MissionStatus.STOPPED,
+        "stopped by the person",
+    )
     assert isinstance(run.goals[-1], Halt)
     assert not run.world.busy
     assert not run.inbox.awaits_anything
@@ -155,13 +158,13 @@ def test_stop_while_the_person_is_asked_withdraws_the_question() -> None:
         return person
 
     run = run_mission("Find a peach.", llm=False, person=person)
-    assert run.outcome.status == Status.STOPPED
+    assert run.outcome.status == MissionStatus.STOPPED
     assert not run.inbox.awaits_anything
 
 
 def test_stop_before_the_first_tick_is_heard() -> None:
     run = run_mission("Find a peach.", first=[StopRequested("SIGTERM")])
-    assert (run.outcome.status, len(run.ticks)) == (Status.STOPPED, 0)
+    assert (run.outcome.status, len(run.ticks)) == (MissionStatus.STOPPED, 0)
 
 
 def test_pre_emption_is_seen_in_the_log() -> None:
@@ -184,10 +187,10 @@ def test_same_seed_and_answers_give_the_same_ticks_and_times() -> None:
 def test_a_goal_that_never_ends_is_given_up() -> None:
     run = run_mission(
         "Take a hammer.",
-        rules={"action_s": 0.1},
+        parameters={"action_s": 0.1},
         answers=[],
     )
-    assert run.outcome.status == Status.NOT_DONE
+    assert run.outcome.status == MissionStatus.NOT_DONE
     assert "took longer than 0.1 s" in run.outcome.reason
 
 

@@ -15,7 +15,7 @@ from executive.computing import Computation, GivenUpError, Worker, afterwards, s
 from executive.events import Inbox, StopRequested
 from executive.records import Mishap, Record, Seen
 from executive.testing.bench import Notebook, Run, run_mission
-from executive.types import Detection, Failed, Frame, Goal, LookAt, Status, Succeeded
+from executive.types import Detection, Failed, Frame, Goal, LookAt, MissionStatus, Succeeded
 from sim.fake import FakeDetector, FakeWorld
 
 PATIENCE_S = 20.0
@@ -58,7 +58,7 @@ def test_a_stop_is_heard_while_the_detector_thinks() -> None:
 
     run = run_mission("Find the mug", detector=stubborn, during=stop_then)
     assert not detectors[0].go_on.is_set()
-    assert run.outcome.status == Status.STOPPED
+    assert run.outcome.status == MissionStatus.STOPPED
     assert not run.inbox.awaits_anything
     detectors[0].go_on.set()
 
@@ -91,7 +91,7 @@ class Broken(FakeDetector):
 
 def test_a_detector_that_raises_is_told_and_ends_no_mission_with_an_error() -> None:
     run = run_mission("Find the mug", detector=Broken)
-    assert run.outcome.status == Status.NOT_DONE
+    assert run.outcome.status == MissionStatus.NOT_DONE
     assert "my eyes failed: no \\x1b[2Jsuch layer" in run.outcome.reason
 
 
@@ -215,7 +215,7 @@ def hang(frame):
     inbox.post(StopRequested("the person"))
     threading.Event().wait()
 
-session.eyes._detector.detect = hang
+session.perception._detector.detect = hang
 print(session.run("Find the mug").status)
 session.close()
 """

@@ -5,7 +5,7 @@ from pathlib import Path
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, StopRequested
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 from executive.types import Goal, Outcome
 from logs.recording.reader import Run
 from sim.fake import FakeWorld

@@ -2,7 +2,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from executive.testing.bench import four_rooms
-from executive.types import Kind, Source, Status
+from executive.types import CommandKind, MissionStatus, Source
 
 ALL = tuple(place.name for place in four_rooms().places())
 
@@ -24,9 +24,9 @@ class Case:
     says: str
     words: str
     given: dict[str, Any] = field(default_factory=dict)
-    status: Status = Status.DONE
+    status: MissionStatus = MissionStatus.DONE
     object: str | None = None
-    kind: Kind | None = None
+    kind: CommandKind | None = None
     location: str | None = None
     source: Source | None = None
     visited: tuple[str, ...] | None = None
@@ -297,7 +297,7 @@ CASES = [
         "Come with the hammer!",
         {"answers": ["yes"], "replies": [(0.0, 0.5, 2.0)]},
         object="hammer",
-        kind=Kind.BRING,
+        kind=CommandKind.BRING,
         inquiries=1,
         llm_calls=1,
     ),
@@ -306,7 +306,7 @@ CASES = [
         "My nails need driving in with a hammer.",
         GENERATE | {"answers": ["yes"], "replies": ['{"kind": "take", "object": "hammer"}']},
         object="hammer",
-        kind=Kind.TAKE,
+        kind=CommandKind.TAKE,
         inquiries=1,
         llm_calls=1,
     ),
@@ -315,7 +315,7 @@ CASES = [
         "Has anyone seen hammer and drill?",
         {"answers": ["yes", "drill"], "replies": [(2.0, 0.5, 0.0)]},
         object="power_drill",
-        kind=Kind.FIND,
+        kind=CommandKind.FIND,
         inquiries=2,
         llm_calls=1,
     ),

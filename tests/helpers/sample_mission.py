@@ -15,8 +15,8 @@ from executive.records import (
     NodeShape,
     NodeState,
     Note,
-    Path,
     Picture,
+    PlannedPath,
     Record,
     Scene,
     Seen,
@@ -32,11 +32,12 @@ from executive.types import (
     Box,
     Candidate,
     ChatRequest,
+    CommandKind,
     Detection,
     Frame,
     Intrinsics,
-    Kind,
     Message,
+    MissionStatus,
     Outcome,
     Pose,
     Precedent,
@@ -44,7 +45,6 @@ from executive.types import (
     Replied,
     Scored,
     Source,
-    Status,
     Succeeded,
     Usage,
 )
@@ -185,10 +185,10 @@ def outcome() -> Outcome:
     """It was brought."""
     return Outcome(
         command=WORDS,
-        kind=Kind.BRING,
+        kind=CommandKind.BRING,
         target="sugar_box",
         object="sugar_box",
-        status=Status.DONE,
+        status=MissionStatus.DONE,
         reason="",
         source=Source.LLM,
         location="cupboard",
@@ -220,7 +220,7 @@ def mission() -> Iterator[tuple[float, Record]]:
         2.0,
         tick(1, "mission/drive", running, done, done, running, "INVALID", candidates=CANDIDATES),
     )
-    yield 2.0, Path(((-2.0, 0.0, 0.0), (0.0, 0.5, 0.0), (1.0, 0.0, 0.0)))
+    yield 2.0, PlannedPath(((-2.0, 0.0, 0.0), (0.0, 0.5, 0.0), (1.0, 0.0, 0.0)))
     for step in range(1, 7):
         yield 2.0 + step / 2, robot_at(-2.0 + step / 2)
     yield 5.0, EventTaken(Ended(3, Succeeded()))

@@ -17,7 +17,7 @@ from kb.advice.ranking import Known
 from kb.benchmark.__main__ import CHANCE, HINDSIGHT, POPULARITY, WORDS, table
 from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
 from kb.benchmark.placements import Placements, preposition
-from kb.benchmark.questions import DataSet, Question, placements, survey
+from kb.benchmark.questions import DataSet, Item, placements, survey
 from kb.benchmark.trials import (
     ALIKE,
     COUNTS,
@@ -279,8 +279,8 @@ def test_the_embedded_model_learns_from_what_is_known(file, capsys):
         "two",
         "",
         ((home, "in the fridge in the kitchen"), (shelf, "on the shelf in the garage")),
-        (Question(Known("cheese", "", ("fridge",)), others),
-         Question(Known("pliers", "", ("shelf",)), others)),
+        (Item(Known("cheese", "", ("fridge",)), others),
+         Item(Known("pliers", "", ("shelf",)), others)),
     )  # fmt: skip
     inbox = Inbox()
     with benchmark.closing(benchmark._model(benchmark.parser().parse_args([]), inbox)) as model:

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from executive.app.parts import furniture_at
 from executive.errors import InputError
 from executive.testing.bench import Run, four_rooms, run_mission
-from executive.types import DriveTo, LookAt, Pick, PutDown, Source, Status
+from executive.types import DriveTo, LookAt, MissionStatus, Pick, PutDown, Source
 from kb.__main__ import main
 from kb.facts import Fact, FactKind, FactStore
 
@@ -246,7 +246,7 @@ def test_a_thing_that_was_not_grasped_or_not_put_down_is_not_remembered_so(
     run = run_mission(
         "Bring a hammer.", fault=lambda g: "no" if isinstance(g, goal) else None, facts=facts
     )
-    assert run.outcome.status == Status.NOT_DONE
+    assert run.outcome.status == MissionStatus.NOT_DONE
     assert facts.places_of("hammer") == places
 
 

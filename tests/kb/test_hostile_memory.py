@@ -13,7 +13,7 @@ import pytest
 
 from executive.errors import InputError
 from executive.testing.bench import run_mission
-from executive.types import Status
+from executive.types import MissionStatus
 from kb.__main__ import main
 from kb.facts import FactStore
 from kb.facts_file import APPLICATION_ID
@@ -187,7 +187,7 @@ def test_what_fails_in_the_middle_is_told_once_and_the_mission_goes_on(
     store = FactStore(tmp_path / "facts.sqlite")
     store._database.execute("PRAGMA query_only = on")
     run = run_mission("Bring a hammer.", facts=store)
-    assert run.outcome.status == Status.DONE
+    assert run.outcome.status == MissionStatus.DONE
     assert [r.message for r in caplog.records if "facts.sqlite" in r.message] == [
         r.message for r in caplog.records
     ][:1]

@@ -7,7 +7,7 @@ from executive.events import Inbox
 from executive.testing.bench import ontology
 from executive.types import Message
 from kb.advice.advisor import PlaceAdvisor
-from kb.advice.history import Memory, history_budget
+from kb.advice.history import DialogueHistory, history_budget
 from kb.llm.scripted import Scripted
 
 
@@ -29,7 +29,7 @@ def test_a_system_prompt_that_fills_half_the_window_leaves_no_memory():
 
 
 def test_the_oldest_exchange_is_forgotten_first_and_as_a_whole():
-    memory = Memory(6, words)
+    memory = DialogueHistory(6, words)
     memory.add("a b", "c")
     memory.add("d", "e f")
     memory.add("g", "h i")
@@ -43,7 +43,7 @@ def test_the_oldest_exchange_is_forgotten_first_and_as_a_whole():
 
 @given(st.integers(0, 30), st.lists(st.tuples(st.text("a "), st.text("b "))))
 def test_the_history_keeps_to_the_budget_and_to_whole_exchanges(budget, exchanges):
-    memory = Memory(budget, words)
+    memory = DialogueHistory(budget, words)
     for inquiry, reply in exchanges:
         memory.add(inquiry, reply)
     turns = memory.messages()

@@ -62,12 +62,12 @@ def test_the_objects_are_those_of_the_paper():
 
 @pytest.mark.parametrize(("name", "places"), SURVEY.items())
 def test_default_locations_are_those_of_the_survey(name, places):
-    assert KNOWN.default_locations(name) == tuple(places.split())
+    assert KNOWN.among(name) == tuple(places.split())
 
 
 def test_a_thing_takes_its_default_locations_from_its_nearest_class_that_has_any():
-    assert KNOWN.default_locations("apple") == KNOWN.default_locations("fruit") != ()
-    assert KNOWN.default_locations("tennis_ball") == ("shelf_lobby",)
+    assert KNOWN.among("apple") == KNOWN.among("fruit") != ()
+    assert KNOWN.among("tennis_ball") == ("shelf_lobby",)
 
 
 def test_without_defaults_nothing_is_usually_anywhere():

@@ -14,7 +14,7 @@ from watching import watched
 import kb.ontology.owl
 from executive.__main__ import main as mission
 from executive.errors import InputError
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 from kb.__main__ import main
 from kb.ontology import bounds, graph
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
@@ -122,7 +122,7 @@ def test_the_replay_of_a_recording_that_carries_it_runs_nothing(guest, monkeypat
 
 
 def executive_replay_forgets() -> None:
-    from executive.replay.replay import _ontology
+    from executive.replay.replaying import _ontology
 
     _ontology.cache_clear()
 

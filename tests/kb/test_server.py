@@ -13,7 +13,7 @@ from llama_server import ALIAS, llama_server
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
-from executive.types import ChatRequest, Failed, Message, Replied, Result, Status
+from executive.types import ChatRequest, Failed, Message, MissionStatus, Replied, Result
 from kb.advice.advisor import PlaceAdvisor
 from kb.llm.server import asking
 from kb.llm.server.server import Server
@@ -94,7 +94,7 @@ def test_a_mission_is_done_with_a_real_server(url: str, tmp_path: Path) -> None:
     session = Session(settings, out=io.StringIO())
     outcome = session.run("Find an apple.")
     session.close()
-    assert outcome.status == Status.DONE
+    assert outcome.status == MissionStatus.DONE
     assert outcome.llm_calls >= 1
 
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from executive.events import Inbox
 from executive.testing.bench import ontology
-from executive.types import SEARCHING, Kind, Scored, Usage
+from executive.types import SEARCHING, CommandKind, Scored, Usage
 from kb.advice import commands
 from kb.advice.advisor import PlaceAdvisor
 from kb.llm.scripted import Scripted
@@ -28,14 +28,17 @@ def test_the_likeliest_kind_is_taken() -> None:
     request = ADVISOR.command_ranking("Come with the hammer!")
     assert request.options[1] == "I take it in my hand."
     assert request.places == SEARCHING
-    assert ADVISOR.command_ranked(Scored(request, (0.1, 0.3, 0.2), Usage())) == Kind.TAKE
+    assert ADVISOR.command_ranked(Scored(request, (0.1, 0.3, 0.2), Usage())) == CommandKind.TAKE
 
 
 @pytest.mark.parametrize(
     ("reply", "command"),
     [
-        ('{"kind": "bring", "object": "apple"}', (Kind.BRING, "apple")),
-        ('Sure! ```{"kind": "find", "object": "the Sugar Box"}```', (Kind.FIND, "sugar_box")),
+        ('{"kind": "bring", "object": "apple"}', (CommandKind.BRING, "apple")),
+        (
+            'Sure! ```{"kind": "find", "object": "the Sugar Box"}```',
+            (CommandKind.FIND, "sugar_box"),
+        ),
         ('{"kind": "bring", "object": "crown"}', None),
         ('{"kind": "bring", "object": "fruit"}', None),
         ('{"kind": "steal", "object": "apple"}', None),
@@ -45,7 +48,7 @@ def test_the_likeliest_kind_is_taken() -> None:
     ],
 )
 def test_only_a_known_kind_with_one_known_object_is_read(
-    reply: str, command: tuple[Kind, str] | None
+    reply: str, command: tuple[CommandKind, str] | None
 ) -> None:
     assert ADVISOR.command_read(reply) == command
 

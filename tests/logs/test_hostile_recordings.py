@@ -335,7 +335,7 @@ def test_a_replay_opens_nothing_that_the_recorded_settings_name(
 ) -> None:
     from replays import recorded
 
-    from executive.replay.replay import replay
+    from executive.replay.replaying import replay
 
     original = Run(recorded(tmp_path / "runs", "Find a hammer", llm=False))
     bait = tmp_path / "bait"

@@ -11,8 +11,17 @@ from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 from sample_mission import STARTED, detection, frame, mission, robot_at, scene
 
-from executive.records import Entity, Picture, Record, Scene, Seen, Shape, Transform, Transforms
-from executive.records import Path as PlannedPath
+from executive.records import (
+    Entity,
+    Picture,
+    PlannedPath,
+    Record,
+    Scene,
+    Seen,
+    Shape,
+    Transform,
+    Transforms,
+)
 from executive.types import Pose
 from logs.recorder import Stamp
 from logs.recording.sink import TOPICS, McapSink

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from executive.testing.bench import Run, run_mission
-from executive.types import Box, Detection, Frame, Kind, LookAt, Status
+from executive.types import Box, CommandKind, Detection, Frame, LookAt, MissionStatus
 from kb.facts import FactStore
 from sim.fake import FakeDetector, FakeWorld
 
@@ -44,7 +44,7 @@ def looks(run: Run) -> list[LookAt]:
 
 def test_what_is_sure_at_the_second_look_is_found() -> None:
     mission = run("Find an apple", apple=[0.3, 0.8])
-    assert mission.outcome.status == Status.DONE
+    assert mission.outcome.status == MissionStatus.DONE
     aimed, closer = looks(mission)
     assert aimed == LookAt("dining_table")
     assert closer.place == "dining_table"
@@ -60,7 +60,7 @@ def test_what_is_sure_at_once_is_looked_at_once() -> None:
 def test_what_stays_doubtful_is_neither_found_nor_said_to_be_elsewhere() -> None:
     facts = FactStore()
     mission = run("Find an apple", facts, apple=[0.3] * 20)
-    assert mission.outcome.status == Status.NOT_DONE
+    assert mission.outcome.status == MissionStatus.NOT_DONE
     assert mission.outcome.location is None
     told = {(fact.kind, fact.object) for fact in facts.all()}
     assert ("seen", "apple") not in told
@@ -70,7 +70,7 @@ def test_what_stays_doubtful_is_neither_found_nor_said_to_be_elsewhere() -> None
 def test_doubtful_things_on_the_way_are_not_remembered_sure_ones_are() -> None:
     facts = FactStore()
     mission = run("Take an apple", facts, banana=[0.4] * 20)
-    assert mission.outcome.kind == Kind.TAKE
+    assert mission.outcome.kind == CommandKind.TAKE
     assert facts.places_of("cracker_box") == ("dining_table",)
     assert facts.places_of("banana") == ()
 
@@ -103,7 +103,7 @@ def test_what_is_cut_off_in_the_picture_is_looked_at_straight() -> None:
 
     mission = run_mission("Find an apple", llm=False, detector=AtTheEdge)
     aimed, closer = looks(mission)
-    assert mission.outcome.status == Status.DONE
+    assert mission.outcome.status == MissionStatus.DONE
     assert (aimed.point, closer.place) == (None, aimed.place)
     assert closer.point is not None
     assert mission.situation.detection

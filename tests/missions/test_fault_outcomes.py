@@ -7,7 +7,7 @@ import pytest
 
 from executive.records import Mishap
 from executive.testing.bench import Run, run_mission
-from executive.types import DriveTo, LookAt, Pick, Source, Status
+from executive.types import DriveTo, LookAt, MissionStatus, Pick, Source
 
 HAMMER_AT = "shelf_lobby"
 
@@ -20,7 +20,7 @@ class Case:
     words: str
     mishaps: tuple[str, ...]
     given: dict[str, Any] = field(default_factory=dict)
-    status: Status = Status.DONE
+    status: MissionStatus = MissionStatus.DONE
     location: str | None = None
     source: Source | None = None
     inquiries: int = 0
@@ -103,7 +103,7 @@ FAILURES = [
         "Find a power_drill.",
         ("blocked=kitchen-lobby", "blocked=bedroom-lobby"),
         {"answers": ["I don't know"]},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=1,
         strikes=2,
         reason="I could not get to shelf_lobby: the way to the shelf_lobby is blocked",
@@ -112,7 +112,7 @@ FAILURES = [
         "the fingers always slip",
         "Take a hammer.",
         ("slip=1",),
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         strikes=3,
         reason="the hammer slipped from my fingers",
     ),
@@ -120,7 +120,7 @@ FAILURES = [
         "a joint is stuck",
         "Take a hammer.",
         ("stuck=joint3",),
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         strikes=3,
         reason="joint3 is stuck",
     ),
@@ -128,7 +128,7 @@ FAILURES = [
         "what fell is not seen, because the camera has gone blind",
         "Bring a hammer.",
         ("drop@10", "blind@12"),
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         strikes=2,
         reason="the hammer fell from my hand, and my camera shows nothing",
     ),
@@ -137,7 +137,7 @@ FAILURES = [
         "Find a power_drill.",
         ("blind",),
         {"answers": ["shelf_lobby"]},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=1,
         reason="I could not look at shelf_lobby: my camera shows nothing",
     ),
@@ -173,7 +173,7 @@ def test_it_fails_in_words_when(case: Case) -> None:
 
 def test_a_confused_detector_makes_it_look_for_the_thing_elsewhere() -> None:
     run = run_mission("Find a power_drill.", mishaps=["confuse=1@0-7.2"])
-    assert run.outcome.status == Status.DONE
+    assert run.outcome.status == MissionStatus.DONE
     assert run.outcome.visited == ("shelf_lobby", "shelf_lobby")
 
 

@@ -10,9 +10,9 @@ import pytest
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import HandFelt, Inbox, StopRequested
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 from executive.situation import Situation
-from executive.types import SOMETHING, Failed, Goal, Outcome, Pick, PutDown, Result, Status
+from executive.types import SOMETHING, Failed, Goal, MissionStatus, Outcome, Pick, PutDown, Result
 from logs.recording.reader import Run
 from sim.fake import FakeWorld
 
@@ -83,7 +83,7 @@ def test_a_thing_that_was_gripped_as_the_mission_was_stopped_is_in_the_hand(hous
         return result
 
     house.changes[Pick] = stop
-    assert house.run("Take the apple").status == Status.STOPPED
+    assert house.run("Take the apple").status == MissionStatus.STOPPED
     assert house.session._in_hand == "apple"
     assert house.run("Bring the apple").visited == ()
     assert house.world.resting_place("apple") == "delivery"
@@ -95,19 +95,19 @@ def test_a_thing_that_was_let_go_as_the_mission_was_stopped_is_not(house: House)
         return result
 
     house.changes[PutDown] = stop
-    assert house.run("Bring the apple").status == Status.STOPPED
+    assert house.run("Bring the apple").status == MissionStatus.STOPPED
     assert house.felt() == [False, True, False]
 
 
 def test_a_pick_that_failed_with_the_thing_in_the_hand_got_hold_of_it(house: House) -> None:
     house.changes[Pick] = fails
-    assert house.run("Bring the hammer").status == Status.DONE
+    assert house.run("Bring the hammer").status == MissionStatus.DONE
 
 
 def test_a_pick_that_is_said_to_have_worked_with_an_empty_hand_has_not(house: House) -> None:
     house.changes[Pick] = slips
     outcome = house.run("Take the hammer")
-    assert outcome.status == Status.NOT_DONE
+    assert outcome.status == MissionStatus.NOT_DONE
 
 
 def test_a_put_down_that_failed_after_the_hand_opened_leaves_it_empty(house: House) -> None:
@@ -119,7 +119,7 @@ def test_a_put_down_that_failed_after_the_hand_opened_leaves_it_empty(house: Hou
 def test_what_someone_took_from_the_hand_between_missions_is_not_in_it(house: House) -> None:
     house.run("Take the hammer")
     house.world.things["hammer"], house.world.held = "desk", None
-    assert house.run("Take the mug").status == Status.DONE
+    assert house.run("Take the mug").status == MissionStatus.DONE
 
 
 def test_what_someone_put_into_the_hand_is_something(house: House) -> None:
@@ -129,7 +129,7 @@ def test_what_someone_put_into_the_hand_is_something(house: House) -> None:
     assert house.session._in_hand == SOMETHING
     assert house.session.folder
     assert replay(house.session.folder).parting is None
-    assert house.run("Put it down").status == Status.DONE
+    assert house.run("Put it down").status == MissionStatus.DONE
 
 
 @pytest.mark.parametrize(
@@ -160,7 +160,7 @@ def test_a_robot_that_cannot_feel_is_believed(house: House) -> None:
             return None
 
     house.session.robot = Numb(house.session.robot)
-    assert house.run("Take the hammer").status == Status.DONE
+    assert house.run("Take the hammer").status == MissionStatus.DONE
     assert house.felt() == []
     assert house.run("Bring the hammer").reason == "Here is the hammer."
 

@@ -8,7 +8,7 @@ from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.testing.bench import Notebook, four_rooms
-from executive.types import DriveTo, Failed, Goal, PutDown, Result, Status, Succeeded
+from executive.types import DriveTo, Failed, Goal, MissionStatus, PutDown, Result, Succeeded
 from sim.fake import FakeRobot, FakeWorld
 
 
@@ -41,6 +41,6 @@ def test_three_things_are_brought_to_one_table() -> None:
     session = Session(settings, out=io.StringIO(), recorded=False)
     things = ("banana", "hammer", "apple")
     outcomes = [session.run(f"Bring a {thing}") for thing in things]
-    assert [outcome.status for outcome in outcomes] == [Status.DONE] * len(things)
+    assert [outcome.status for outcome in outcomes] == [MissionStatus.DONE] * len(things)
     assert {session.world.resting_place(thing) for thing in things} == {"delivery"}
     session.close()

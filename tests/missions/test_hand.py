@@ -9,8 +9,8 @@ import pytest
 
 from executive.app.session import Session
 from executive.config import load_settings
-from executive.replay.replay import replay
-from executive.types import Status
+from executive.replay.replaying import replay
+from executive.types import MissionStatus
 
 
 @contextmanager
@@ -30,16 +30,16 @@ def session(tmp_path: Path) -> Iterator[Session]:
 def test_a_held_thing_is_handed_over_without_a_search(session: Session) -> None:
     session.run("Take the hammer")
     outcome = session.run("Bring the hammer")
-    assert (outcome.status, outcome.visited) == (Status.DONE, ())
+    assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ())
     assert session.world.resting_place("hammer") == "delivery"
-    assert session.run("Take the mug").status == Status.DONE
+    assert session.run("Take the mug").status == MissionStatus.DONE
 
 
 @pytest.mark.parametrize("words", ["Take the hammer", "Where is the hammer?"])
 def test_a_held_thing_is_said_to_be_held(session: Session, words: str) -> None:
     session.run("Take the hammer")
     outcome = session.run(words)
-    assert (outcome.status, outcome.reason) == (Status.DONE, "I hold the hammer.")
+    assert (outcome.status, outcome.reason) == (MissionStatus.DONE, "I hold the hammer.")
     assert outcome.mission_time_s == 0.0
 
 
@@ -49,15 +49,15 @@ def test_with_nobody_to_ask_a_full_hand_takes_nothing_else_and_does_not_drive_fo
     with serving(tmp_path, recorded=False, user="none") as session:
         session.run("Take the hammer")
         outcome = session.run("Bring the power_drill")
-        assert (outcome.status, outcome.visited) == (Status.NOT_DONE, ())
+        assert (outcome.status, outcome.visited) == (MissionStatus.NOT_DONE, ())
         assert outcome.reason == "my hand holds the hammer; ask me first to bring that"
-        assert session.run("Find the power_drill").status == Status.DONE
+        assert session.run("Find the power_drill").status == MissionStatus.DONE
 
 
 def test_a_thing_at_the_delivery_place_stays_there(session: Session) -> None:
     session.run("Bring the hammer")
     outcome = session.run("Bring the hammer")
-    assert (outcome.status, outcome.location) == (Status.DONE, "delivery")
+    assert (outcome.status, outcome.location) == (MissionStatus.DONE, "delivery")
     assert "is here already" in outcome.reason
     assert session.world.resting_place("hammer") == "delivery"
 

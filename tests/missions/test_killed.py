@@ -9,7 +9,7 @@ import pytest
 from rerun.chunk import RrdReader
 from rerun.error_utils import RerunWarning
 
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 from logs.recording.reader import Run
 from logs.recording.recovery import recover
 

@@ -12,7 +12,7 @@ from executive.testing.bench import Notebook
 from executive.types import Detection, DriveTo, Frame, Goal, LookAt, Succeeded
 from sim.home.home import load_home
 from sim.learning.frames import class_names
-from sim.manipulation.registration import locate as fit
+from sim.manipulation.registration import fit_pose
 from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
@@ -65,7 +65,7 @@ def test_what_stands_on_furniture_is_recognised_and_located(
             straight, again = look(world, detector)
             located = locate(again[name], straight)
         points = np.asarray(located.points, np.float64)
-        pose = fit(load_objects()[name], points, np.asarray(frame.pose.position))
+        pose = fit_pose(load_objects()[name], points, np.asarray(frame.pose.position))
         off.append(np.linalg.norm(np.subtract(pose.position, world.truth(name).position)))
     assert max(off) < CLOSE_M
 

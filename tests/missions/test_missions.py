@@ -15,7 +15,7 @@ from executive.config import KnowledgeSystem, load_settings
 from executive.events import StopRequested
 from executive.records import Tick, Transforms
 from executive.testing.bench import Notebook
-from executive.types import Kind, Outcome, Status
+from executive.types import CommandKind, MissionStatus, Outcome
 
 pytestmark = [pytest.mark.physics, pytest.mark.llm]
 
@@ -48,7 +48,7 @@ def session(
 @pytest.mark.parametrize("knowledge", list(KnowledgeSystem), ids=str)
 def test_a_command_of_the_paper_is_done(session: Session, words: str) -> None:
     outcome = session.run(words)
-    assert outcome.status == Status.DONE, outcome.reason
+    assert outcome.status == MissionStatus.DONE, outcome.reason
     assert outcome.location == COMMANDS[words]
     assert the_thing_is_where_it_belongs(session, outcome)
 
@@ -58,9 +58,9 @@ def the_thing_is_where_it_belongs(session: Session, outcome: Outcome) -> bool:
     assert outcome.object
     resting = session.world.resting_place(outcome.object)
     match outcome.kind:
-        case Kind.FIND:
+        case CommandKind.FIND:
             return resting == outcome.location
-        case Kind.TAKE:
+        case CommandKind.TAKE:
             return resting is None and session.robot.holding
         case _:
             return resting == "delivery" and not session.robot.holding
@@ -96,7 +96,7 @@ def test_stop_leaves_the_robot_at_rest(
 
     monkeypatch.setattr(session.world, "advance", advance_and_stop)
     outcome = session.run("Bring a sugar_box.")
-    assert outcome.status == Status.STOPPED
+    assert outcome.status == MissionStatus.STOPPED
     assert when_s < outcome.mission_time_s < when_s + 2.0
     assert not session.inbox.awaits_anything
     before = where_the_robot_is(session)

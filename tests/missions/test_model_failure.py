@@ -4,7 +4,7 @@ import pytest
 
 from executive.records import EventTaken, Utterance
 from executive.testing.bench import Run, run_mission
-from executive.types import Source, Status
+from executive.types import MissionStatus, Source
 
 WARNING = "My language model does not answer: "
 
@@ -24,7 +24,7 @@ def test_the_person_hears_why_the_model_is_of_no_help_and_then_is_asked(
     elicit: str, replies: list[None], why: str
 ) -> None:
     run = run_mission("Find an apple", defaults=False, elicit=elicit, replies=replies)
-    assert (run.outcome.status, run.outcome.source) == (Status.DONE, Source.USER)
+    assert (run.outcome.status, run.outcome.source) == (MissionStatus.DONE, Source.USER)
     assert run.outcome.model_failure == why
     assert warnings(run) == [f"{WARNING}{why}."]
 
@@ -40,7 +40,7 @@ def test_a_model_that_fails_twice_is_told_once() -> None:
 
 def test_a_model_that_cannot_read_the_words_is_told_too() -> None:
     run = run_mission("Come with the hammer!", replies=[], answers=["yes"])
-    assert (run.outcome.status, len(warnings(run))) == (Status.NOT_UNDERSTOOD, 1)
+    assert (run.outcome.status, len(warnings(run))) == (MissionStatus.NOT_UNDERSTOOD, 1)
 
 
 @pytest.mark.parametrize("reply", ["On the table, I guess.", '{"places": ["pantry"]}', ""])
@@ -48,7 +48,7 @@ def test_a_useless_reply_is_no_failure_of_the_model(reply: str) -> None:
     run = run_mission(
         "Find an apple", defaults=False, elicit="generate", replies=[reply, reply, reply]
     )
-    assert (run.outcome.status, run.outcome.source) == (Status.DONE, Source.USER)
+    assert (run.outcome.status, run.outcome.source) == (MissionStatus.DONE, Source.USER)
     assert (run.outcome.model_failure, warnings(run)) == ("", [])
 
 

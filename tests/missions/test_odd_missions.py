@@ -14,7 +14,7 @@ from executive.__main__ import main, parser
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.errors import InputError
-from executive.types import Outcome, Status
+from executive.types import MissionStatus, Outcome
 
 ANSWER = '{"places": ["counter\\_wagon", "desk",]}'
 SECRET = "sk-4f5e6d7c"
@@ -47,7 +47,7 @@ def picky(handler: Handler, body: dict[str, Any]) -> None:
 def test_a_mission_is_done_with_a_server_that_is_odd_in_many_ways(tmp_path: Path) -> None:
     with serving(picky, models=("an-embedding", "chat")) as odd:
         outcome = run(odd.url, tmp_path)
-    assert (outcome.status, outcome.location) == (Status.DONE, "counter_wagon")
+    assert (outcome.status, outcome.location) == (MissionStatus.DONE, "counter_wagon")
     assert outcome.visited == ("counter_wagon",)
 
 
@@ -89,7 +89,7 @@ def test_a_named_model_is_asked_and_recorded(tmp_path: Path) -> None:
     options = vars(parser().parse_args(["--llm-model", "mine"]))
     with serving(streams(word(ANSWER, "stop")), models=("other",)) as odd:
         outcome = run(odd.url, tmp_path, llm_model=options["llm_model"])
-    assert outcome.status == Status.DONE
+    assert outcome.status == MissionStatus.DONE
     assert [body["model"] for body in odd.bodies] == ["mine"]
     assert 'llm_model = "mine"' in (Path(str(outcome.run_dir)) / "config.toml").read_text()
 
@@ -114,5 +114,5 @@ def test_a_home_that_fills_the_context_window_is_asked_about_by_rooms(tmp_path: 
 
     with serving(knows_rooms) as odd:
         outcome = run(odd.url, tmp_path, context_tokens=512)
-    assert (outcome.status, outcome.location) == (Status.DONE, "counter_wagon")
+    assert (outcome.status, outcome.location) == (MissionStatus.DONE, "counter_wagon")
     assert "counter_wagon" not in odd.bodies[0]["messages"][0]["content"]

@@ -6,16 +6,16 @@ from hypothesis import strategies as st
 from outcome_cases import ALL, CASES, GENERATE, OKB, Case, listing
 
 from executive.testing.bench import run_mission
-from executive.types import DriveTo, Goal, LookAt, Pick, PutDown, Status
+from executive.types import DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
 
 FAILURES = [
-    Case("empty words", "", status=Status.NOT_UNDERSTOOD, reason="I do not understand"),
-    Case("senseless words", "Fnord!", status=Status.NOT_UNDERSTOOD, reason="for example"),
+    Case("empty words", "", status=MissionStatus.NOT_UNDERSTOOD, reason="I do not understand"),
+    Case("senseless words", "Fnord!", status=MissionStatus.NOT_UNDERSTOOD, reason="for example"),
     Case(
         "the model's reading of the words is not what was meant",
         "Come with the hammer!",
         {"answers": ["no"], "replies": [(0.0, 0.5, 2.0)]},
-        status=Status.NOT_UNDERSTOOD,
+        status=MissionStatus.NOT_UNDERSTOOD,
         inquiries=1,
         llm_calls=1,
         reason="I do not understand 'Come with the hammer!'",
@@ -24,7 +24,7 @@ FAILURES = [
         "nobody confirms the model's reading of the words",
         "Come with the hammer!",
         {"answers": [None], "replies": [(0.0, 0.5, 2.0)]},
-        status=Status.NOT_UNDERSTOOD,
+        status=MissionStatus.NOT_UNDERSTOOD,
         inquiries=1,
         llm_calls=1,
     ),
@@ -32,26 +32,26 @@ FAILURES = [
         "there is no model to read what the grammar cannot",
         "Come with the hammer!",
         OKB | {"answers": ["yes"]},
-        status=Status.NOT_UNDERSTOOD,
+        status=MissionStatus.NOT_UNDERSTOOD,
     ),
     Case(
         "the model does not answer what the words mean",
         "Come with the hammer!",
         {"answers": ["yes"], "replies": [None]},
-        status=Status.NOT_UNDERSTOOD,
+        status=MissionStatus.NOT_UNDERSTOOD,
     ),
     Case(
         "the model reads into the words what does not exist",
         "Come with the hammer!",
         GENERATE | {"answers": ["yes"], "replies": ['{"kind": "bring", "object": "crown"}']},
-        status=Status.NOT_UNDERSTOOD,
+        status=MissionStatus.NOT_UNDERSTOOD,
         llm_calls=1,
     ),
     Case(
         "a slip was none, and the person says no more",
         "Take a hamer.",
         OKB | {"answers": ["no", "I don't know"]},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=2,
         reason="I know no 'hamer'",
     ),
@@ -59,7 +59,7 @@ FAILURES = [
         "an unknown thing, and the person does not know either",
         "Bring a suger_box.",
         {"answers": ["I don't know"]},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=1,
         reason="the nearest that I know is sugar_box",
     ),
@@ -67,7 +67,7 @@ FAILURES = [
         "an unknown thing like no other",
         "Bring a zebra.",
         {"answers": []},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=1,
         reason="I know no 'zebra', and",
     ),
@@ -75,7 +75,7 @@ FAILURES = [
         "answers that make no sense are not waited for without end",
         "Find a fruit.",
         {"answers": ["hm", "hmm", "hmmm", "apple"]},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=3,
         reason="did not understand your answer 'hmmm'",
     ),
@@ -83,7 +83,7 @@ FAILURES = [
         "the person does not know where",
         "Find an apple.",
         OKB | {"answers": ["no idea"]},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=1,
         reason="I do not know where the apple is, and you could not tell me",
     ),
@@ -91,7 +91,7 @@ FAILURES = [
         "the person stays silent",
         "Find an apple.",
         OKB | {"answers": [None]},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=1,
         reason="nobody answered within 120 s",
     ),
@@ -99,7 +99,7 @@ FAILURES = [
         "there is no person",
         "Find an apple.",
         OKB | {"answers": []},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         inquiries=1,
         reason="no more answers",
     ),
@@ -107,7 +107,7 @@ FAILURES = [
         "it is nowhere",
         "Find a power_drill.",
         {"answers": ["desk"], "place": {"power_drill": "bed"}},
-        status=Status.NOT_DONE,
+        status=MissionStatus.NOT_DONE,
         visited=("shelf_lobby", "desk"),
         inquiries=1,
         reason="I did not find the power_drill at shelf_lobby, desk",
@@ -158,7 +158,7 @@ def test_bring_delivers_the_thing() -> None:
 
 def test_failing_far_away_the_robot_comes_back_to_say_so() -> None:
     run = run_mission("Find a power_drill.", place={"power_drill": "bed"}, answers=["no idea"])
-    assert run.outcome.status == Status.NOT_DONE
+    assert run.outcome.status == MissionStatus.NOT_DONE
     assert run.world.at == "person"
 
 
@@ -177,7 +177,7 @@ def test_a_missed_grasp_is_tried_once_more_after_another_look() -> None:
     run = run_mission(
         "Take a hammer.", fault=lambda goal: next(misses) if isinstance(goal, Pick) else None
     )
-    assert run.outcome.status == Status.DONE
+    assert run.outcome.status == MissionStatus.DONE
     kinds = [type(goal) for goal in run.goals]
     assert kinds == [DriveTo, LookAt, Pick, DriveTo, LookAt, Pick]
     assert run.outcome.visited == ("shelf_lobby",)
@@ -185,7 +185,7 @@ def test_a_missed_grasp_is_tried_once_more_after_another_look() -> None:
 
 def test_a_grasp_that_keeps_failing_is_reported() -> None:
     run = run_mission("Take a hammer.", fault=lambda g: "it slipped" * isinstance(g, Pick) or None)
-    assert (run.outcome.status, run.outcome.reason) == (Status.NOT_DONE, "it slipped")
+    assert (run.outcome.status, run.outcome.reason) == (MissionStatus.NOT_DONE, "it slipped")
 
 
 def test_a_thing_that_cannot_be_put_down_is_reported() -> None:
@@ -193,7 +193,7 @@ def test_a_thing_that_cannot_be_put_down_is_reported() -> None:
         return "the table is full" if isinstance(goal, PutDown) else None
 
     run = run_mission("Bring a hammer.", fault=fault)
-    assert run.outcome.status == Status.NOT_DONE
+    assert run.outcome.status == MissionStatus.NOT_DONE
     assert run.outcome.reason == (
         "I could not put it on the delivery table: the table is full; nor on the coffee_table, "
         "the sofa, the dining_table, and you could not tell me; I still hold the hammer"
@@ -224,7 +224,7 @@ def test_whatever_the_model_writes_the_mission_ends_and_only_real_places_are_vis
     replies: list[str],
 ) -> None:
     run = run_mission("Find an apple.", defaults=False, elicit="generate", replies=replies)
-    assert run.outcome.status == Status.DONE
+    assert run.outcome.status == MissionStatus.DONE
     assert set(run.outcome.visited) <= set(ALL)
     assert not run.inbox.awaits_anything
 

@@ -11,11 +11,11 @@ import pytest
 from executive.clock import SimulatedClock
 from executive.events import Inbox
 from executive.perception.pipeline import locate
-from executive.records import Mishap, Path, Scene, Transforms
+from executive.records import Mishap, PlannedPath, Scene, Transforms
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, PutDown, Succeeded
-from sim.faults.injector import Mishaps
+from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_faults
 from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
@@ -31,7 +31,9 @@ class Haunted(Bench):
     def __init__(self, *texts: str, at: str = WAGON) -> None:
         home = four_rooms().model_copy(update={"robot_start": four_rooms().stand(at)})
         self.notes, inbox = Notebook(), Inbox()
-        mishaps = Mishaps(parse_faults(texts, home), self.notes, lambda: self.clock.now(), seed=1)
+        mishaps = FaultInjector(
+            parse_faults(texts, home), self.notes, lambda: self.clock.now(), seed=1
+        )
         self.world = PhysicsWorld(
             home, load_objects(), inbox, self.notes, camera_hz=0.0, mishaps=mishaps
         )
@@ -86,7 +88,7 @@ def test_a_shut_door_is_driven_around_and_is_drawn(haunt: Callable[..., Haunted]
     (scene,) = robot.notes.all(Scene)
     assert "blocked_kitchen-living_room" in {entity.name for entity in scene.entities}
     assert robot.do(DriveTo(WAGON)) == Succeeded()
-    assert len(robot.notes.all(Path)) >= 2
+    assert len(robot.notes.all(PlannedPath)) >= 2
     moved = {t.child for record in robot.notes.all(Transforms) for t in record.transforms}
     assert "blocked_kitchen-living_room" in moved
 

@@ -14,9 +14,9 @@ from executive.config import load_settings
 from executive.events import Inbox
 from executive.language.grammar import EnglishInterpreter
 from executive.language.put_down import HELD, to_put_down
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 from executive.testing.bench import four_rooms
-from executive.types import DELIVERY, SOMETHING, DriveTo, Goal, Kind, PutDown, Status
+from executive.types import DELIVERY, SOMETHING, CommandKind, DriveTo, Goal, MissionStatus, PutDown
 from executive.user import Scripted
 from sim.fake import FakeWorld
 
@@ -56,26 +56,26 @@ def fault(goal: Goal, full: tuple[str, ...]) -> str | None:
 def test_a_full_delivery_table_is_no_dead_end(serve: Serve) -> None:
     session, world = serve([], DELIVERY)
     outcome = session.run("Bring the hammer")
-    assert outcome.status == Status.DONE
+    assert outcome.status == MissionStatus.DONE
     assert outcome.reason == (
         f"I put the hammer on the coffee_table; I could not put it on the delivery table: {FULL}."
     )
     assert (world.held, world.resting_place("hammer")) == (None, "coffee_table")
-    assert session.run("Take the power_drill").status == Status.DONE
+    assert session.run("Take the power_drill").status == MissionStatus.DONE
 
 
 def test_the_next_furniture_is_tried_if_the_nearest_is_full_or_out_of_reach(serve: Serve) -> None:
     session, world = serve([])
     shut = DriveTo("sofa")
     world.fault = lambda g: "shut" if g == shut else fault(g, (DELIVERY, "coffee_table"))
-    assert session.run("Bring the hammer").status == Status.DONE
+    assert session.run("Bring the hammer").status == MissionStatus.DONE
     assert world.resting_place("hammer") == "dining_table"
 
 
 def test_the_person_is_asked_where_to_put_it_if_all_that_is_near_is_full(serve: Serve) -> None:
     session, world = serve(["in the pantry", "on the desk"], DELIVERY, *NEAR)
     outcome = session.run("Bring the hammer")
-    assert (outcome.status, outcome.inquiries) == (Status.DONE, 2)
+    assert (outcome.status, outcome.inquiries) == (MissionStatus.DONE, 2)
     assert world.resting_place("hammer") == "desk"
     assert outcome.reason.startswith("I put the hammer on the desk; ")
     assert isinstance(session.user, Scripted)
@@ -90,11 +90,11 @@ def test_the_person_is_asked_where_to_put_it_if_all_that_is_near_is_full(serve: 
 def test_what_finds_no_room_stays_in_the_hand_and_can_be_brought_later(serve: Serve) -> None:
     session, world = serve([], DELIVERY, *NEAR)
     outcome = session.run("Bring the hammer")
-    assert outcome.status == Status.NOT_DONE
+    assert outcome.status == MissionStatus.NOT_DONE
     assert outcome.reason.endswith("the script has no more answers; I still hold the hammer")
     assert world.held == "hammer"
     world.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
-    assert session.run("Bring the hammer").status == Status.DONE
+    assert session.run("Bring the hammer").status == MissionStatus.DONE
     assert world.resting_place("hammer") == "sofa"
 
 
@@ -107,7 +107,7 @@ def test_what_falls_on_the_way_to_other_furniture_is_said_to_have_fallen(tmp_pat
     session.world.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
     outcome = session.run("Bring the hammer")
     session.close()
-    assert (outcome.status, session.world.held) == (Status.NOT_DONE, None)
+    assert (outcome.status, session.world.held) == (MissionStatus.NOT_DONE, None)
     assert outcome.reason.startswith("the hammer fell from my hand")
 
 
@@ -116,7 +116,7 @@ def test_the_hand_is_emptied_on_request(serve: Serve, words: str) -> None:
     session, world = serve([])
     session.run("Take the hammer")
     outcome = session.run(words)
-    assert (outcome.status, outcome.kind) == (Status.DONE, Kind.PUT_DOWN)
+    assert (outcome.status, outcome.kind) == (MissionStatus.DONE, CommandKind.PUT_DOWN)
     assert outcome.reason == "I put the hammer on the delivery table."
     assert (world.held, world.resting_place("hammer")) == (None, DELIVERY)
     assert session.run("Find the hammer").location == DELIVERY
@@ -134,7 +134,7 @@ def test_a_hand_that_cannot_be_emptied_is_said_to_be_full(serve: Serve) -> None:
     session, world = serve([], DELIVERY, *NEAR)
     session.run("Take the hammer")
     outcome = session.run("Put it down")
-    assert outcome.status == Status.NOT_DONE
+    assert outcome.status == MissionStatus.NOT_DONE
     assert outcome.reason.endswith("I still hold the hammer")
     assert world.held == "hammer"
 
@@ -145,7 +145,7 @@ def test_what_is_not_known_by_name_is_put_down_all_the_same(serve: Serve) -> Non
     del world.things["hammer"]
     outcome = session.run("Put that down")
     assert (outcome.status, outcome.reason) == (
-        Status.DONE,
+        MissionStatus.DONE,
         f"I put {SOMETHING} on the delivery table.",
     )
     assert world.resting_place("hammer") == DELIVERY
@@ -160,7 +160,7 @@ def test_a_full_hand_is_offered_to_be_emptied_for_another_thing(serve: Serve, wo
     assert [question.text for question in session.user.asked] == [
         "My hand holds the hammer. Shall I put it down first?"
     ]
-    assert (outcome.status, outcome.object) == (Status.DONE, "power_drill")
+    assert (outcome.status, outcome.object) == (MissionStatus.DONE, "power_drill")
     assert world.resting_place("hammer") == "coffee_table"
     assert outcome.visited == ("shelf_lobby",)
 
@@ -170,7 +170,7 @@ def test_what_may_not_be_put_down_stays_in_the_hand(serve: Serve, answer: str | 
     session, world = serve([answer])
     session.run("Take the hammer")
     outcome = session.run("Bring the power_drill")
-    assert (outcome.status, world.held) == (Status.NOT_DONE, "hammer")
+    assert (outcome.status, world.held) == (MissionStatus.NOT_DONE, "hammer")
     assert outcome.reason == "my hand holds the hammer; ask me first to bring that"
 
 
@@ -178,7 +178,7 @@ def test_a_full_hand_without_room_for_what_it_holds_says_so(serve: Serve) -> Non
     session, world = serve(["yes"], DELIVERY, *NEAR)
     session.run("Take the hammer")
     outcome = session.run("Bring the power_drill")
-    assert (outcome.status, world.held) == (Status.NOT_DONE, "hammer")
+    assert (outcome.status, world.held) == (MissionStatus.NOT_DONE, "hammer")
     assert FULL in outcome.reason
 
 
@@ -205,7 +205,7 @@ def test_the_furniture_by_the_person_is_that_of_the_room_first_and_then_the_near
 def test_reads_a_request_to_empty_the_hand(words: str, thing: str) -> None:
     command = EnglishInterpreter().command(words)
     assert command is not None
-    assert (command.kind, command.target) == (Kind.PUT_DOWN, thing)
+    assert (command.kind, command.target) == (CommandKind.PUT_DOWN, thing)
 
 
 @pytest.mark.parametrize(
@@ -221,7 +221,7 @@ def test_reads_a_request_to_empty_the_hand(words: str, thing: str) -> None:
 )
 def test_what_asks_for_more_than_an_empty_hand_is_not_read_as_that(words: str) -> None:
     command = EnglishInterpreter().command(words)
-    assert command is None or command.kind != Kind.PUT_DOWN
+    assert command is None or command.kind != CommandKind.PUT_DOWN
 
 
 @given(st.text() | st.from_regex(r"(put|drop|please|down|the| )*"))

@@ -115,7 +115,7 @@ def test_a_skill_that_raises_fails_in_words_and_leaves_the_robot_at_rest(
     def wrong(*args: object) -> object:
         raise ZeroDivisionError("no such pose")
 
-    monkeypatch.setattr(manipulator, "locate_fallen", wrong)
+    monkeypatch.setattr(manipulator, "fit_fallen_pose", wrong)
     result = kitchen.do(Pick(kitchen.detection_of("sugar_box")))
     assert result == Failed("something is wrong with my control: no such pose")
     kitchen.wait(REST_S)
@@ -125,7 +125,7 @@ def test_a_skill_that_raises_fails_in_words_and_leaves_the_robot_at_rest(
 def test_a_stop_is_heard_while_a_pose_is_fitted(
     kitchen: Kitchen, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    begun, go_on, fit = Event(), Event(), manipulator.locate_fallen
+    begun, go_on, fit = Event(), Event(), manipulator.fit_fallen_pose
 
     def slowly(*args: object) -> object:
         begun.set()
@@ -137,7 +137,7 @@ def test_a_stop_is_heard_while_a_pose_is_fitted(
         kitchen.inbox.post(StopRequested("the person"))
 
     seen = kitchen.detection_of("sugar_box")
-    monkeypatch.setattr(manipulator, "locate_fallen", slowly)
+    monkeypatch.setattr(manipulator, "fit_fallen_pose", slowly)
     clock = SimulatedClock(kitchen.inbox, kitchen.world)
     request = kitchen.robot.start(Pick(seen))
     Thread(target=stop).start()

@@ -15,7 +15,7 @@ from executive.records import Utterance
 from executive.situation import Situation
 from executive.testing.bench import Run, run_mission
 from executive.text import printable
-from executive.types import DriveTo, Goal, Halt, Kind, LookAt, Pick, PutDown, Status
+from executive.types import CommandKind, DriveTo, Goal, Halt, LookAt, MissionStatus, Pick, PutDown
 from kb.facts import FactStore
 from logs.questions.why import why
 from logs.recording.reader import Run as RecordedRun
@@ -88,7 +88,7 @@ def test_a_grasp_is_tried_again_if_it_could_not_look_whether_the_thing_is_gone()
         return "it slipped" if isinstance(goal, Pick) and next(grasps) == 0 else None
 
     run = run_mission("Take a hammer", llm=False, fault=fault)
-    assert run.outcome.status == Status.DONE
+    assert run.outcome.status == MissionStatus.DONE
     assert run.outcome.visited == (PLACE,)
 
 
@@ -101,7 +101,7 @@ def test_a_grasp_is_tried_again_if_it_could_not_look_whether_the_thing_is_gone()
 )
 def test_what_takes_too_long_is_told_with_its_time(patience_s: float, reason: str) -> None:
     run = run_mission(
-        "Find a power_drill", answers=["no idea"], llm=False, rules={"action_s": patience_s}
+        "Find a power_drill", answers=["no idea"], llm=False, parameters={"action_s": patience_s}
     )
     assert run.outcome.reason == f"{reason}, and you could not tell me"
     assert f"Sorry: {run.outcome.reason}." in told(run)
@@ -110,7 +110,7 @@ def test_what_takes_too_long_is_told_with_its_time(patience_s: float, reason: st
 def test_a_look_that_takes_too_long_leaves_the_place_unseen(monkeypatch) -> None:
     monkeypatch.setattr("sim.fake.LOOK_S", 9.0)
     monkeypatch.setattr("sim.fake.SPEED_M_S", 100.0)
-    run = run_mission("Find a power_drill", answers=[], llm=False, rules={"action_s": 8.0})
+    run = run_mission("Find a power_drill", answers=[], llm=False, parameters={"action_s": 8.0})
     assert run.outcome.reason.startswith(f"I could not look at {PLACE}: it took longer than 8 s")
 
 
@@ -176,14 +176,14 @@ def test_a_way_back_that_is_blocked_is_not_the_reason_why_it_was_not_found() -> 
 def test_what_was_found_is_told_even_if_the_robot_cannot_come_back() -> None:
     blocked = lambda goal: "the way is blocked" if goal == DriveTo("person") else None  # noqa: E731
     run = run_mission("Find a power_drill", llm=False, fault=blocked)
-    assert run.outcome.status == Status.NOT_DONE
+    assert run.outcome.status == MissionStatus.NOT_DONE
     assert run.outcome.reason == f"the power_drill is at {PLACE}, but the way is blocked"
 
 
 @pytest.mark.parametrize("kind", [DriveTo, LookAt, Pick, PutDown])
 def test_a_robot_that_gives_no_reason_gets_one(kind: type) -> None:
     run = run_mission("Bring a hammer", answers=[], llm=False, fault=always(kind, " "))
-    assert run.outcome.status == Status.NOT_DONE
+    assert run.outcome.status == MissionStatus.NOT_DONE
     assert "nothing said why" in run.outcome.reason
 
 
@@ -213,13 +213,13 @@ def test_whatever_fails_the_reason_is_a_sentence(kind, chances, answers, patienc
         answers=answers,
         llm=False,
         fault=faults(iter(chances)),
-        rules={"action_s": patience_s},
+        parameters={"action_s": patience_s},
     )
     reason = run.outcome.reason
     assert len(reason) > 8
     assert reason == printable(reason).strip(" ;:,")
-    if run.outcome.status == Status.DONE:
-        held = {Kind.TAKE: run.outcome.object}.get(run.outcome.kind)
+    if run.outcome.status == MissionStatus.DONE:
+        held = {CommandKind.TAKE: run.outcome.object}.get(run.outcome.kind)
         assert (run.world.held, run.situation.in_hand) == (held, held)
     else:
         assert f"Sorry: {reason}." in told(run)

@@ -8,7 +8,7 @@ from executive.events import Inbox
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.camera import CameraBench, CameraContract
 from sim.fake import FakeCamera, FakeWorld
-from sim.faults.injector import FaultyCamera, Mishaps
+from sim.faults.injector import FaultInjector, FaultyCamera
 from sim.faults.orders import parse_fault
 from sim.objects.objects import load_objects
 
@@ -25,7 +25,7 @@ class TestNoisyCamera(CameraContract):
     @pytest.fixture
     def camera_bench(self) -> CameraBench:
         camera = FakeCamera(FakeWorld(four_rooms(), Inbox(), Notebook()))
-        mishaps = Mishaps([parse_fault("noise=0.01")], Notebook(), lambda: 0.0)
+        mishaps = FaultInjector([parse_fault("noise=0.01")], Notebook(), lambda: 0.0)
         return CameraBench(FaultyCamera(camera, mishaps), START)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from executive.clock import SimulatedClock
 from executive.events import Inbox
-from executive.records import Path, Shape, Transforms
+from executive.records import PlannedPath, Shape, Transforms
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
 from executive.types import DriveTo, Failed, Pose, Succeeded
@@ -96,7 +96,7 @@ def test_a_door_that_shuts_while_it_drives_is_driven_around_through_other_rooms(
     robot.put((0.1, 1.1, 2.0), 4.2, 5.6)
     assert robot.end_of(request) == Succeeded()
     assert min(y for _, y in robot.odometry) < 3.6
-    assert len(robot.notes.all(Path)) >= 2
+    assert len(robot.notes.all(PlannedPath)) >= 2
     assert not robot.fixtures
 
 

@@ -16,7 +16,7 @@ from executive.records import Mishap
 from executive.testing.bench import Notebook, four_rooms
 from executive.types import Frame
 from sim.fake import FakeCamera, FakeDetector, FakeWorld
-from sim.faults.injector import FaultyCamera, FaultyDetector, Mishaps
+from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import FAULTS, Blind, Fault, Miss, Moved, Span, parse_fault, parse_faults
 
 HOME = four_rooms()
@@ -81,10 +81,10 @@ class Senses:
         world = FakeWorld(HOME, Inbox(), self.notes)
         world.looking_at = "shelf_lobby"
         faults = parse_faults(texts, HOME)
-        self.mishaps = Mishaps(faults, self.notes, lambda: self.time, seed)
-        self.camera = FaultyCamera(FakeCamera(world), self.mishaps)
+        self.injector = FaultInjector(faults, self.notes, lambda: self.time, seed)
+        self.camera = FaultyCamera(FakeCamera(world), self.injector)
         names = tuple(HOME.objects)
-        self.detector = FaultyDetector(FakeDetector(world), self.mishaps, names)
+        self.detector = FaultyDetector(FakeDetector(world), self.injector, names)
 
     def labels(self) -> list[str]:
         return [found.label for found in self.detector.detect(self.camera.capture())]

@@ -13,7 +13,7 @@ from sim.manipulation.grasps import WIDEST, HandPose, find_grasps, varied
 from sim.manipulation.placing import free_spots
 from sim.manipulation.planning import PlanningWorld
 from sim.manipulation.reaching import COMFORT
-from sim.manipulation.registration import locate
+from sim.manipulation.registration import fit_pose
 from sim.objects.solids import sample_surface, signed_distance
 from sim.world import PhysicsWorld
 
@@ -189,7 +189,7 @@ def off_in_hand(world: PhysicsWorld, name: str) -> float:
 def test_of_a_box_at_eye_height_the_front_is_enough() -> None:
     model, turn, eye = MODELS["cracker_box"], Rotation.from_euler("z", 0.2), (1.2, 0.0, 0.1)
     points, normals = sample_surface(model.shapes)
-    found = locate(model, turn.apply(points[normals[:, 0] > 0.9]), np.array(eye))
+    found = fit_pose(model, turn.apply(points[normals[:, 0] > 0.9]), np.array(eye))
     assert np.hypot(*found.position[:2]) < 4e-3
     away = (turn * Rotation.from_quat(found.orientation).inv()).magnitude()
     assert min(away, np.pi - away) < 0.02
@@ -214,7 +214,7 @@ def test_the_visible_side_of_a_thing_tells_where_it_stands(name: str) -> None:
     points, normals = turn.apply(points) + stand, turn.apply(normals)
     eye = np.array([1.2, 1.2, 1.4])
     visible = ((eye - points) * normals).sum(axis=1) > 0.05
-    found = locate(model, points[visible], eye)
+    found = fit_pose(model, points[visible], eye)
     back = Rotation.from_quat(found.orientation).inv().apply(points - found.position)
     assert np.abs(signed_distance(model.shapes, back)).mean() < 2e-3
 

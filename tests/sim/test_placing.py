@@ -10,7 +10,7 @@ from executive.geometry import Floats
 from executive.types import Pose
 from sim.home.home import load_home
 from sim.manipulation.placing import RIM_M, TIGHT_M, free_spots, stands
-from sim.manipulation.registration import locate_fallen
+from sim.manipulation.registration import fit_fallen_pose
 from sim.objects.objects import load_objects
 from sim.objects.resting import forms
 from sim.objects.solids import sample_surface
@@ -57,7 +57,7 @@ def test_the_board_above_does_not_count():
 @pytest.mark.parametrize("name", ["sugar_box", "mustard_bottle", "tomato_soup_can", "mug"])
 @pytest.mark.parametrize("fall", [0, 1])
 def test_how_a_thing_lies_is_told_from_its_upper_side(name: str, fall: int):
-    form, pose = locate_fallen(MODELS[name], seen(name, fall), EYE, support=SPOT.position[2])
+    form, pose = fit_fallen_pose(MODELS[name], seen(name, fall), EYE, support=SPOT.position[2])
     assert form.size[2] == pytest.approx(forms(MODELS[name])[fall].size[2], abs=2e-3)
     assert pose.position[2] == pytest.approx(SPOT.position[2], abs=4e-3)
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from executive.events import Inbox
-from executive.records import Path, Picture, Scene, Shape, Transforms
+from executive.records import Picture, PlannedPath, Scene, Shape, Transforms
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
 from executive.types import DriveTo, Failed, LookAt, Pose, Succeeded
@@ -120,7 +120,7 @@ def test_what_moves_is_written_down_ten_times_a_second(living: Living) -> None:
     assert {"base_link", "panda_hand", "camera_optical", "mug"} <= frames
     assert 15 < len(later) < 60
     assert {t.child for t in later[9].transforms}.isdisjoint({"mug", "camera_optical"})
-    assert living.notes.all(Path)
+    assert living.notes.all(PlannedPath)
 
 
 def test_pictures_are_taken_for_the_log_only_while_it_moves() -> None:

@@ -4,7 +4,7 @@ Ordered as in its tables: systems from left to right, without and with default l
 """
 
 from executive.config import KnowledgeSystem
-from executive.types import Kind
+from executive.types import CommandKind
 
 OKB, LLM, MEM = KnowledgeSystem
 
@@ -34,12 +34,12 @@ CONDITIONS: tuple[Condition, ...] = tuple((s, d) for d in (False, True) for s in
 COMPLETION = {OKB: 0.98, LLM: 0.80, MEM: 0.97}
 """Task completion rate, both situations together."""
 
-TIME_S: dict[Kind, dict[Condition, float]] = {
+TIME_S: dict[CommandKind, dict[Condition, float]] = {
     kind: dict(zip(CONDITIONS, times, strict=True))
     for kind, times in {
-        Kind.FIND: (83.0, 311.8, 338.3, 81.8, 143.8, 157.4),
-        Kind.TAKE: (99.3, 369.9, 395.4, 105.4, 123.4, 177.3),
-        Kind.BRING: (224.7, 301.7, 304.4, 225.1, 415.7, 258.0),
+        CommandKind.FIND: (83.0, 311.8, 338.3, 81.8, 143.8, 157.4),
+        CommandKind.TAKE: (99.3, 369.9, 395.4, 105.4, 123.4, 177.3),
+        CommandKind.BRING: (224.7, 301.7, 304.4, 225.1, 415.7, 258.0),
     }.items()
 }
 """Average task completion time of the missions that succeeded (s)."""

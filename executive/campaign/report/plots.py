@@ -20,7 +20,7 @@ from executive.campaign.report import paper
 from executive.campaign.report.document import Figure
 from executive.campaign.report.statistics import Summary, stars
 from executive.campaign.report.tables import ACTIVITIES, MEASURES, name, situation, system_tests
-from executive.campaign.report.variants import Variant, of, summary_of
+from executive.campaign.report.variants import Variant, select, summary_of
 from executive.config import KnowledgeSystem
 
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE = (
@@ -100,7 +100,7 @@ def _means(drawing: Drawing, rows: Sequence[Row], title: str, beside_paper: bool
             theirs = figures[system, defaults][0] if beside_paper else 0.0
             if beside_paper:
                 axes.plot(x, theirs, "D", color=BLACK, markersize=5, zorder=4)
-            if summary := summary_of(of(rows, (system, defaults)), column):
+            if summary := summary_of(select(rows, (system, defaults)), column):
                 color, hatch = OF_SYSTEM[system]
                 axes.bar(x, summary.mean, 0.62, color=color, hatch=hatch, edgecolor=BLACK)
                 axes.errorbar(x, summary.mean, _reach(summary), color=BLACK, capsize=4)
@@ -156,7 +156,7 @@ def _histogram(axes: Axes, rows: Sequence[Row], title: str, defaults: bool) -> N
     column, _ = MEASURES[title]
     most = round(max(map(column, rows), default=0.0))
     for place, system in enumerate(paper.SYSTEMS):
-        values = [column(row) for row in of(rows, (system, defaults))]
+        values = [column(row) for row in select(rows, (system, defaults))]
         color, hatch = OF_SYSTEM[system]
         xs = [value + (place - 1) * 0.27 for value in range(most + 1)]
         counts = [values.count(value) for value in range(most + 1)]
@@ -168,7 +168,7 @@ def _histogram(axes: Axes, rows: Sequence[Row], title: str, defaults: bool) -> N
 
 def _boxes(axes: Axes, rows: Sequence[Row], title: str, defaults: bool) -> None:
     column, _ = MEASURES[title]
-    values = [[column(row) for row in of(rows, (s, defaults))] for s in paper.SYSTEMS]
+    values = [[column(row) for row in select(rows, (s, defaults))] for s in paper.SYSTEMS]
     drawn = axes.boxplot(
         values,
         patch_artist=True,
@@ -187,7 +187,7 @@ def _boxes(axes: Axes, rows: Sequence[Row], title: str, defaults: bool) -> None:
 
 def _time(drawing: Drawing, rows: Sequence[Row]) -> None:
     axes = drawing.subplots()
-    shown = [(c, mine) for c in paper.CONDITIONS if (mine := of(rows, c))]
+    shown = [(c, mine) for c in paper.CONDITIONS if (mine := select(rows, c))]
     lefts = [0.0] * len(shown)
     for activity, column in ACTIVITIES.items():
         widths = [fmean(map(column, mine)) for _, mine in shown]
@@ -208,7 +208,7 @@ def _policies(drawing: Drawing, found: Sequence[Variant]) -> None:
     for axes, title in zip(panels, MEASURES, strict=True):
         for y, variant in enumerate(found):
             for defaults, (color, marker) in OF_SITUATION.items():
-                shown = [of(variant.rows, (s, defaults)) for s in paper.SYSTEMS[1:]]
+                shown = [select(variant.rows, (s, defaults)) for s in paper.SYSTEMS[1:]]
                 mine = next((rows for rows in reversed(shown) if rows), None)
                 summary = summary_of(mine, MEASURES[title][0]) if mine else None
                 if summary:

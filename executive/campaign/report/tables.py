@@ -15,11 +15,11 @@ from executive.campaign.report.variants import (
     Variant,
     by_command,
     by_mission,
-    of,
+    select,
     summary_of,
 )
 from executive.config import KnowledgeSystem
-from executive.types import Status
+from executive.types import MissionStatus
 
 Lines = list[list[str]]
 
@@ -61,7 +61,7 @@ def overview(found: Sequence[Variant]) -> Table:
             for defaults in (False, True):
                 cells = (
                     _mean_cell(
-                        of(variant.rows, (system, defaults)),
+                        select(variant.rows, (system, defaults)),
                         column,
                         _theirs(variant, figures[system, defaults][0]),
                     )
@@ -72,7 +72,7 @@ def overview(found: Sequence[Variant]) -> Table:
         for defaults in (False, True) if asked(variant.rows) else ():
             thinking = [
                 _mean_cell(
-                    asked(of(variant.rows, (system, defaults))),
+                    asked(select(variant.rows, (system, defaults))),
                     lambda row: row.thinking_time_s,
                     _theirs(variant, figures_s.get((system, defaults))),
                 )
@@ -92,7 +92,7 @@ def completion(found: Sequence[Variant]) -> Table:
         for system in paper.SYSTEMS:
             mine = [row for row in variant.own if row.key.system == system]
             done = summary_of(mine, lambda row: 100.0 * row.completed)
-            said = summary_of(mine, lambda row: 100.0 * (row.status == Status.DONE))
+            said = summary_of(mine, lambda row: 100.0 * (row.status == MissionStatus.DONE))
             spl = summary_of(mine, lambda row: row.spl)
             if done and said and spl:
                 table.append(
@@ -123,7 +123,7 @@ def times(found: Sequence[Variant]) -> Table:
                 kind,
                 *(
                     _mean_cell(
-                        of(done, condition, kind),
+                        select(done, condition, kind),
                         lambda row: row.mission_time_s,
                         _theirs(variant, t),
                         1,
@@ -147,7 +147,7 @@ def time_split(found: Sequence[Variant]) -> Table:
                 *(f"{fmean(map(column, mine)):.1f}" for column in ACTIVITIES.values()),
             ]
             for condition in paper.CONDITIONS
-            if (mine := of(variant.own, condition))
+            if (mine := select(variant.own, condition))
         ]
 
     return _each(found, ["condition", *(f"{activity} [s]" for activity in ACTIVITIES)], lines)
@@ -160,7 +160,7 @@ def measure(found: Sequence[Variant], title: str) -> Table:
     def lines(variant: Variant) -> Lines:
         table = []
         for condition, (mean, sd) in figures.items():
-            if summary := summary_of(of(variant.own, condition), column):
+            if summary := summary_of(select(variant.own, condition), column):
                 table.append(
                     [
                         name(condition),
@@ -207,7 +207,7 @@ def system_tests(rows: Iterable[Row], column: Column, defaults: bool) -> tuple[T
     mine = {
         system: one
         for system in paper.SYSTEMS
-        if (one := of(rows := list(rows), (system, defaults)))
+        if (one := select(rows := list(rows), (system, defaults)))
     }
     return (
         pairwise({system: by_command(one, column) for system, one in mine.items()}),
@@ -219,7 +219,7 @@ def policies(found: Sequence[Variant]) -> Table:
     """Every variant beside the first, in each condition with a language model."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
-        mine = {v.name: one for v in found if (one := of(v.own, condition))}
+        mine = {v.name: one for v in found if (one := select(v.own, condition))}
         if len(mine) < 2:
             continue
         p = {title: _against_first(mine, column) for title, (column, _) in MEASURES.items()}
@@ -259,7 +259,7 @@ def cost(found: Sequence[Variant]) -> Table:
         for title, figures in paper.COST.items():
             cells = []
             for condition, figure in figures.items():
-                mine = of(consulted, condition)
+                mine = select(consulted, condition)
                 ours = f"{COST[title](mine):.2f}" if mine else "-"
                 cells.append(ours + _beside(variant, f"{figure:.2f}"))
             table.append([title, *cells])
@@ -346,7 +346,7 @@ def _against_first(rows: Mapping[str, Sequence[Row]], column: Column) -> dict[st
 
 
 def _reason(row: Row) -> str:
-    if row.status != Status.DONE:
+    if row.status != MissionStatus.DONE:
         return row.reason
     return f"said to be done, but the {row.object} is truly {row.truth or 'on no furniture'}"
 

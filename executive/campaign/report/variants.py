@@ -8,7 +8,7 @@ from executive.campaign.journal import Row
 from executive.campaign.report.paper import Condition
 from executive.campaign.report.statistics import Summary, grouped, summarize
 from executive.config import KnowledgeSystem
-from executive.types import Kind
+from executive.types import CommandKind
 
 OKB = KnowledgeSystem.OKB
 Column = Callable[[Row], float]
@@ -52,7 +52,7 @@ def _of_okb(rows: Iterable[Row], home: str) -> list[Row]:
     return [row for row in rows if row.key.system == OKB and row.home == home]
 
 
-def of(rows: Iterable[Row], condition: Condition, kind: Kind | None = None) -> list[Row]:
+def select(rows: Iterable[Row], condition: Condition, kind: CommandKind | None = None) -> list[Row]:
     """The missions of a system in a situation, of one kind or all."""
     return [
         row

@@ -210,7 +210,7 @@ def test_every_system_gets_the_commands_in_the_same_order() -> None:
 
 def household_that_writes(
     monkeypatch: pytest.MonkeyPatch, system: str
-) -> tuple[blocks.Household, list[Scripted]]:
+) -> tuple[blocks.Block, list[Scripted]]:
     models: list[Scripted] = []
 
     def build(settings: object, inbox: Inbox) -> Scripted:
@@ -224,7 +224,7 @@ def household_that_writes(
     settings = load_settings(
         world="fake", user="oracle", knowledge=system, defaults=False, elicit="generate"
     )
-    return blocks.Household(settings, COMMANDS), models
+    return blocks.Block(settings, COMMANDS), models
 
 
 def prompts(models: Iterable[Scripted]) -> list[int]:
@@ -235,8 +235,8 @@ def prompts(models: Iterable[Scripted]) -> list[int]:
 def test_the_dialogue_spans_the_commands_only_with_a_memory(
     monkeypatch: pytest.MonkeyPatch, system: str, lengths: int
 ) -> None:
-    household, models = household_that_writes(monkeypatch, system)
-    entries = list(blocks.run(household))
+    block, models = household_that_writes(monkeypatch, system)
+    entries = list(blocks.run(block))
     assert [entry.row.visited for entry in entries] == [
         "dining_table",
         "shelf_lobby",
@@ -248,11 +248,11 @@ def test_the_dialogue_spans_the_commands_only_with_a_memory(
 def test_a_resumed_household_remembers_what_was_said_before(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    household, models = household_that_writes(monkeypatch, "okb+llm+mem")
-    whole = list(blocks.run(household))
+    block, models = household_that_writes(monkeypatch, "okb+llm+mem")
+    whole = list(blocks.run(block))
     said = models[0].requests[1].messages
-    household, models = household_that_writes(monkeypatch, "okb+llm+mem")
-    next(blocks.run(household, whole[:1]))
+    block, models = household_that_writes(monkeypatch, "okb+llm+mem")
+    next(blocks.run(block, whole[:1]))
     assert models[0].requests[0].messages == said
 
 

@@ -22,8 +22,8 @@ Reword = Callable[[ChatRequest], ChatRequest]
 
 def missions(policy: str, *commands: str, **settings: object) -> list[Row]:
     given = {"world": "fake", "user": "oracle", "knowledge": LLM, "defaults": False, "llm": "none"}
-    household = blocks.Household(load_settings(**{**given, **settings}), commands, policy)
-    return [entry.row for entry in blocks.run(household)]
+    block = blocks.Block(load_settings(**{**given, **settings}), commands, policy)
+    return [entry.row for entry in blocks.run(block)]
 
 
 def with_replies(
@@ -121,7 +121,7 @@ def test_all_time_of_a_mission_goes_into_something_that_has_a_name() -> None:
 
 def test_policies_of_a_writing_model_differ_in_what_it_is_held_to() -> None:
     used = {
-        name: blocks.Household(load_settings(), (), name).settings_used
+        name: blocks.Block(load_settings(), (), name).settings_used
         for name in ("rank", "generate", "generate-grammar")
     }
     assert [(s.elicitation, s.grammar) for s in used.values()] == [
@@ -136,7 +136,7 @@ def test_okb_runs_once_whatever_policies_and_models_there_are() -> None:
     found = blocks.grid(
         models, ["ours", "nearest"], list(KnowledgeSystem), ("Find a mug.",), seeds=2
     )
-    keys = [key for household in found for key in household.keys]
+    keys = [key for block in found for key in block.keys]
     assert len(keys) == len(set(keys))
     of = [(key.system, key.policy, key.llm) for key in keys]
     assert of.count((KnowledgeSystem.OKB, "ours", "none")) == 2 * 2

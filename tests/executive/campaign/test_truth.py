@@ -13,7 +13,7 @@ from executive.campaign.observer import ACTIVITIES
 from executive.campaign.routes import Routes
 from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.testing.bench import four_rooms, run_mission
-from executive.types import Kind, Pick, PutDown
+from executive.types import CommandKind, Pick, PutDown
 from sim.navigation.grid import OccupancyGrid, plan
 from trees.nodes import Action
 
@@ -40,7 +40,7 @@ def test_a_robot_that_only_says_so_has_completed_nothing() -> None:
 
 @pytest.mark.parametrize(("truth", "done"), [("sofa", True), ("hand", False), ("", False)])
 def test_what_was_put_down_is_on_some_furniture(truth: str, done: bool) -> None:
-    outcome = replace(run_mission("Find an apple", llm=False).outcome, kind=Kind.PUT_DOWN)
+    outcome = replace(run_mission("Find an apple", llm=False).outcome, kind=CommandKind.PUT_DOWN)
     assert completed(outcome, truth) == done
 
 
@@ -76,7 +76,7 @@ def test_how_far_it_has_to_drive_depends_on_where_the_command_ends() -> None:
     outcome = run_mission("Take an apple", llm=False).outcome
     take, find, bring = (
         shortest_m(replace(outcome, kind=kind), four_rooms(), routes)
-        for kind in (Kind.TAKE, Kind.FIND, Kind.BRING)
+        for kind in (CommandKind.TAKE, CommandKind.FIND, CommandKind.BRING)
     )
     table, person = routes.stand("dining_table"), routes.stand("person")
     assert find == pytest.approx(take + routes.length(table, person))

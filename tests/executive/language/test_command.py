@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.language.grammar import EnglishInterpreter
-from executive.types import Kind
+from executive.types import CommandKind
 
 read = EnglishInterpreter()
 
@@ -13,31 +13,35 @@ read = EnglishInterpreter()
 @pytest.mark.parametrize(
     ("words", "kind", "target"),
     [
-        ("Bring a sugar_box.", Kind.BRING, "sugar_box"),
-        ("Find an apple", Kind.FIND, "apple"),
-        ("take the mug", Kind.TAKE, "mug"),
-        ("Could you please bring me the sugar box?", Kind.BRING, "sugar box"),
-        ("fetch pitcher", Kind.BRING, "pitcher"),
-        ("Robot, where is my power drill?", Kind.FIND, "power drill"),
-        ("Please pick up some colored wood blocks, please", Kind.TAKE, "colored wood blocks"),
-        ("  GET   ME an   ORANGE !! ", Kind.BRING, "orange"),
-        ("Bring the hammer to me.", Kind.BRING, "hammer"),
-        ("I'd like an apple", Kind.BRING, "apple"),
-        ("I’d like you to find me the mug", Kind.FIND, "mug"),
-        ("I would like to have some sugar", Kind.BRING, "sugar"),
-        ("Can I have a banana, please?", Kind.BRING, "banana"),
-        ("I need the scissors.", Kind.BRING, "scissors"),
-        ("Where's my mug?", Kind.FIND, "mug"),
-        ("I can't find the scissors!", Kind.FIND, "scissors"),
-        ("Pick the pear up", Kind.TAKE, "pear"),
-        ("Hold on to the mug", Kind.TAKE, "mug"),
-        ("Get hold of the mug", Kind.TAKE, "mug"),
-        ("Hand me the spatula, please", Kind.BRING, "spatula"),
-        ("Carry the mug over here", Kind.BRING, "mug"),
-        ("Have you seen the drill?", Kind.FIND, "drill"),
+        ("Bring a sugar_box.", CommandKind.BRING, "sugar_box"),
+        ("Find an apple", CommandKind.FIND, "apple"),
+        ("take the mug", CommandKind.TAKE, "mug"),
+        ("Could you please bring me the sugar box?", CommandKind.BRING, "sugar box"),
+        ("fetch pitcher", CommandKind.BRING, "pitcher"),
+        ("Robot, where is my power drill?", CommandKind.FIND, "power drill"),
+        (
+            "Please pick up some colored wood blocks, please",
+            CommandKind.TAKE,
+            "colored wood blocks",
+        ),
+        ("  GET   ME an   ORANGE !! ", CommandKind.BRING, "orange"),
+        ("Bring the hammer to me.", CommandKind.BRING, "hammer"),
+        ("I'd like an apple", CommandKind.BRING, "apple"),
+        ("I’d like you to find me the mug", CommandKind.FIND, "mug"),
+        ("I would like to have some sugar", CommandKind.BRING, "sugar"),
+        ("Can I have a banana, please?", CommandKind.BRING, "banana"),
+        ("I need the scissors.", CommandKind.BRING, "scissors"),
+        ("Where's my mug?", CommandKind.FIND, "mug"),
+        ("I can't find the scissors!", CommandKind.FIND, "scissors"),
+        ("Pick the pear up", CommandKind.TAKE, "pear"),
+        ("Hold on to the mug", CommandKind.TAKE, "mug"),
+        ("Get hold of the mug", CommandKind.TAKE, "mug"),
+        ("Hand me the spatula, please", CommandKind.BRING, "spatula"),
+        ("Carry the mug over here", CommandKind.BRING, "mug"),
+        ("Have you seen the drill?", CommandKind.FIND, "drill"),
     ],
 )
-def test_reads_a_request(words: str, kind: Kind, target: str) -> None:
+def test_reads_a_request(words: str, kind: CommandKind, target: str) -> None:
     command = read.command(words)
     assert command is not None
     assert (command.kind, command.target, command.words) == (kind, target, words)

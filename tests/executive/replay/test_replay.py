@@ -11,13 +11,13 @@ from py_trees.common import Status as NodeStatus
 from replays import recorded
 from sample_mission import STARTED, mission
 
-import executive.replay.replay
+import executive.replay.replaying
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
-from executive.replay.replay import replay
-from executive.types import DriveTo, Goal, Kind, LookAt, Pick, PutDown, Status
+from executive.replay.replaying import replay
+from executive.types import CommandKind, DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
 from executive.user import Console
 from kb.ontology import ontology
 from logs.__main__ import main
@@ -36,11 +36,11 @@ def test_every_branch_replays_tick_for_tick(tmp_path: Path, case: Case) -> None:
     assert again.ticks > 0
 
 
-@pytest.mark.parametrize("kind", list(Kind))
+@pytest.mark.parametrize("kind", list(CommandKind))
 @pytest.mark.parametrize("defaults", [True, False])
 @pytest.mark.parametrize(("llm", "remembers"), [(False, False), (True, False), (True, True)])
 def test_all_systems_situations_and_kinds_replay(
-    tmp_path: Path, kind: Kind, defaults: bool, llm: bool, remembers: bool
+    tmp_path: Path, kind: CommandKind, defaults: bool, llm: bool, remembers: bool
 ) -> None:
     among = {"among": ("cabinet_kitchen", "counter_wagon", "high_table")} if defaults else {}
     run = recorded(
@@ -77,7 +77,7 @@ def test_a_stopped_mission_replays(tmp_path: Path) -> None:
             inbox.post(StopRequested("the person"))
 
     run = recorded(tmp_path, "Take a power_drill", llm=False, during=stop)
-    assert json.loads((run / "outcome.json").read_text())["status"] == Status.STOPPED
+    assert json.loads((run / "outcome.json").read_text())["status"] == MissionStatus.STOPPED
     again = replay(run)
     assert (again.parting, again.notes) == (None, ())
 
@@ -149,7 +149,7 @@ def test_a_changed_behaviour_parts_at_the_tick_where_it_decides_otherwise(
 
 def test_a_tree_of_another_shape_is_told_by_its_behaviours(tmp_path: Path) -> None:
     run = recorded(tmp_path, "Find a power_drill", llm=False)
-    again = replay(run, lambda team: MissionTree(search(team)))
+    again = replay(run, lambda context: MissionTree(search(context)))
     assert "behaviour gone since: mission" in again.notes
     assert "behaviour new since: search" in again.notes
 
@@ -171,7 +171,7 @@ def test_a_mission_replays_with_the_ontology_of_its_day(
     today = tmp_path / "defaults.owl"
     today.write_bytes(ontology.DEFAULTS.read_bytes().replace(b"shelf_lobby", b"desk"))
     monkeypatch.setattr(ontology, "DEFAULTS", today)
-    executive.replay.replay._ontology.cache_clear()
+    executive.replay.replaying._ontology.cache_clear()
     assert replay(run).parting is None
 
 

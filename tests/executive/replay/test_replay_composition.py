@@ -13,8 +13,8 @@ from executive.campaign import blocks
 from executive.campaign.policies import POLICIES
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
-from executive.replay.replay import replay
-from executive.types import Box, Detection, Goal, LookAt, Pick, Saw, Status
+from executive.replay.replaying import replay
+from executive.types import Box, Detection, Goal, LookAt, MissionStatus, Pick, Saw
 from kb.advice.prompts import TEXTS
 from kb.llm.scripted import Scripted as ScriptedModel
 from logs.recording.reader import Run
@@ -24,7 +24,7 @@ OKB = {"world": "fake", "llm": "none", "knowledge": KnowledgeSystem.OKB, "user":
 
 
 class FarSighted:
-    """Eyes that see the mug on the desk: once from the bed, then from the desk itself."""
+    """Perception that see the mug on the desk: once from the bed, then from the desk itself."""
 
     def __init__(self, session: Session) -> None:
         self._inbox = session.inbox
@@ -52,7 +52,7 @@ def with_true_positions(session: Session) -> Session:
     session._used["config.toml"] = physical.to_toml().encode()
     views = session.home.view_targets
     session.robot.views = lambda place: len(views(place))  # type: ignore[method-assign]
-    session.eyes = FarSighted(session)  # type: ignore[assignment]
+    session.perception = FarSighted(session)  # type: ignore[assignment]
     return session
 
 
@@ -70,17 +70,17 @@ def test_what_was_seen_on_furniture_behind_a_place_is_remembered_there(tmp_path:
 
     world.fault = someone_takes_it
     outcome = session.run("Take the mug")
-    assert (outcome.status, outcome.source) == (Status.DONE, "memory")
+    assert (outcome.status, outcome.source) == (MissionStatus.DONE, "memory")
     assert replay(Path(outcome.run_dir or "")).parting is None
 
 
 @pytest.mark.parametrize("policy", ["nearest", "random", "true-first", "always-asks"])
 def test_a_mission_of_any_policy_replays(policy: str, tmp_path: Path) -> None:
     given = {**OKB, "knowledge": KnowledgeSystem.OKB_LLM, "defaults": False, "runs": tmp_path}
-    household = blocks.Household(
+    block = blocks.Block(
         load_settings(**given), ("Take a mug.", "Find the hammer"), policy, recorded=True
     )
-    for entry in blocks.run(household):
+    for entry in blocks.run(block):
         run = Path(entry.row.run_dir)
         assert Run(run).metadata["policy"] == policy
         assert replay(run).parting is None

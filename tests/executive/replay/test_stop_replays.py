@@ -7,7 +7,7 @@ import pytest
 from replays import recorded
 
 from executive.events import Ended, Inbox
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 from executive.types import Result
 
 

@@ -21,9 +21,9 @@ from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
-from executive.replay.replay import replay, replay_text
+from executive.replay.replaying import replay, replay_text
 from executive.text import printable
-from executive.types import FLOOR, Kind, Outcome, Status
+from executive.types import FLOOR, CommandKind, MissionStatus, Outcome
 from logs.recording.reader import Run
 from sim.faults.orders import parse_faults
 from sim.home.floorplan import doors_between
@@ -167,8 +167,8 @@ class Soak:
         session.user = self._person
         self._robot = ChaosRobot(session.robot, chaos, inbox)
         session.robot = self._robot
-        self._eyes = ChaosEyes(session.eyes, chaos, inbox)
-        session.eyes = self._eyes  # type: ignore[assignment]
+        self._perception = ChaosEyes(session.perception, chaos, inbox)
+        session.perception = self._perception  # type: ignore[assignment]
 
     def _mission(self) -> Iterator[str]:
         said = words(self._chance, self._home)
@@ -219,9 +219,9 @@ class Soak:
             yield "ticked after a stop"
         seen = looked_at(records, dict(self._robot.goals), self._robot.inner.views)
         yield from false_searches((*self._witness.said, reason), seen)
-        if outcome.status == Status.DONE:
+        if outcome.status == MissionStatus.DONE:
             yield from self._not_done(outcome)
-        stopped = outcome.status == Status.STOPPED
+        stopped = outcome.status == MissionStatus.STOPPED
         if self._model and self._model.failed and not (outcome.model_failure or stopped):
             yield "the model failed, and the outcome does not say so"
         if not self._model and outcome.model_failure:
@@ -231,12 +231,12 @@ class Soak:
         """Why what is called done is not done."""
         world, name = self._session.world, outcome.object or ""
         match outcome.kind:
-            case Kind.BRING if (place := world.resting_place(name)) != "delivery":
+            case CommandKind.BRING if (place := world.resting_place(name)) != "delivery":
                 if f"on {place}" not in outcome.reason.replace("on the ", "on "):
                     yield f"brought, but it is at {place}: {outcome.reason}"
-            case Kind.TAKE if world.held != name:
+            case CommandKind.TAKE if world.held != name:
                 yield f"taken, but it holds {world.held}"
-            case Kind.FIND if outcome.location not in self._witness.was_at[name]:
+            case CommandKind.FIND if outcome.location not in self._witness.was_at[name]:
                 if world.held != name:
                     yield f"found at {outcome.location}, where it never was"
 
@@ -278,7 +278,7 @@ class Soak:
         self._begin()
         outcome = self._session.run(f"Bring the {name}")
         yield from self._judge(outcome)
-        if outcome.status != Status.DONE:
+        if outcome.status != MissionStatus.DONE:
             yield f"{name} is not brought: {outcome.reason}"
 
 

@@ -5,7 +5,7 @@ import random
 from collections.abc import Sequence
 
 from executive.events import Inbox, StopRequested
-from executive.interfaces import Eyes, Robot
+from executive.interfaces import Perception, Robot
 from executive.records import Record
 from executive.types import (
     ChatRequest,
@@ -150,11 +150,11 @@ class ChaosRobot:
 
 
 class ChaosEyes:
-    """Eyes whose camera is out of order now and then."""
+    """Perception whose camera is out of order now and then."""
 
-    def __init__(self, eyes: Eyes, chaos: Chaos, inbox: Inbox) -> None:
-        """Pass on to `eyes` what is not struck."""
-        self._eyes = eyes
+    def __init__(self, perception: Perception, chaos: Chaos, inbox: Inbox) -> None:
+        """Pass on to `perception` what is not struck."""
+        self._perception = perception
         self._chaos = chaos
         self._inbox = inbox
         self.looks: list[int] = []
@@ -168,13 +168,13 @@ class ChaosEyes:
         if self._chaos.strikes("eyes fail"):
             self._inbox.end(request := self._inbox.open(), Failed(self._chaos.reason()))
             return request
-        request = self._eyes.see()
+        request = self._perception.see()
         self.looks.append(request)
         return request
 
     def cancel(self, request: int) -> None:
         self._chaos.may_raise("cancel of the eyes")
-        self._eyes.cancel(request)
+        self._perception.cancel(request)
 
 
 class ChaosModel:

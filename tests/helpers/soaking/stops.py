@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 
-from executive.replay.replay import replay
+from executive.replay.replaying import replay
 from logs.recording.reader import Run
 
 LATEST_S = 8.0

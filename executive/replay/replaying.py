@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_team
+from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_context
 from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
@@ -42,8 +42,8 @@ from logs.questions.difference import (
 )
 from logs.recording.reader import Run
 from sim.home.home import Home, load_home
+from trees.context import MissionContext
 from trees.mission import mission
-from trees.team import Team
 from trees.tree import MissionTree
 
 T = TypeVar("T")
@@ -77,12 +77,12 @@ class Replay:
         return self.recorded_s / self.took_s
 
 
-def mission_tree(team: Team) -> Tree:
+def mission_tree(context: MissionContext) -> Tree:
     """The tree that missions are run with."""
-    return MissionTree(mission(team))
+    return MissionTree(mission(context))
 
 
-def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay:
+def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree) -> Replay:
     """Feed a recorded mission to a fresh tree.
 
     Args:
@@ -100,7 +100,7 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
     absent = Absent(inbox, situation)
     absent.rests = "policy" not in run.metadata
     grounds = _grounds(run, absent)
-    team = build_team(
+    context = build_context(
         grounds,
         _advise(run)(grounds),
         situation,
@@ -108,11 +108,11 @@ def replay(folder: Path, build: Callable[[Team], Tree] = mission_tree) -> Replay
         clock=clock,
         recorder=judge,
         robot=absent,
-        eyes=absent,
+        perception=absent,
         user=absent,
     )
     executive = Executive(
-        build(team), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
+        build(context), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
     )
     clock.wait(None)
     executive.run()

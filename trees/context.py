@@ -1,4 +1,4 @@
-"""Whom the behaviours work with, and by which rules."""
+"""Whom the behaviours work with, and by which parameters."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from executive.interfaces import (
     Advisor,
     Clock,
-    Eyes,
     Facts,
     Interpreter,
     Knowledge,
     LanguageModel,
+    Perception,
     Recorder,
     Robot,
     User,
@@ -20,27 +20,27 @@ from executive.types import Vector3
 
 
 @dataclass(frozen=True, slots=True)
-class Rules:
+class Parameters:
     """Limits of patience and effort.
 
     Attributes:
         elicit: `generate` asks the model for a list (the paper), `rank` scores the known places.
-        top: how many places of a ranking are worth a visit (the paper's prompt asks for 5).
+        top_k: how many places of a ranking are worth a visit (the paper's prompt asks for 5).
         answer_s: how long to wait for the person (mission time, s).
         model_s: how long to wait for one call of the model (mission time, s).
         action_s: how long one action of the robot may take (mission time, s).
-        sure: confidence from which a detection is believed and remembered; what may be the thing
-            but is less sure is looked at more closely.
+        min_confidence: from which a detection is believed and remembered; what may be the thing but
+            is less sure is looked at more closely.
         grasps: how often the robot tries to grasp a thing, each time after another look.
         questions: how often an answer that makes no sense is followed by the question again.
     """
 
     elicit: str = "rank"
-    top: int = 5
+    top_k: int = 5
     answer_s: float = 120.0
     model_s: float = 60.0
     action_s: float = 120.0
-    sure: float = 0.5
+    min_confidence: float = 0.5
     grasps: int = 3
     questions: int = 3
 
@@ -69,7 +69,7 @@ class NoFacts:
 
 
 @dataclass(frozen=True, slots=True)
-class Team:
+class MissionContext:
     """The collaborators of a mission; no `model` and `advisor` for the system without an LLM.
 
     `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
@@ -83,11 +83,11 @@ class Team:
     interpreter: Interpreter
     knowledge: Knowledge
     robot: Robot
-    eyes: Eyes
+    perception: Perception
     user: User
     model: LanguageModel | None = None
     advisor: Advisor | None = None
-    rules: Rules = Rules()
+    parameters: Parameters = Parameters()
     facts: Facts = NoFacts()
     place_at: Callable[[Vector3], str | None] = lambda point: None
     near_person: tuple[str, ...] = ()
