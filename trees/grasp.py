@@ -3,6 +3,7 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.records import Activity
 from executive.types import CommandKind
 from trees.context import MissionContext
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
@@ -54,6 +55,7 @@ def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
                 DriveToCandidate("return", context),
                 look_over(context),
                 PickUp("pick", context),
+                activity=Activity.SEARCHING,
             ),
         ),
     )

@@ -10,7 +10,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.interfaces import Advisor, LanguageModel
-from executive.records import Verified
+from executive.records import Activity, Verified
 from executive.situation import Consultation, candidates_from
 from executive.types import DELIVERY, ChatRequest, Replied, Result, Scored, Source
 from trees.context import MissionContext
@@ -90,6 +90,8 @@ def existence_check(context: MissionContext) -> Behaviour:
 class MemoryKnowsPlaces(Step):
     """Succeeds if the thing was seen somewhere in this home, or was said to be there."""
 
+    source = Source.MEMORY
+
     def update(self) -> Status:
         """Recall it."""
         assert self.situation.object
@@ -104,6 +106,8 @@ class MemoryKnowsPlaces(Step):
 
 class OntologyKnowsPlace(Step):
     """Succeeds if the ontology has exactly one default location for the object, still unvisited."""
+
+    source = Source.ONTOLOGY
 
     def update(self) -> Status:
         """Look it up; several are kept to narrow down what the model may say."""
@@ -129,6 +133,9 @@ class BeginConsultation(Step):
 
 class ModelAction(Action):
     """One call of the language model."""
+
+    source = Source.LLM
+    activity = Activity.THINKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Give the model as long as the parameters allow."""
@@ -298,6 +305,8 @@ class VerifyFurniture(VerifyNames):
 
 class AdoptFurniture(Step):
     """What passed, and was not looked at yet, becomes the list of candidates."""
+
+    source = Source.LLM
 
     def update(self) -> Status:
         """Keep the model's order."""

@@ -16,7 +16,7 @@ from trees.act import act, asked_to
 from trees.context import MissionContext
 from trees.grasp import grasp
 from trees.hand import empty_hand, hand_is_free
-from trees.nodes import Check, Optionally, Step, fallback, sequence
+from trees.nodes import Check, Optionally, Step, fallback, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.robot import DriveBack
@@ -29,7 +29,7 @@ def mission(context: MissionContext) -> Behaviour:
     situation = context.situation
     return fallback(
         "mission",
-        sequence(
+        stages(
             "serve",
             understand(context),
             Check(
@@ -44,13 +44,13 @@ def mission(context: MissionContext) -> Behaviour:
             act(context),
             Conclude("done", context),
         ),
-        sequence(
+        stages(
             "put down",
             asked_to(context, CommandKind.PUT_DOWN),
             empty_hand(context),
             Conclude("done", context),
         ),
-        sequence("give up", come_back(context), Apologise("apologise", context)),
+        stages("give up", come_back(context), Apologise("apologise", context)),
     )
 
 

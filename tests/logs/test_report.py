@@ -4,6 +4,7 @@ import json
 import shutil
 import sys
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -104,10 +105,7 @@ def test_of_a_recording_without_ticks_it_says_that_nothing_was_decided(tmp_path:
 
 def test_what_the_model_named_in_vain_is_an_alternative(tmp_path: Path) -> None:
     shape = tuple(
-        type(node)(node.path, node.parent, node.name, node.kind, "RankPlaces")
-        if node.name == "ask"
-        else node
-        for node in TREE.nodes
+        replace(node, source="llm") if node.name == "ask" else node for node in TREE.nodes
     )
     decided = tick(0, "mission/drive", "RUNNING", "SUCCESS", "SUCCESS", "RUNNING", "INVALID")
     records = [

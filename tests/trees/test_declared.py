@@ -1,0 +1,59 @@
+"""Every behaviour declares what it means: who says so, and what the robot is doing."""
+
+import ast
+import inspect
+import pkgutil
+from collections.abc import Iterator
+from importlib import import_module
+from textwrap import dedent
+
+import pytest
+
+import trees
+from executive.types import Source
+from trees.nodes import Action, Step
+
+
+def descendants(kind: type) -> Iterator[type]:
+    for child in kind.__subclasses__():
+        yield child
+        yield from descendants(child)
+
+
+def classes_of(kind: type) -> list[type]:
+    """The classes of this kind that the tree may be built of, in all files of trees/."""
+    for module in pkgutil.walk_packages(trees.__path__, "trees."):
+        if not module.name.endswith("__main__"):
+            import_module(module.name)
+    ours = (c for c in descendants(kind) if c.__module__.startswith("trees."))
+    return list(dict.fromkeys(c for c in ours if not inspect.isabstract(c)))
+
+
+def sets(kind: type, attribute: str) -> bool:
+    """Whether an assignment in this class sets an attribute of this name, of whatever it is."""
+    targets = (
+        target
+        for statement in ast.walk(ast.parse(dedent(inspect.getsource(kind))))
+        if isinstance(statement, ast.Assign)
+        for target in statement.targets
+    )
+    return any(isinstance(t, ast.Attribute) and t.attr == attribute for t in targets)
+
+
+@pytest.mark.parametrize("action", classes_of(Action), ids=lambda kind: kind.__name__)
+def test_what_starts_something_slow_declares_what_the_robot_is_doing(action: type[Action]) -> None:
+    assert action.activity
+
+
+@pytest.mark.parametrize(
+    "step",
+    [step for step in classes_of(Step) if sets(step, "candidates")],
+    ids=lambda kind: kind.__name__,
+)
+def test_what_says_where_a_thing_may_be_declares_who_says_so(step: type[Step]) -> None:
+    assert step.source or sets(step, "source")
+
+
+def test_every_source_of_places_is_declared_by_some_behaviour() -> None:
+    told = {step.source for step in classes_of(Step) if sets(step, "candidates")}
+    assert told >= set(Source)
