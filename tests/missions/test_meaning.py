@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -96,26 +95,26 @@ def test_with_other_names_the_same_is_told(
     assert other_seconds == seconds
 
 
-def settled(ticks: list[Tick], shape: TreeShape) -> Iterator[tuple[str, set[str]]]:
-    """Whoever the candidates are from, and whoever has just spoken, whenever there are new ones."""
+def settled(ticks: list[Tick], shape: TreeShape) -> Iterator[tuple[str, str]]:
+    """Whom new candidates are from, and who spoke last when they came up."""
     sources = {node.path: node.source for node in shape.nodes}
-    for before, tick in pairwise(ticks):
-        candidates = tick.situation["candidates"]
-        if candidates and candidates != before.situation["candidates"]:
-            earlier = {node.path: node.status for node in before.nodes}
-            yield (
-                candidates[0]["source"],
-                {
-                    sources[node.path]
-                    for node in tick.nodes
-                    if node.status == "SUCCESS" != earlier[node.path]
-                },
-            )
+    known, earlier = [], dict[str, str]()
+    for tick in ticks:
+        spoke = [
+            sources[node.path]
+            for node in tick.nodes
+            if node.status == "SUCCESS" != earlier.get(node.path) and sources[node.path]
+        ]
+        if tick.situation["candidates"] != known:
+            known = tick.situation["candidates"]
+            yield known[0]["source"], spoke[-1]
+        earlier = {node.path: node.status for node in tick.nodes}
 
 
 @pytest.mark.parametrize(("words", "given"), MISSIONS)
 def test_who_says_where_the_thing_may_be_is_who_spoke(words: str, given: dict[str, Any]) -> None:
     run = run_mission(words, **given)
     (shape,) = run.notebook.all(TreeShape)
-    for source, spoke in settled(run.ticks, shape):
-        assert source in spoke
+    told = list(settled(run.ticks, shape))
+    assert told
+    assert all(source == spoke for source, spoke in told)
