@@ -30,14 +30,10 @@ def classes_of(kind: type) -> list[type]:
 
 
 def sets(kind: type, attribute: str) -> bool:
-    """Whether an assignment in this class sets an attribute of this name, of whatever it is."""
-    targets = (
-        target
-        for statement in ast.walk(ast.parse(dedent(inspect.getsource(kind))))
-        if isinstance(statement, ast.Assign)
-        for target in statement.targets
-    )
-    return any(isinstance(t, ast.Attribute) and t.attr == attribute for t in targets)
+    """Whether something in this class sets an attribute of this name, of whatever it is."""
+    nodes = ast.walk(ast.parse(dedent(inspect.getsource(kind))))
+    attributes = (node for node in nodes if isinstance(node, ast.Attribute))
+    return any(isinstance(a.ctx, ast.Store) and a.attr == attribute for a in attributes)
 
 
 @pytest.mark.parametrize("action", classes_of(Action), ids=lambda kind: kind.__name__)
