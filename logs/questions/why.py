@@ -4,6 +4,7 @@ Every fallback of the tree is a decision. Its children are the alternatives: the
 was taken, those before it failed and said why, those after it were not needed.
 """
 
+import re
 from collections import defaultdict
 from collections.abc import Callable, Container, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -17,6 +18,7 @@ from logs.recording.reader import At, Run
 WORLD = "world"
 """Whose doing an ordered fault is."""
 NOT_NEEDED = "not needed"
+_VERB = re.compile(r"\b(is|was|may)\b")
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +143,7 @@ class _Chain:
             return "did not succeed"
         now = states[leaf.path]
         said = now.message if now.status == "FAILURE" else self._reasons[leaf.path]
-        return said or ("no" if leaf is child else f"not {leaf.name}")
+        return said or ("no" if leaf is child else denied(leaf.name))
 
     def _last(self, node: NodeShape, holds: Callable[[NodeShape], bool]) -> NodeShape | None:
         return next(filter(holds, reversed(self._family.leaves[node.path])), None)
@@ -230,6 +232,12 @@ def _outranked(call: LlmCall) -> list[Alternative]:
         return []
     ranked = sorted(zip(call.result.scores, call.result.request.places, strict=True), reverse=True)
     return [Alternative(place, f"scored {score:.2f}") for score, place in ranked]
+
+
+def denied(condition: str) -> str:
+    """The contrary of a condition, named as it reads when true: `in my hand`, `it was there`."""
+    contrary, verbs = _VERB.subn(r"\1 not", condition, count=1)
+    return contrary if verbs else f"not {condition}"
 
 
 def why_text(decisions: Iterable[Decision]) -> str:

@@ -1,4 +1,4 @@
-"""Recordings from before behaviours declared what they mean read as they did then."""
+"""Recordings from before behaviours declared what they mean are understood as they were then."""
 
 from pathlib import Path
 
