@@ -214,6 +214,9 @@ class FakeRobot:
             return Failed(f"my hand already holds the {world.held}")
         if world.things.get(name) not in (world.at, FLOOR):
             return Failed(f"the {name} is out of reach")
+        own = world.home.own.get(name)
+        if own and (why := own.why_not_taken):
+            return Failed(f"I cannot grasp the {name} as it lies: {why}")
         del world.things[name]
         world.held = name
         return Succeeded()

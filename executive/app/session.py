@@ -52,7 +52,6 @@ from sim.faults.fake import FaultyFakeRobot
 from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import parse_faults, refuse_physical
 from sim.home.home import Home, home_text, load_home
-from sim.objects.objects import load_objects
 from sim.objects.ycb import with_scans
 from trees.mission import mission
 from trees.tree import MissionTree
@@ -102,6 +101,7 @@ class Session:
         self.model = model or build_model(settings, self.inbox)
         self.knowledge = Ontology(
             self.home.places(),
+            things=self.home.things(),
             defaults=settings.defaults,
             files=settings.kb,
             person=settings.person,
@@ -385,7 +385,7 @@ def build_simulation(
         from executive.perception.detector import LEARNED, OnnxDetector
         from sim.world import PhysicsWorld
 
-        models = load_objects()
+        models = home.drawn_models()
         world = physics = PhysicsWorld(
             home,
             with_scans(models, settings.ycb) if settings.ycb else models,

@@ -9,7 +9,7 @@ from rdflib.term import Identifier
 
 from executive.errors import InputError
 from executive.text import printable
-from executive.types import Place
+from executive.types import Place, Thing
 from kb.ontology.graph import Graph
 from kb.ontology.home_file import home_file
 from kb.ontology.library import Library
@@ -55,6 +55,7 @@ class Ontology:
         self,
         places: Sequence[Place] = (),
         *,
+        things: Sequence[Thing] = (),
         defaults: bool = True,
         files: Sequence[Path | OwlFile] = (),
         person: str | None = None,
@@ -65,6 +66,7 @@ class Ontology:
 
         Args:
             places: the furniture of the home.
+            things: the objects that the home declares, each a class below the one it names.
             defaults: whether to load defaults.owl.
             files: a person's own OWL files, or what was read of them, which add to ours or
                 replace them.
@@ -72,8 +74,9 @@ class Ontology:
 
         Raises:
             InputError: if a file is no ontology or is called like another; if what replaces
-                household.owl lacks a name that every home needs, a place is of a class that the
-                ontology does not have, or nobody knows the person.
+                household.owl lacks a name that every home needs, a place or a thing is of a class
+                that the ontology does not have, a thing is called like something else, or nobody
+                knows the person.
         """
         paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
         read_files = (file if isinstance(file, OwlFile) else read(file) for file in paths)
@@ -84,10 +87,12 @@ class Ontology:
         self._places = {place.name: place for place in places}
         self._order = {name: number for number, name in enumerate(self._places)}
         self._kinds = {
-            root: _by_name(self._graph.downwards(_class(root))) for root in ("Furniture", "Room")
+            root: _by_name(self._graph.downwards(_class(root)))
+            for root in ("Furniture", "Room", "Object")
         }
         for place in places:
             self._add(place)
+        self._added = {thing.name: self._add_thing(thing) for thing in things}
         label, names = self._graph.label, self._graph.names
         self._things = tuple(self._graph.downwards(_class("Object")))
         self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
@@ -200,7 +205,7 @@ class Ontology:
     def files(self) -> Mapping[str, bytes]:
         """The loaded files by name, and what the home adds to them, to be kept with the log."""
         kinds, rooms = self._kinds["Furniture"], self._kinds["Room"]
-        home = home_file(INDIVIDUALS, _class("isIn"), self.places(), kinds, rooms)
+        home = home_file(INDIVIDUALS, _class("isIn"), self.places(), kinds, rooms, self._added)
         return {**self._library.contents(), "home.owl": home}
 
     def faults(self) -> Iterator[str]:
@@ -294,14 +299,41 @@ class Ontology:
         self._graph.put(piece, _class("isIn"), room)
 
     def _individual(self, name: str, kind: str, root: str) -> Identifier:
+        individual = URIRef(INDIVIDUALS + name)
+        self._graph.put(individual, RDF.type, self._kind(name, kind, root))
+        return individual
+
+    def _kind(self, name: str, kind: str, root: str) -> Identifier:
         class_ = self._kinds[root].get(kind)
         if class_ is None:
             known = ", ".join(self._kinds[root])
             fault = f"is a {printable(kind)!r}, which the ontology lacks"
             raise InputError(printable(name), fault, f"known are {known}")
-        individual = URIRef(INDIVIDUALS + name)
-        self._graph.put(individual, RDF.type, class_)
-        return individual
+        return class_
+
+    def _add_thing(self, thing: Thing) -> Identifier:
+        """Put an object of the home below its class, which is returned.
+
+        A file may have it already, under the same name.
+        """
+        graph, where = self._graph, f"object {printable(thing.name)}"
+        kind, words = self._kind(where, thing.kind, "Object"), "".join(words_of(thing.name))
+        own = URIRef(INDIVIDUALS + thing.name)
+        if not words or graph.is_declared(own):
+            raise InputError(where, "this is no name of a thing", "give another name")
+        for other in (one for root in ROOTS for one in graph.downwards(_class(root))):
+            if words not in ("".join(words_of(name)) for name in graph.names(other)):
+                continue
+            if graph.label(other) == thing.name and kind in graph.upwards(other):
+                return kind
+            fault = f"the ontology has a {graph.label(other)} of this name"
+            raise InputError(where, fault, "give another name")
+        if kind.startswith(CLASSES) and kind in graph.leaves(_class("Object")):
+            above = next(iter(list(graph.upwards(kind))[1:]), kind)
+            fault = f"is a {thing.kind}, which is an object itself"
+            raise InputError(where, fault, f"name the class above it, as {ending(above)}")
+        graph.put_class(own, kind, thing.name)
+        return kind
 
     def _index(self) -> dict[str, tuple[str, ...]]:
         """Words, run together -> names of the objects that they may mean."""

@@ -37,7 +37,8 @@ class ObjectModel:
             inside) or `handle`.
         shapes: what it collides with, in the object frame, whose origin is the middle of the
             resting base.
-        look: the textured mesh that is drawn of it, in the object frame.
+        look: the textured mesh that is drawn of it, in the object frame; None: the shapes are.
+        shown: what a recording shows of it, in the object frame.
         lower: lowest corner of the bounding box in the object frame (metres).
         upper: highest corner of the bounding box.
         center_of_mass: in the object frame, all shapes taken as equally dense.
@@ -48,7 +49,8 @@ class ObjectModel:
     friction: float
     grasp: Grasp
     shapes: tuple[Shape, ...]
-    look: Shape
+    look: Shape | None
+    shown: tuple[Shape, ...]
     lower: Vector3
     upper: Vector3
     center_of_mass: Vector3
@@ -113,20 +115,43 @@ class _Row(BaseModel):
 
     def model(self, name: str) -> ObjectModel:
         shapes = tuple(shape for part in self.shapes for shape in part.shapes())
-        reach = np.array([_half_extent(shape) for shape in shapes])
-        middle = np.array([shape.pose.position for shape in shapes])
-        volume = np.array([_volume(shape) for shape in shapes])
-        return ObjectModel(
+        return object_model(
             name,
-            self.mass_kg,
-            self.friction,
-            self.grasp,
             shapes,
-            packaged_mesh(name, "obj"),
-            lower=_vector((middle - reach).min(axis=0)),
-            upper=_vector((middle + reach).max(axis=0)),
-            center_of_mass=_vector(volume @ middle / volume.sum()),
+            mass_kg=self.mass_kg,
+            friction=self.friction,
+            grasp=self.grasp,
+            look=packaged_mesh(name, "obj"),
+            shown=(packaged_mesh(name, "glb"),),
         )
+
+
+def object_model(
+    name: str,
+    shapes: tuple[Shape, ...],
+    *,
+    mass_kg: float,
+    friction: float = 0.7,
+    grasp: Grasp = "top",
+    look: Shape | None = None,
+    shown: tuple[Shape, ...] = (),
+) -> ObjectModel:
+    """A thing of these shapes, which the recording shows if it is told nothing else."""
+    reach = np.array([_half_extent(shape) for shape in shapes])
+    middle = np.array([shape.pose.position for shape in shapes])
+    volume = np.array([_volume(shape) for shape in shapes])
+    return ObjectModel(
+        name,
+        mass_kg,
+        friction,
+        grasp,
+        shapes,
+        look,
+        shown or shapes,
+        lower=_vector((middle - reach).min(axis=0)),
+        upper=_vector((middle + reach).max(axis=0)),
+        center_of_mass=_vector(volume @ middle / volume.sum()),
+    )
 
 
 def _vector(values: Sequence[float] | NDArray[np.float64]) -> Vector3:

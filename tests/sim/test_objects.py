@@ -17,9 +17,10 @@ from sim.__main__ import main
 from sim.bullet.bodies import home_entities
 from sim.modelling.__main__ import RECIPES
 from sim.modelling.__main__ import main as make
+from sim.objects.meshes import aligned
 from sim.objects.objects import ASSETS
 from sim.objects.solids import signed_distance
-from sim.objects.ycb import MESH, aligned, with_scans
+from sim.objects.ycb import MESH, with_scans
 from sim.tools.catalogue import portrait
 
 YCB_SIZES_MM = {
