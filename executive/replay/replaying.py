@@ -49,6 +49,7 @@ from trees.tree import MissionTree
 T = TypeVar("T")
 
 _BELIEFS = TypeAdapter(dict[str, list[str]])
+_NAMES = TypeAdapter(tuple[str, ...])
 _home = cache(recorded_home)
 
 
@@ -205,6 +206,7 @@ def _grounds(run: Run, absent: Absent) -> Grounds:
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
         facts=FactStore.believing(_beliefs(run), learns=settings.learn),
+        blind_to=_blind_to(run),
     )
 
 
@@ -235,6 +237,13 @@ def _beliefs(run: Run) -> dict[str, list[str]]:
     except ValidationError as error:
         what = f"its facts.json does not say what is where: {error.errors()[0]['msg']}"
         raise InputError(str(run.path), what) from error
+
+
+def _blind_to(run: Run) -> tuple[str, ...]:
+    try:
+        return _NAMES.validate_json(run.metadata.get("blind_to", "[]"))
+    except ValidationError as error:
+        raise InputError(str(run.path), "its 'blind_to' is no list of names") from error
 
 
 def _settings(run: Run) -> Settings:

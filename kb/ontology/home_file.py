@@ -1,4 +1,4 @@
-"""The furniture and the own objects of a home as an ontology in RDF/XML, for the log and for other tools."""
+"""What a home adds to the ontology, in RDF/XML, for the log and for other tools."""
 
 from collections.abc import Iterable, Mapping
 from xml.etree import ElementTree
