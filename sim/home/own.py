@@ -12,7 +12,7 @@ from executive.records import Shape
 from executive.types import Color, Pose, Vector3
 from sim.home.arrangement import Spot
 from sim.objects.meshes import aligned
-from sim.objects.objects import WHITE, ObjectModel, object_model
+from sim.objects.objects import GREY, WHITE, HexColor, ObjectModel, object_model, rgba
 
 Extent = Annotated[float, Field(strict=True, ge=0.005, le=1.0)]
 """A length of a thing that may stand on furniture (metres)."""
@@ -20,7 +20,6 @@ OPENING_M = 0.0755
 """The widest that the robot's hand gets its fingers around: `sim.manipulation.grasps.WIDEST`."""
 PAYLOAD_KG = 3.0
 """The heaviest that its arm may lift, by the maker's data sheet."""
-GREY: Color = (0.6, 0.6, 0.6, 1.0)
 _SUFFIX = ".obj"
 _FORMS = ("box", "cylinder", "sphere")
 
@@ -38,8 +37,7 @@ class OwnObject(Spot):
     """Diameter (metres)."""
     mass: Annotated[float, Field(strict=True, gt=0.0, le=100.0)]
     """Kilograms."""
-    color: Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")] | None = None
-    """Red, green and blue, as the web has it: #336699."""
+    color: HexColor | None = None
     mesh: Annotated[str, Field(max_length=200)] | None = None
     """OBJ file in the folder of the home file, or below it."""
 
@@ -62,10 +60,7 @@ class OwnObject(Spot):
     @property
     def paint(self) -> Color | None:
         """Its colour, if the file gives one."""
-        if self.color is None:
-            return None
-        red, green, blue = bytes.fromhex(self.color[1:])
-        return red / 255, green / 255, blue / 255, 1.0
+        return None if self.color is None else rgba(self.color)
 
     def model(self, name: str) -> ObjectModel:
         """The thing that it is, of this name, looking like its form."""

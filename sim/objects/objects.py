@@ -2,15 +2,15 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, TypeAdapter
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 from scipy.spatial.transform import Rotation
 
 from executive.records import Shape
@@ -23,6 +23,10 @@ ASSETS = Path(__file__).parents[1] / "assets" / "objects"
 """A folder for each object, with its mesh as `textured.obj` and as `textured.glb`."""
 WHITE: Color = (1.0, 1.0, 1.0, 1.0)
 """Leaves the colours of a texture as they are."""
+GREY: Color = (0.6, 0.6, 0.6, 1.0)
+"""Of what nobody gave a colour."""
+HexColor = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
+"""Red, green and blue, as the web has it: #336699."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,10 +68,24 @@ class ObjectModel:
 
 @cache
 def load_objects() -> dict[str, ObjectModel]:
-    """The objects of the paper (objects.toml), by name."""
-    content = files("sim").joinpath("objects.toml").read_bytes()
-    rows = TypeAdapter(dict[str, _Row]).validate_python(parse_toml(content, "objects.toml"))
-    return {name: row.model(name) for name, row in rows.items()}
+    """The objects of the package (objects.toml), by name."""
+    return {name: row.model(name) for name, row in _rows().items()}
+
+
+def rooms_of_objects() -> dict[str, tuple[str, ...]]:
+    """The kinds of rooms that each object of the package belongs into."""
+    return {name: row.rooms for name, row in _rows().items()}
+
+
+def drawings() -> dict[str, str]:
+    """The module of `sim.modelling` that draws it, of each object that is drawn."""
+    return {name: row.drawn_by for name, row in _rows().items() if row.drawn_by}
+
+
+def rgba(color: HexColor) -> Color:
+    """A colour as the web writes it, such as #336699."""
+    red, green, blue = bytes.fromhex(color[1:])
+    return red / 255, green / 255, blue / 255, 1.0
 
 
 def packaged_mesh(name: str, form: Literal["obj", "glb"]) -> Shape:
@@ -112,17 +130,21 @@ class _Row(BaseModel):
     friction: float
     grasp: Grasp
     shapes: tuple[_Part, ...]
+    rooms: tuple[str, ...]
+    drawn_by: str | None = None
+    color: HexColor | None = None
 
     def model(self, name: str) -> ObjectModel:
+        paint = GREY if self.color is None else rgba(self.color)
         shapes = tuple(shape for part in self.shapes for shape in part.shapes())
         return object_model(
             name,
-            shapes,
+            tuple(replace(shape, color=paint) for shape in shapes),
             mass_kg=self.mass_kg,
             friction=self.friction,
             grasp=self.grasp,
-            look=packaged_mesh(name, "obj"),
-            shown=(packaged_mesh(name, "glb"),),
+            look=packaged_mesh(name, "obj") if self.drawn_by else None,
+            shown=(packaged_mesh(name, "glb"),) if self.drawn_by else (),
         )
 
 
@@ -152,6 +174,12 @@ def object_model(
         upper=_vector((middle + reach).max(axis=0)),
         center_of_mass=_vector(volume @ middle / volume.sum()),
     )
+
+
+@cache
+def _rows() -> dict[str, _Row]:
+    content = files("sim").joinpath("objects.toml").read_bytes()
+    return TypeAdapter(dict[str, _Row]).validate_python(parse_toml(content, "objects.toml"))
 
 
 def _vector(values: Sequence[float] | NDArray[np.float64]) -> Vector3:
