@@ -123,6 +123,15 @@ class Place:
     """The room's class in the ontology: `Kitchen`, `Bedroom`, ..."""
 
 
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """An object that the home file declares, since no file of the ontology does."""
+
+    name: str
+    kind: str
+    """Its class in the ontology: `Kitchenware`, `Toy`, ..."""
+
+
 # --- what the robot can be asked to do ---
 
 

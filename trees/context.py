@@ -73,6 +73,7 @@ class MissionContext:
     """The collaborators of a mission; no `model` and `advisor` for the system without an LLM.
 
     `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
+    `blind_to` are known objects that perception would not recognise.
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
     the delivery table has no room.
     """
@@ -91,3 +92,4 @@ class MissionContext:
     facts: Facts = NoFacts()
     place_at: Callable[[Vector3], str | None] = lambda point: None
     near_person: tuple[str, ...] = ()
+    blind_to: tuple[str, ...] = ()

@@ -20,7 +20,7 @@ from trees.nodes import Check, Optionally, Step, fallback, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.robot import DriveBack
-from trees.search import search
+from trees.search import eyes_for_it, search
 from trees.understand import understand
 
 
@@ -38,6 +38,7 @@ def mission(context: MissionContext) -> Behaviour:
                 lambda: not situation.asks_to(CommandKind.PUT_DOWN),
             ),
             resolve_object(context),
+            *eyes_for_it(context),
             hand_is_free(context),
             search(context),
             grasp(context),

@@ -33,6 +33,11 @@ def search(context: MissionContext) -> Behaviour:
     )
 
 
+def eyes_for_it(context: MissionContext) -> tuple[Behaviour, ...]:
+    """What stops a search that would be in vain; nothing if perception recognises everything."""
+    return (Recognises("would recognise it", context),) if context.blind_to else ()
+
+
 def visit_candidates(context: MissionContext) -> Behaviour:
     """Drive from candidate to candidate and look, until the thing is seen."""
 
@@ -89,6 +94,17 @@ def see(context: MissionContext) -> Behaviour:
             SeeTarget("see closer", context, closer=True),
         ),
     )
+
+
+class Recognises(Step):
+    """Fails if the thing would not be recognised if it were in view."""
+
+    def update(self) -> Status:
+        """What is in the hand need not be."""
+        name = self.situation.object
+        if name in self.context.blind_to and name != self.situation.in_hand:
+            return self.fail(f"I would not recognise the {name}: my detector does not know it")
+        return Status.SUCCESS
 
 
 class NotHere(Step):

@@ -35,6 +35,8 @@ class Grounds:
     model: LanguageModel | None
     prompts: Prompts
     facts: FactStore
+    blind_to: tuple[str, ...] = ()
+    """Objects of the home that perception would not recognise."""
 
 
 Advise = Callable[[Grounds], Advisor | None]
@@ -90,6 +92,7 @@ def build_context(
         facts=grounds.facts,
         place_at=place_at(grounds),
         near_person=near_person(grounds.home),
+        blind_to=grounds.blind_to,
     )
 
 

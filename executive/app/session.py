@@ -9,6 +9,7 @@ import logging
 import sys
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -52,7 +53,6 @@ from sim.faults.fake import FaultyFakeRobot
 from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import parse_faults, refuse_physical
 from sim.home.home import Home, home_text, load_home
-from sim.objects.objects import load_objects
 from sim.objects.ycb import with_scans
 from trees.mission import mission
 from trees.tree import MissionTree
@@ -102,6 +102,7 @@ class Session:
         self.model = model or build_model(settings, self.inbox)
         self.knowledge = Ontology(
             self.home.places(),
+            things=self.home.things(),
             defaults=settings.defaults,
             files=settings.kb,
             person=settings.person,
@@ -116,6 +117,9 @@ class Session:
         self.world, self.robot, camera, detector = build_simulation(
             settings, self.home, self.inbox, self.recorder, self.knowledge, gui, self.injector
         )
+        self.grounds = replace(self.grounds, blind_to=blind_to(self.home, detector))
+        if self.grounds.blind_to:
+            log.warning("%s", blindness(self.grounds.blind_to))
         self.clock = SimulatedClock(self.inbox, self.world)
         self.perception = CameraPerception(camera, detector, self.inbox, self.recorder)
         self.user = user or build_user(
@@ -310,6 +314,7 @@ class Session:
             "model": self.grounds.model.name if self.grounds.model else "none",
             "thinks": str(bool(self.grounds.model)),
             "policy": self._policy,
+            **({"blind_to": json.dumps(self.grounds.blind_to)} if self.grounds.blind_to else {}),
             **{name: version(name) for name in PACKAGES},
         }
         from logs.viewer.sink import RerunSink
@@ -385,7 +390,7 @@ def build_simulation(
         from executive.perception.detector import LEARNED, OnnxDetector
         from sim.world import PhysicsWorld
 
-        models = load_objects()
+        models = home.drawn_models()
         world = physics = PhysicsWorld(
             home,
             with_scans(models, settings.ycb) if settings.ycb else models,
@@ -403,6 +408,18 @@ def build_simulation(
     if injector:
         detector = FaultyDetector(detector, injector, tuple(home.objects))
     return world, robot, camera, detector
+
+
+def blind_to(home: Home, detector: Detector) -> tuple[str, ...]:
+    """The objects that the home declares and the detector would not recognise."""
+    labels = getattr(detector, "labels", None)
+    return () if labels is None else tuple(name for name in home.own if name not in labels)
+
+
+def blindness(names: Sequence[str]) -> str:
+    """What it means not to recognise these, and what would be right."""
+    right = "use --detector simulated, or a FILE.onnx with the name in its class list"
+    return f"the detector does not know {', '.join(names)}, and would not see it: {right}"
 
 
 def build_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:

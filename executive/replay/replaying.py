@@ -27,7 +27,7 @@ from executive.records import Record, Tick, TreeShape
 from executive.replay.stand_ins import Absent, RecordedTime
 from executive.situation import Situation
 from executive.text import printable
-from executive.types import Place
+from executive.types import Place, Thing
 from kb.advice.prompts import Prompts
 from kb.facts import FactStore
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
@@ -41,7 +41,7 @@ from logs.questions.difference import (
     tick_aspects,
 )
 from logs.recording.reader import Run
-from sim.home.home import Home, load_home
+from sim.home.home import recorded_home
 from trees.context import MissionContext
 from trees.mission import mission
 from trees.tree import MissionTree
@@ -49,6 +49,8 @@ from trees.tree import MissionTree
 T = TypeVar("T")
 
 _BELIEFS = TypeAdapter(dict[str, list[str]])
+_NAMES = TypeAdapter(tuple[str, ...])
+_home = cache(recorded_home)
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,10 +200,13 @@ def _grounds(run: Run, absent: Absent) -> Grounds:
     return Grounds(
         settings=settings,
         home=home,
-        knowledge=_ontology(home.places(), settings.defaults, files, settings.person),
+        knowledge=_ontology(
+            home.places(), home.things(), settings.defaults, files, settings.person
+        ),
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
         facts=FactStore.believing(_beliefs(run), learns=settings.learn),
+        blind_to=_blind_to(run),
     )
 
 
@@ -234,6 +239,13 @@ def _beliefs(run: Run) -> dict[str, list[str]]:
         raise InputError(str(run.path), what) from error
 
 
+def _blind_to(run: Run) -> tuple[str, ...]:
+    try:
+        return _NAMES.validate_json(run.metadata.get("blind_to", "[]"))
+    except ValidationError as error:
+        raise InputError(str(run.path), "its 'blind_to' is no list of names") from error
+
+
 def _settings(run: Run) -> Settings:
     """As recorded; what is not recorded was not set, whatever the environment says now."""
     _kept(run, run.attachments, "config.toml")
@@ -256,14 +268,6 @@ def _kept(run: Run, kept: Mapping[str, T], name: str) -> T:
 
 
 @cache
-def _home(text: bytes) -> Home:
-    with TemporaryDirectory() as folder:
-        file = Path(folder) / "home.toml"
-        file.write_bytes(text)
-        return load_home(str(file))
-
-
-@cache
 def _prompts(text: bytes | None) -> Prompts:
     """The recorded texts; ours of today, if none replaced ours."""
     if text is None:
@@ -277,13 +281,14 @@ def _prompts(text: bytes | None) -> Prompts:
 @cache
 def _ontology(
     places: tuple[Place, ...],
+    things: tuple[Thing, ...],
     defaults: bool,
     files: tuple[tuple[str, bytes], ...],
     person: str | None,
 ) -> Ontology:
     """The recorded files, which take the place of those of today."""
     read = [parsed(Path(name), data) for name, data in files]
-    return Ontology(places, defaults=defaults, files=read, person=person)
+    return Ontology(places, things=things, defaults=defaults, files=read, person=person)
 
 
 def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Parting | None:

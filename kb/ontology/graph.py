@@ -89,6 +89,13 @@ class Graph:
             self._of.setdefault(value, []).append(individual)
         said[relation] = {value: None}
 
+    def put_class(self, kind: Identifier, above: Identifier, name: str) -> None:
+        """Say of a new class that it is right below another, and what it is called."""
+        said = {RDF.type: OWL.Class, RDFS.subClassOf: above, RDFS.label: Literal(name)}
+        self._about[kind] = {relation: {value: None} for relation, value in said.items()}
+        self._above[kind] = [above]
+        self._below.setdefault(above, []).append(kind)
+
     # --- classes and individuals ---
 
     def is_class(self, entity: Identifier) -> bool:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING
 
+from executive.errors import InputError
 from executive.types import DELIVERY
 from sim.home.arrangement import NoRoomError
 from sim.home.floorplan import wall_axis, wall_lines
@@ -33,6 +34,7 @@ def home_flaws(home: "Home") -> Iterator[Flaw]:
     unbuildable = [*_room_flaws(home), *_furniture_flaws(home)]
     yield from unbuildable
     yield from _layout_flaws(home)
+    yield from _own_flaws(home)
     yield from object_flaws(home)
     if not unbuildable:
         yield from spot_flaws(home)
@@ -46,6 +48,8 @@ def _name_flaws(home: "Home") -> Iterator[Flaw]:
     named += [("room", "kind", room.kind) for room in home.rooms]
     named += [("furniture", "name", piece.name) for piece in pieces]
     named += [("furniture", "kind", piece.kind) for piece in pieces]
+    named += [("object", "name", name) for name in home.own]
+    named += [("object", "kind", one.kind) for one in home.own.values()]
     for what, key, name in named:
         if fault := name_fault(name):
             yield f"{what} {_cut(name)}: its {key} {fault}", RULE
@@ -126,13 +130,34 @@ def _layout_flaws(home: "Home") -> Iterator[Flaw]:
         yield f"furniture {names} overlap", "move one of them"
 
 
+def _own_flaws(home: "Home") -> Iterator[Flaw]:
+    """Objects that the file declares under a name that something else has."""
+    yield from _taken("object", list(home.own))
+    called = {folded(room.name): f"room {room.name}" for room in home.rooms}
+    called |= {folded(piece.name): f"furniture {piece.name}" for piece in home.furniture}
+    for name in home.own:
+        if other := called.get(folded(name)):
+            yield f"object {name}: {other} is called the same", "give another name"
+
+
+def mesh_flaws(home: "Home") -> Iterator[Flaw]:
+    """Meshes that are not there, are elsewhere, or cannot be used."""
+    for name in home.own:
+        try:
+            home.drawn_model(name)
+        except InputError as error:
+            where, what, right = error.args
+            yield f"objects.{name}.mesh: {where} {what}", right
+
+
 def object_flaws(home: "Home") -> Iterator[Flaw]:
     """Objects that do not exist, or are on furniture that does not."""
-    models = load_objects()
+    models = home.models()
     furniture = _surfaces_of(home)
     for name, spot in home.objects.items():
         if name not in models:
-            yield f"there is no object {_cut(name)}", f"objects: {', '.join(models)}"
+            right = f"objects: {', '.join(models)}; or say its kind, its form and its mass"
+            yield f"there is no object {_cut(name)}", right
         if spot.furniture not in furniture:
             what = f"{_cut(name)}: there is no furniture {_cut(spot.furniture)}"
             yield what, f"furniture: {_some(furniture)}"
@@ -140,7 +165,7 @@ def object_flaws(home: "Home") -> Iterator[Flaw]:
 
 def spot_flaws(home: "Home") -> Iterator[Flaw]:
     """Objects for which there is no room; those named otherwise are left out."""
-    furniture, models = _surfaces_of(home), load_objects()
+    furniture, models = _surfaces_of(home), home.models()
     left = {n: s for n, s in home.objects.items() if n in models and s.furniture in furniture}
     while True:
         try:
