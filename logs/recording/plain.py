@@ -29,8 +29,8 @@ def definition(record: type, name: str) -> Definitions:
     fields = get_type_hints(record)
     for field, kind in fields.items():
         if kind not in _KINDS:
-            what = f"{record.__name__}.{field} is no {', '.join(map(str, _KINDS))}"
-            raise TypeError(f"{what}: define its message in logs/recording/schema.py")
+            what = f"{record.__name__}.{field} is {kind}, and no text, number, yes or no, or tuple"
+            raise TypeError(f"{what} of such: define its message in logs/recording/schema.py")
     return {name: {**STAMPED, **{field: _KINDS[kind] for field, kind in fields.items()}}}
 
 
