@@ -21,7 +21,7 @@ from sim.home.arrangement import Spot, Standing, arrange
 from sim.home.floorplan import Door, Length, Room, Wall, walls
 from sim.home.furniture import Furniture, PlanarPose, PoseInDegrees, Surface
 from sim.home.naming import PERSON, usable
-from sim.home.own import Entry, OwnObject
+from sim.home.own import Entry, OwnObject, is_declaration
 from sim.home.validation import home_flaws, mesh_flaws, object_flaws, spot_flaws
 from sim.objects.objects import ObjectModel, load_objects
 
@@ -60,7 +60,7 @@ class Home(BaseModel):
     furniture: Annotated[tuple[Furniture, ...], Field(max_length=5000)]
     delivery: Furniture
     """The table where brought things go; it is not searched."""
-    objects: dict[str, Entry] = Field(default_factory=dict)
+    objects: Annotated[dict[str, Entry], Field(max_length=200)] = Field(default_factory=dict)
     """Where things are; those of one's own are declared there, too."""
     _folder: Path | None = PrivateAttr(None)
     """Where its meshes are; None: nowhere, and things look like their forms."""
@@ -272,10 +272,14 @@ def _read(name_or_path: str) -> tuple[bytes, str]:
 def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
     """One of pydantic's complaints, with the key as the file has it."""
     key = _key(data, fault["loc"])
+    example = "see sim/homes/four_rooms.toml"
+    match fault["loc"]:
+        case ("objects", name, _, *_) if is_declaration(data["objects"][name]):
+            example = "see docs/own-home.md"
     if fault["type"] == "extra_forbidden":
-        return InputError(where, f"there is no key {key}", "see sim/homes/four_rooms.toml")
+        return InputError(where, f"there is no key {key}", example)
     if fault["type"] == "missing":
-        return InputError(where, f"{key} is missing", "see sim/homes/four_rooms.toml")
+        return InputError(where, f"{key} is missing", example)
     return InputError(where, f"{key} is {_shown(fault['input'])}", fault["msg"].lower())
 
 

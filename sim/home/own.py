@@ -100,9 +100,12 @@ def as_entry(value: Any) -> Any:
     """An entry of `objects` as it is read: furniture, a spot, or an object of one's own."""
     if isinstance(value, str):
         return {"furniture": value}
-    if isinstance(value, dict) and not KEYS.isdisjoint(value):
-        return OwnObject.model_validate(value)
-    return value
+    return OwnObject.model_validate(value) if is_declaration(value) else value
+
+
+def is_declaration(entry: Any) -> bool:
+    """Whether an entry of `objects` says what a thing is, and not only where."""
+    return isinstance(entry, dict) and not KEYS.isdisjoint(entry)
 
 
 Entry = Annotated[Spot, BeforeValidator(as_entry)]

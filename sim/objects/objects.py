@@ -1,6 +1,7 @@
 """The things in the home: their mass, shape and how a two-finger hand takes them."""
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -10,7 +11,8 @@ from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import AfterValidator, BaseModel, ConfigDict, TypeAdapter
+from pydantic_core import PydanticCustomError
 from scipy.spatial.transform import Rotation
 
 from executive.records import Shape
@@ -25,7 +27,15 @@ WHITE: Color = (1.0, 1.0, 1.0, 1.0)
 """Leaves the colours of a texture as they are."""
 GREY: Color = (0.6, 0.6, 0.6, 1.0)
 """Of what nobody gave a colour."""
-HexColor = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
+
+
+def _as_the_web_has_it(color: str) -> str:
+    if not re.fullmatch("#[0-9a-fA-F]{6}", color, re.ASCII):
+        raise PydanticCustomError("color", "write red, green and blue as in #336699")
+    return color
+
+
+HexColor = Annotated[str, AfterValidator(_as_the_web_has_it)]
 """Red, green and blue, as the web has it: #336699."""
 
 

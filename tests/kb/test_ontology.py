@@ -56,8 +56,8 @@ def owl_file(folder: Path, content: str) -> Path:
     return path
 
 
-def test_the_objects_are_those_of_the_paper():
-    assert sorted(KNOWN.objects()) == PAPERS_OBJECTS
+def test_the_objects_of_the_paper_are_known():
+    assert set(KNOWN.objects()) >= set(PAPERS_OBJECTS)
 
 
 @pytest.mark.parametrize(("name", "places"), SURVEY.items())
