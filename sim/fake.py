@@ -33,6 +33,7 @@ from executive.types import (
     Succeeded,
 )
 from sim.home.home import Home
+from sim.objects.objects import why_not_taken
 
 SPEED_M_S = 0.8
 """Nominal driving speed."""
@@ -214,8 +215,7 @@ class FakeRobot:
             return Failed(f"my hand already holds the {world.held}")
         if world.things.get(name) not in (world.at, FLOOR):
             return Failed(f"the {name} is out of reach")
-        own = world.home.own.get(name)
-        if own and (why := own.why_not_taken):
+        if why := why_not_taken(world.home.models()[name]):
             return Failed(f"I cannot grasp the {name} as it lies: {why}")
         del world.things[name]
         world.held = name

@@ -16,6 +16,7 @@ from kb.ontology.library import Library
 from kb.ontology.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
 from kb.ontology.owl import OwlFile, ending, read
 from kb.ontology.table import Table
+from kb.ontology.things import put_thing
 from kb.ontology.unused import unused
 from kb.ontology.validation import ROOTS, faults
 
@@ -92,7 +93,7 @@ class Ontology:
         }
         for place in places:
             self._add(place)
-        self._added = {thing.name: self._add_thing(thing) for thing in things}
+        self._added = self._add_things(things)
         label, names = self._graph.label, self._graph.names
         self._things = tuple(self._graph.downwards(_class("Object")))
         self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
@@ -311,29 +312,14 @@ class Ontology:
             raise InputError(printable(name), fault, f"known are {known}")
         return class_
 
-    def _add_thing(self, thing: Thing) -> Identifier:
-        """Put an object of the home below its class, which is returned.
-
-        A file may have it already, under the same name.
-        """
-        graph, where = self._graph, f"object {printable(thing.name)}"
-        kind, words = self._kind(where, thing.kind, "Object"), "".join(words_of(thing.name))
-        own = URIRef(INDIVIDUALS + thing.name)
-        if not words or graph.is_declared(own):
-            raise InputError(where, "this is no name of a thing", "give another name")
-        for other in (one for root in ROOTS for one in graph.downwards(_class(root))):
-            if words not in ("".join(words_of(name)) for name in graph.names(other)):
-                continue
-            if graph.label(other) == thing.name and kind in graph.upwards(other):
-                return kind
-            fault = f"the ontology has a {graph.label(other)} of this name"
-            raise InputError(where, fault, "give another name")
-        if kind.startswith(CLASSES) and kind in graph.leaves(_class("Object")):
-            above = next(iter(list(graph.upwards(kind))[1:]), kind)
-            fault = f"is a {thing.kind}, which is an object itself"
-            raise InputError(where, fault, f"name the class above it, as {ending(above)}")
-        graph.put_class(own, kind, thing.name)
-        return kind
+    def _add_things(self, things: Iterable[Thing]) -> dict[str, Identifier]:
+        """Put the objects of the home in; what no file has, and the class right above it."""
+        added = {}
+        for thing in things:
+            kind = self._kind(f"object {thing.name}", thing.kind, "Object")
+            if put_thing(self._graph, thing.name, kind, URIRef(INDIVIDUALS + thing.name), CLASSES):
+                added[thing.name] = kind
+        return added
 
     def _index(self) -> dict[str, tuple[str, ...]]:
         """Words, run together -> names of the objects that they may mean."""

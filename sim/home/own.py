@@ -14,12 +14,8 @@ from sim.home.arrangement import Spot
 from sim.objects.meshes import aligned
 from sim.objects.objects import GREY, WHITE, HexColor, ObjectModel, object_model, rgba
 
-Extent = Annotated[float, Field(strict=True, ge=0.005, le=1.0)]
+Extent = Annotated[float, Field(strict=True, ge=0.005, le=0.5)]
 """A length of a thing that may stand on furniture (metres)."""
-OPENING_M = 0.0755
-"""The widest that the robot's hand gets its fingers around: `sim.manipulation.grasps.WIDEST`."""
-PAYLOAD_KG = 3.0
-"""The heaviest that its arm may lift, by the maker's data sheet."""
 _SUFFIX = ".obj"
 _FORMS = ("box", "cylinder", "sphere")
 
@@ -77,15 +73,6 @@ class OwnObject(Spot):
             return plain
         look = aligned(plain, mesh_in(folder, self.mesh), self.paint or WHITE)
         return object_model(name, plain.shapes, mass_kg=plain.mass_kg, look=look, shown=(look,))
-
-    @property
-    def why_not_taken(self) -> str | None:
-        """Why the hand could not take it, however it lies, as an end of a sentence."""
-        if min(self.size) > OPENING_M:
-            return "it is wider than my hand opens"
-        if self.mass > PAYLOAD_KG:
-            return "it is heavier than my arm may lift"
-        return None
 
     @property
     def _form(self) -> str:

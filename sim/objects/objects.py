@@ -25,6 +25,10 @@ ASSETS = Path(__file__).parents[1] / "assets" / "objects"
 """A folder for each object, with its mesh as `textured.obj` and as `textured.glb`."""
 WHITE: Color = (1.0, 1.0, 1.0, 1.0)
 """Leaves the colours of a texture as they are."""
+OPENING_M = 0.0755
+"""The widest that the robot's hand gets its fingers around: `sim.manipulation.grasps.WIDEST`."""
+PAYLOAD_KG = 3.0
+"""The heaviest that its arm may lift, by the maker's data sheet."""
 GREY: Color = (0.6, 0.6, 0.6, 1.0)
 """Of what nobody gave a colour."""
 
@@ -90,6 +94,13 @@ def rooms_of_objects() -> dict[str, tuple[str, ...]]:
 def drawings() -> dict[str, str]:
     """The module of `sim.modelling` that draws it, of each object that is drawn."""
     return {name: row.drawn_by for name, row in _rows().items() if row.drawn_by}
+
+
+def why_not_taken(model: ObjectModel) -> str | None:
+    """Why a hand could not take it, however it lies, as the end of a sentence; None if it may."""
+    if model.grasp == "top" and min(model.size) > OPENING_M:
+        return "it is wider than my hand opens"
+    return "it is heavier than my arm may lift" if model.mass_kg > PAYLOAD_KG else None
 
 
 def rgba(color: HexColor) -> Color:

@@ -16,7 +16,7 @@ from sim.manipulation.manipulator import APPROACH_M
 from sim.manipulation.planning import PlanningWorld
 from sim.manipulation.reaching import Approach, choose_approach, plan_stance, standing_poses
 from sim.navigation.grid import FOOTPRINT_M, OccupancyGrid, Unreachable, reachable
-from sim.objects.objects import ObjectModel
+from sim.objects.objects import ObjectModel, why_not_taken
 
 GRASPS_TRIED = 4
 """Of a thing, for each way to hold the hand."""
@@ -68,9 +68,9 @@ def way_faults(home: Home) -> Iterator[Flaw]:
 def _reach_faults(home: Home) -> Iterator[Flaw]:
     """Objects that the arm would not get hold of, were each alone on its furniture."""
     world = PlanningWorld(_around_objects(home))
-    models, own = home.models(), home.own
+    models = home.models()
     for name, spot in home.objects.items():
-        if name in own and (why := own[name].why_not_taken):
+        if why := why_not_taken(models[name]):
             yield f"{name}: it can be found, not brought: {why}", "make it smaller or lighter"
         elif not _reaches(world, home, models[name]):
             right = "put it nearer to the front of its furniture, or on another board"
