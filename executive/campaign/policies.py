@@ -160,7 +160,8 @@ def popular(grounds: Grounds | None = None) -> Order:
     recorded = survey.recorded_locations()
 
     def order(name: str, places: Sequence[str]) -> list[str]:
-        own = next((n for n in (name, *survey.classes_of(name)) if n in recorded), None)
+        kinds = survey.classes_of(name) if name in survey.objects() else ()
+        own = next((n for n in (name, *kinds) if n in recorded), None)
         others = (where for other, where in recorded.items() if other != own)
         counts = Counter(chain.from_iterable(others))
         return sorted(places, key=lambda place: -counts[place])

@@ -35,10 +35,10 @@ def put_thing(graph: Graph, name: str, kind: Identifier, iri: URIRef, namespace:
             return False
         what = f"the ontology has a {graph.label(other)} of this name"
         raise InputError(where, what, "give another name")
-    if kind.startswith(namespace) and kind in objects:
-        above = list(graph.upwards(kind))[1]
+    above = list(graph.upwards(kind))[1:]
+    if above and kind.startswith(namespace) and kind in objects:
         what = f"is a {ending(kind)}, which is an object itself"
-        raise InputError(where, what, f"name the class above it, as {ending(above)}")
+        raise InputError(where, what, f"name the class above it, as {ending(above[0])}")
     graph.put_class(iri, kind, name)
     return True
 

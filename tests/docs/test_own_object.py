@@ -31,6 +31,12 @@ def run(words: str, runs: Path, **given: object) -> Outcome:
     return outcome
 
 
+def test_the_page_shows_what_the_example_has() -> None:
+    page = (HOME.parents[1] / "own-home.md").read_text()
+    shown = page.split("## Objects of your own")[1].split("```toml\n")[1].split("```")[0]
+    assert shown in HOME.read_text()
+
+
 @pytest.mark.parametrize("thing", ["teapot", "doorstop"])
 def test_a_declared_object_is_brought_in_the_instant_world(tmp_path: Path, thing: str) -> None:
     outcome = run(f"Bring the {thing}", tmp_path)

@@ -8,6 +8,7 @@ from written_homes import FLAT
 
 from executive.errors import InputError
 from sim.bullet.bodies import home_entities
+from sim.faults.orders import Moved, parse_faults
 from sim.home.home import Home, inspect_home, load_home, recorded_home
 from sim.manipulation.grasps import WIDEST
 from sim.objects.objects import OPENING_M, load_objects, why_not_taken
@@ -80,6 +81,12 @@ def test_it_stands_on_its_furniture_and_may_be_placed_elsewhere(home: Home) -> N
     moved = home.with_placement({"teapot": "rack"})
     assert moved.placement["teapot"] == "rack"
     assert moved.models()["teapot"] == home.models()["teapot"]
+
+
+def test_someone_may_move_it_by_order(home: Home) -> None:
+    (fault,) = parse_faults(["moved=teapot:rack@1"], home)
+    assert isinstance(fault, Moved)
+    assert fault.pose(home) == home.with_placement({"teapot": "rack"}).object_pose("teapot")
 
 
 def test_one_line_is_enough_and_says_where_on_the_furniture_too(write) -> None:
