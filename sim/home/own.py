@@ -31,7 +31,7 @@ class OwnObject(Spot):
     """Diameter and height (metres); it stands."""
     sphere: Extent | None = None
     """Diameter (metres)."""
-    mass: Annotated[float, Field(strict=True, gt=0.0, le=100.0)]
+    mass: Annotated[float, Field(strict=True, ge=0.001, le=100.0)]
     """Kilograms."""
     color: HexColor | None = None
     mesh: Annotated[str, Field(max_length=200)] | None = None

@@ -31,11 +31,11 @@ class Haunted(Bench):
     def __init__(self, *texts: str, at: str = WAGON) -> None:
         home = four_rooms().model_copy(update={"robot_start": four_rooms().stand(at)})
         self.notes, inbox = Notebook(), Inbox()
-        mishaps = FaultInjector(
+        injector = FaultInjector(
             parse_faults(texts, home), self.notes, lambda: self.clock.now(), seed=1
         )
         self.world = PhysicsWorld(
-            home, load_objects(), inbox, self.notes, camera_hz=0.0, mishaps=mishaps
+            home, load_objects(), inbox, self.notes, camera_hz=0.0, injector=injector
         )
         self.clock = SimulatedClock(inbox, self.world)
         super().__init__(self.world.robot, inbox, self.pass_time, at)

@@ -229,6 +229,7 @@ values = st.recursive(
         st.lists(inner, max_size=4)
         | st.dictionaries(
             st.sampled_from(["name", "kind", "room", "pose", "size", "rectangle", "at"])
+            | st.sampled_from(["furniture", "box", "cylinder", "sphere", "mass", "color", "mesh"])
             | st.text(max_size=5),
             inner,
             max_size=5,
