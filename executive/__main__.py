@@ -88,23 +88,21 @@ def serve(
     settings: Settings, words: str | None, inbox: Inbox, *, view: bool, gui: bool, as_json: bool
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
-    user = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
+    console = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
     from executive.app.session import Session  # heavy: not for --help or a wrong option
 
-    session = Session(settings, inbox=inbox, user=user, view=view, gui=gui)
-    stop_on_signals(inbox)
-    try:
-        if words is None:
-            code = converse(session, as_json)
-        else:
-            code = conclude(session.run(words), as_json)
-        leave_within(CLOSED_S, code)
-        return code
-    except KeyboardInterrupt:
-        leave_within(CLOSED_S, STOPPED)
-        raise
-    finally:
-        session.close()
+    with Session(settings, inbox=inbox, user=console, view=view, gui=gui) as session:
+        stop_on_signals(inbox)
+        try:
+            if words is None and console:
+                code = converse(session, console, as_json)
+            else:
+                code = conclude(session.run(words or ""), as_json)
+            leave_within(CLOSED_S, code)
+            return code
+        except KeyboardInterrupt:
+            leave_within(CLOSED_S, STOPPED)
+            raise
 
 
 def conclude(outcome: Outcome, as_json: bool) -> int:
@@ -129,18 +127,18 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
     return EXIT[outcome.status]
 
 
-def converse(session: "Session", as_json: bool) -> int:
+def converse(session: "Session", console: Console, as_json: bool) -> int:
     """Do what the person types, until they end the session; the exit code of the last command.
 
     Who says stop otherwise than the person ends the session, and not only the mission.
     """
     code = DONE
-    line = session.next_command(f"{PROMPT} (stop ends what I do, quit ends the session)")
+    line = session.next_command(console, f"{PROMPT} (stop ends what I do, quit ends the session)")
     while line is not None:
         code = conclude(session.run(line), as_json)
         if session.stopped_by not in ("", THE_PERSON):
             return STOPPED
-        line = session.next_command(PROMPT)
+        line = session.next_command(console, PROMPT)
     return code
 
 

@@ -60,7 +60,9 @@ class Settings(BaseSettings):
     place: dict[str, str] = Field(
         default_factory=dict, description="where things truly are, beside the home file"
     )
-    world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
+    world: str = Field(
+        "physics", description="PyBullet, or instant, or a robot of your own (docs/own-robot.md)"
+    )
     detector: str = Field(
         "learned",
         description="learned, simulated (never wrong), or FILE.onnx; the fake world has its own",
@@ -114,6 +116,15 @@ class Settings(BaseSettings):
         if value is not None and not (value.strip() and value.isprintable() and len(value) <= 200):
             raise ValueError("should be a name of one line")
         return value
+
+    @field_validator("world")
+    @classmethod
+    def _known_world(cls, value: str) -> str:
+        module, colon, function = value.partition(":")
+        names = (*module.split("."), function)
+        if value in ("physics", "fake") or (colon and all(map(str.isidentifier, names))):
+            return value
+        raise ValueError("should be physics, fake or package.module:factory")
 
     @field_validator("detector")
     @classmethod

@@ -4,7 +4,7 @@ All slow work has one shape: a method that starts it returns a request number at
 comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Protocol
 
 from executive.records import NodeState, Record, TreeShape
@@ -209,6 +209,10 @@ class Facts(Protocol):
 
     def places_of(self, name: str) -> tuple[str, ...]:
         """Where it was seen or said to be, freshest first, as far as no later look contradicts."""
+        ...
+
+    def beliefs(self) -> Mapping[str, Sequence[str]]:
+        """Each object that is believed to be anywhere, and where: what a recording keeps."""
         ...
 
 

@@ -17,13 +17,22 @@ from typing import TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_context
+from executive.app.parts import (
+    OURS,
+    Change,
+    Parts,
+    advised,
+    as_they_are,
+    build_mission,
+    mission_tree,
+    parameters_of,
+)
 from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import Tree
-from executive.loop import Executive
+from executive.interfaces import Clock, Recorder, Tree
 from executive.records import Record, Tick, TreeShape
+from executive.replay.body import recorded_body
 from executive.replay.stand_ins import Absent, RecordedTime
 from executive.situation import Situation
 from executive.text import printable
@@ -43,8 +52,6 @@ from logs.questions.difference import (
 from logs.recording.reader import Run
 from sim.home.home import Home, load_home
 from trees.context import MissionContext
-from trees.mission import mission
-from trees.tree import MissionTree
 
 T = TypeVar("T")
 
@@ -77,11 +84,6 @@ class Replay:
         return self.recorded_s / self.took_s
 
 
-def mission_tree(context: MissionContext) -> Tree:
-    """The tree that missions are run with."""
-    return MissionTree(mission(context))
-
-
 def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree) -> Replay:
     """Feed a recorded mission to a fresh tree.
 
@@ -99,21 +101,8 @@ def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree)
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox, situation)
     absent.rests = "policy" not in run.metadata
-    grounds = _grounds(run, absent)
-    context = build_context(
-        grounds,
-        _advise(run)(grounds),
-        situation,
-        inbox=inbox,
-        clock=clock,
-        recorder=judge,
-        robot=absent,
-        perception=absent,
-        user=absent,
-    )
-    executive = Executive(
-        build(context), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
-    )
+    parts = _parts(run, inbox, absent, clock, judge)
+    executive = build_mission(parts, situation, build)
     clock.wait(None)
     executive.run()
     parting = judge.parting or _late_parting(run, clock, situation)
@@ -186,37 +175,52 @@ def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]
     return (path for path in lacking if path.rpartition("/")[0] not in lacking)
 
 
-def _grounds(run: Run, absent: Absent) -> Grounds:
-    """What the recorded mission went by; what was known then."""
+def _parts(run: Run, inbox: Inbox, absent: Absent, clock: Clock, judge: Recorder) -> Parts:
+    """What the recorded mission was made of, and stand-ins for all that acts or answers."""
     settings = _settings(run)
     home = _home(_kept(run, run.attachments, "home.toml")).with_placement(settings.place)
-    names = (HOUSEHOLD.name, DEFAULTS.name, *(file.name for file in settings.kb))
-    files = tuple((name, run.attachments[name]) for name in names if name in run.attachments)
-    if settings.world == "physics":
-        absent.home = home
+    body = recorded_body(run, settings, home)
+    absent.several = body.views
     thinks = run.metadata.get("thinks") or str(_kept(run, run.metadata, "model") != "none")
-    return Grounds(
+    parts = Parts(
         settings=settings,
         home=home,
-        knowledge=_ontology(home.places(), settings.defaults, files, settings.person),
+        inbox=inbox,
+        clock=clock,
+        recorder=judge,
+        robot=absent,
+        perception=absent,
+        user=absent,
+        knowledge=_knowledge(run, settings, home),
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
         facts=FactStore.believing(_beliefs(run), learns=settings.learn),
+        in_map=body.in_map,
+        parameters=parameters_of(settings),
     )
+    changed = _policy(run)(advised(parts))
+    model = absent if changed.model else None
+    return replace(changed, robot=absent, perception=absent, user=absent, model=model)
 
 
-def _advise(run: Run) -> Advise:
-    """The way in which the recorded mission was given an adviser."""
+def _knowledge(run: Run, settings: Settings, home: Home) -> Ontology:
+    names = (HOUSEHOLD.name, DEFAULTS.name, *(file.name for file in settings.kb))
+    files = tuple((name, run.attachments[name]) for name in names if name in run.attachments)
+    return _ontology(home.places(), settings.defaults, files, settings.person)
+
+
+def _policy(run: Run) -> Change:
+    """The way in which the parts of the recorded mission were chosen."""
     name = run.metadata.get("policy", OURS)
     if name == OURS:
-        return build_advisor
+        return as_they_are
     from executive.campaign.policies import (
         POLICIES,  # whose packages a replay of ours does not need
     )
 
     if name not in POLICIES:
         raise InputError(str(run.path), f"was made with the policy {name!r}, unknown here")
-    return POLICIES[name].advisor
+    return POLICIES[name]
 
 
 def _requests_before(run: Run) -> int:

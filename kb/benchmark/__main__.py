@@ -20,6 +20,7 @@ from statistics import fmean
 
 import numpy as np
 
+from executive.config import load_settings
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.geometry import Floats
@@ -32,10 +33,8 @@ from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
 from kb.benchmark.placements import Placements
 from kb.benchmark.questions import DataSet, Item, placements, survey
 from kb.benchmark.trials import Answer, Journal, descending, ranking, writing
-from kb.llm.key import Key
-from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.open import open_model
 from kb.llm.precedents import log_expected, shares, usual
-from kb.llm.server.server import Server
 from kb.ontology.names import words_of
 
 DATA = ("survey", "survey-rest", "placements", "placements-new")
@@ -196,13 +195,8 @@ def _data_set(name: str, given: argparse.Namespace) -> DataSet:
 
 
 def _model(given: argparse.Namespace, inbox: Inbox) -> LanguageModel | None:
-    if given.llm == "none":
-        return None
-    if given.llm.startswith(("http://", "https://")):
-        key = Key.from_environment()
-        return Server(given.llm, inbox, api_key=key, seed=given.seed, grammar=given.grammar)
-    path = embedded_model() if given.llm == "embedded" else Path(given.llm)
-    return LlamaCpp(path, inbox, seed=given.seed, grammar=given.grammar, max_tokens=256)
+    settings = load_settings(llm=given.llm, seed=given.seed, grammar=given.grammar)
+    return open_model(settings, inbox)
 
 
 def _described(given: argparse.Namespace) -> dict[str, object]:

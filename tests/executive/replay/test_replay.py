@@ -100,10 +100,10 @@ def test_the_second_mission_of_a_session_replays(tmp_path: Path) -> None:
     settings = Settings(world="fake", runs=tmp_path, knowledge=KnowledgeSystem.OKB)
     inbox = Inbox()
     typed = io.StringIO("Find a power_drill\nTake a hammer\n")
-    session = Session(settings, inbox=inbox, user=Console(inbox, typed, io.StringIO()))
-    while (words := session.next_command()) is not None:
-        session.run(words)
-    session.close()
+    console = Console(inbox, typed, io.StringIO())
+    with Session(settings, inbox=inbox, user=console) as session:
+        while (words := session.next_command(console)) is not None:
+            session.run(words)
     first, second = sorted(tmp_path.iterdir(), key=lambda run: "take" in run.name)
     assert replay(first).parting is None
     assert replay(second).parting is None

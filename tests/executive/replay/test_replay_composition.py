@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.campaign import blocks
 from executive.campaign.policies import POLICIES
@@ -26,16 +27,15 @@ OKB = {"world": "fake", "llm": "none", "knowledge": KnowledgeSystem.OKB, "user":
 class FarSighted:
     """Perception that see the mug on the desk: once from the bed, then from the desk itself."""
 
-    def __init__(self, session: Session) -> None:
-        self._inbox = session.inbox
-        self._world = session.world
+    def __init__(self, parts: Parts) -> None:
+        self._inbox = parts.inbox
+        self._world = parts.robot._world  # type: ignore[attr-defined]
         self._looks = 0
-        x, y, _ = session.home.furniture_named("desk").pose
+        x, y, _ = parts.home.furniture_named("desk").pose
         on_desk = np.array([[x, y, 0.8]], np.float32)
         self._mug = Detection("mug", 1.0, Box(0, 0, 1, 1), np.ones((1, 1), np.bool_), on_desk)
 
     def see(self) -> int:
-        assert isinstance(self._world, FakeWorld)
         self._looks += 1
         seen = (self._mug,) if self._looks == 1 or self._world.at == "desk" else ()
         self._inbox.end(request := self._inbox.open(), Saw(self._looks, seen))
@@ -45,21 +45,17 @@ class FarSighted:
         self._inbox.drop(request)
 
 
-def with_true_positions(session: Session) -> Session:
+def with_true_positions(parts: Parts) -> Parts:
     """As in the physical world, where the robot's map tells on what a thing is that it sees."""
-    physical = session.settings.model_copy(update={"world": "physics"})
-    session.grounds = replace(session.grounds, settings=physical)
-    session._used["config.toml"] = physical.to_toml().encode()
-    views = session.home.view_targets
-    session.robot.views = lambda place: len(views(place))  # type: ignore[method-assign]
-    session.perception = FarSighted(session)  # type: ignore[assignment]
-    return session
+    views = parts.home.view_targets
+    parts.robot.views = lambda place: len(views(place))  # type: ignore[method-assign]
+    return replace(parts, in_map=True, perception=FarSighted(parts))
 
 
 def test_what_was_seen_on_furniture_behind_a_place_is_remembered_there(tmp_path: Path) -> None:
     settings = Settings(**OKB, place={"mug": "bed"}, runs=tmp_path)  # type: ignore[arg-type]
-    session = with_true_positions(Session(settings, out=io.StringIO()))
-    world = session.world
+    session = Session(settings, out=io.StringIO(), change=with_true_positions)
+    world = session.embodiment.truth
     assert isinstance(world, FakeWorld)
 
     def someone_takes_it(goal: Goal) -> str | None:
@@ -94,7 +90,7 @@ def test_a_mission_without_verification_replays_without(tmp_path: Path) -> None:
         inbox=inbox,
         model=ScriptedModel(['{"places": ["the moon", "desk"]}'], inbox),
         policy="unverified",
-        advise=POLICIES["unverified"].advisor,
+        change=POLICIES["unverified"],
         out=io.StringIO(),
     )
     outcome = session.run("Find an apple")
@@ -106,7 +102,7 @@ def test_a_mission_without_verification_replays_without(tmp_path: Path) -> None:
 def test_a_robot_that_does_not_learn_does_not_in_the_replay(tmp_path: Path) -> None:
     settings = Settings(**OKB, learn=False, runs=tmp_path)  # type: ignore[arg-type]
     session = Session(settings, out=io.StringIO())
-    assert isinstance(session.world, FakeWorld)
+    assert isinstance(session.embodiment.truth, FakeWorld)
     to_fail: list[type] = [Pick, LookAt]
 
     def fault(goal: Goal) -> str | None:
@@ -116,7 +112,7 @@ def test_a_robot_that_does_not_learn_does_not_in_the_replay(tmp_path: Path) -> N
             return "it does not work"
         return None
 
-    session.world.fault = fault
+    session.embodiment.truth.fault = fault
     outcome = session.run("Take an apple")
     assert replay(Path(outcome.run_dir or "")).parting is None
 

@@ -1,0 +1,110 @@
+"""The two simulated bodies: in PyBullet, and in the instant world."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from executive.app.embodiment import Embodiment, Setup
+from executive.clock import SimulatedClock
+from executive.config import Settings
+from executive.interfaces import Camera, Detector, Knowledge, Robot, SimulatedHome
+from executive.perception.pipeline import CameraPerception
+from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
+from sim.faults.fake import FaultyFakeRobot
+from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
+from sim.faults.orders import Fault, parse_faults, refuse_physical
+from sim.objects.objects import load_objects
+from sim.objects.ycb import with_scans
+
+
+def fake(setup: Setup) -> Embodiment:
+    """The instant world, in which things are on furniture, and have no positions.
+
+    Raises:
+        InputError: if a fault is none, or takes physics.
+    """
+    faults = parse_faults(setup.settings.fault, setup.home)
+    refuse_physical(faults)
+    world = FakeWorld(setup.home, setup.inbox, setup.recorder)
+    clock = SimulatedClock(setup.inbox, world)
+    injector = _injector(setup, faults, clock.now)
+    camera: Camera = FakeCamera(world)
+    robot: Robot = FakeRobot(world)
+    if injector:
+        robot, camera = FaultyFakeRobot(world, injector), FaultyCamera(camera, injector)
+    return Embodiment(
+        robot,
+        _perception(setup, camera, FakeDetector(world), injector),
+        clock,
+        in_map=False,
+        truth=world,
+        jumps=True,
+        begin=_begin(world, injector),
+        close=world.close,
+    )
+
+
+def physics(setup: Setup) -> Embodiment:
+    """PyBullet.
+
+    Raises:
+        InputError: if a fault is none, or a file is wrong.
+    """
+    from sim.world import PhysicsWorld  # takes long: the model loads meanwhile
+
+    settings = setup.settings
+    faults = parse_faults(settings.fault, setup.home)
+    injector = _injector(setup, faults, lambda: clock.now())
+    models = load_objects()
+    world = PhysicsWorld(
+        setup.home,
+        with_scans(models, settings.ycb) if settings.ycb else models,
+        setup.inbox,
+        setup.recorder,
+        seed=settings.seed,
+        gui=setup.gui,
+        camera_hz=settings.camera_hz,
+        injector=injector,
+    )
+    clock = SimulatedClock(setup.inbox, world)
+    detector = learned_detector(settings, setup.knowledge) or world.detector
+    return Embodiment(
+        world.robot,
+        _perception(setup, world.camera, detector, injector),
+        clock,
+        truth=world,
+        begin=_begin(world, injector),
+        close=world.close,
+    )
+
+
+def learned_detector(settings: Settings, knowledge: Knowledge) -> Detector | None:
+    """The detector of `--detector` that works on pictures alone; None for `simulated`."""
+    if settings.detector == "simulated":
+        return None
+    from executive.perception.detector import LEARNED, OnnxDetector
+
+    file = LEARNED if settings.detector == "learned" else Path(settings.detector)
+    return OnnxDetector(file, knowledge.objects_named)
+
+
+def _injector(
+    setup: Setup, faults: tuple[Fault, ...], now: Callable[[], float]
+) -> FaultInjector | None:
+    return FaultInjector(faults, setup.recorder, now, setup.settings.seed) if faults else None
+
+
+def _perception(
+    setup: Setup, camera: Camera, detector: Detector, injector: FaultInjector | None
+) -> CameraPerception:
+    if injector:
+        detector = FaultyDetector(detector, injector, tuple(setup.home.objects))
+    return CameraPerception(camera, detector, setup.inbox, setup.recorder)
+
+
+def _begin(world: SimulatedHome, injector: FaultInjector | None) -> Callable[[], None]:
+    def begin() -> None:
+        if injector:
+            injector.begin()
+        world.describe()
+
+    return begin
