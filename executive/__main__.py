@@ -16,11 +16,12 @@ from importlib.metadata import version
 from pathlib import Path
 from select import select
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from executive.config import KnowledgeSystem, Settings, load_settings
+from executive.config import Settings, load_settings
 from executive.errors import ExecutiveError, InputError
 from executive.events import THE_PERSON, Inbox, StopRequested
+from executive.options import add_settings
 from executive.shell import (
     BAD_INPUT,
     DONE,
@@ -62,7 +63,8 @@ CLOSED_S = 1.0
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a mission, or one for each line that the person types; return the exit code."""
     options = vars(parser().parse_args(arguments))
-    words = options.pop("words")
+    words = " ".join(options["words"]) if options["words"] else None
+    del options["words"]
     as_json, verbose = options.pop("json"), options.pop("verbose")
     view, gui = options.pop("view"), options.pop("gui")
     with on_stop_signals(end_at_once):
@@ -191,55 +193,8 @@ def parser() -> argparse.ArgumentParser:
         epilog="exit: 0 done, 1 not done, 2 bad usage or input, 130 stopped",
     )
 
-    def option(name: str, help: str | None = None, **kwargs: Any) -> None:
-        field = Settings.model_fields[name.removeprefix("--").replace("-", "_")]
-        default = "" if field.default in (None, ()) else f" (default: {field.default})"
-        p.add_argument(name, help=f"{help or field.description}{default}", **kwargs)
-
-    p.add_argument("words", nargs="?", help='a command such as "Bring a sugar_box"; none: ask')
-    option("--home", metavar="NAME or FILE.toml")
-    option("--knowledge", choices=[str(k) for k in KnowledgeSystem])
-    p.add_argument(
-        "--defaults",
-        action=argparse.BooleanOptionalAction,
-        help="whether the ontology knows default locations (default: it does)",
-    )
-    option("--llm", metavar="embedded, FILE.gguf, http://host:port/v1 or none")
-    option("--llm-model", metavar="NAME")
-    p.add_argument(
-        "--elicit",
-        choices=["generate", "rank"],
-        help="ask for a list (paper) or score each known place "
-        "(default: rank for the embedded model, else generate)",
-    )
-    p.add_argument(
-        "--grammar",
-        action=argparse.BooleanOptionalAction,
-        help="hold the model's replies to their JSON schema (default: trust and verify)",
-    )
-    option("--prompts", type=Path, metavar="FILE")
-    option("--kb", action="append", type=Path, metavar="FILE")
-    option("--person", metavar="NAME")
-    option("--user", choices=["console", "oracle", "none"])
-    p.add_argument(
-        "--place",
-        action=_Placement,
-        metavar="OBJECT=FURNITURE",
-        help="where a thing truly is; repeatable (default: as in the home file)",
-    )
-    option("--world", choices=["physics", "fake"])
-    option("--detector", metavar="learned, simulated or FILE.onnx")
-    option("--camera-hz", type=float, metavar="RATE")
-    option("--fault", action="append", metavar="FAULT[=VALUE][@FROM[-TO]]")
-    option("--ycb", type=Path, metavar="DIR")
-    option("--seed", type=int, metavar="N")
-    option("--memory", type=Path, metavar="FILE")
-    p.add_argument(
-        "--learn",
-        action=argparse.BooleanOptionalAction,
-        help="whether to remember what is seen and said (default: it does)",
-    )
-    option("--runs", type=Path, metavar="DIR")
+    p.add_argument("words", nargs="*", help='a command such as "Bring a sugar_box"; none: ask')
+    add_settings(p)
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     p.add_argument("--gui", action="store_true", help="show PyBullet's own window")
     p.add_argument("--view", action="store_true", help="show the recording live in rerun's viewer")
@@ -247,23 +202,6 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("-v", "--verbose", action="count", default=0, help="say more (-vv: all)")
     p.add_argument("--version", action="version", version=version("robot-executive"))
     return p
-
-
-class _Placement(argparse.Action):
-    """Gathers OBJECT=FURNITURE pairs."""
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        option_string: str | None = None,
-    ) -> None:
-        """Add one pair."""
-        name, equals, furniture = values.partition("=")
-        if not (name and equals and furniture):
-            parser.error(f"--place {values}: should be OBJECT=FURNITURE, as in mug=desk")
-        setattr(namespace, self.dest, {**(getattr(namespace, self.dest) or {}), name: furniture})
 
 
 if __name__ == "__main__":

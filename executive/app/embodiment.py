@@ -6,10 +6,20 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 from executive.config import Settings
+from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import Clock, Knowledge, Perception, Recorder, Robot, SimulatedHome
+from executive.interfaces import (
+    Clock,
+    Detector,
+    Knowledge,
+    Perception,
+    Recorder,
+    Robot,
+    SimulatedHome,
+)
 from sim.home.home import Home
 
 
@@ -36,6 +46,23 @@ class Setup:
     recorder: Recorder
     knowledge: Knowledge
     gui: bool = False
+
+    def detector(self) -> Detector:
+        """The detector that the settings name, for pictures of any camera.
+
+        Raises:
+            InputError: if its file is wrong, or they name the one that only a simulation has.
+        """
+        name = self.settings.detector
+        if name == "simulated":
+            raise InputError(
+                "setting 'detector'", f"{name} is not for this world", "use learned or a FILE.onnx"
+            )
+        from executive.perception.detector import LEARNED, OnnxDetector
+
+        return OnnxDetector(
+            LEARNED if name == "learned" else Path(name), self.knowledge.objects_named
+        )
 
 
 @dataclass(frozen=True)

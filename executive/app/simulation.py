@@ -1,12 +1,10 @@
 """The two simulated bodies: in PyBullet, and in the instant world."""
 
 from collections.abc import Callable
-from pathlib import Path
 
 from executive.app.embodiment import Embodiment, Setup
 from executive.clock import SimulatedClock
-from executive.config import Settings
-from executive.interfaces import Camera, Detector, Knowledge, Robot, SimulatedHome
+from executive.interfaces import Camera, Detector, Robot, SimulatedHome
 from executive.perception.pipeline import CameraPerception
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.faults.fake import FaultyFakeRobot
@@ -66,7 +64,7 @@ def physics(setup: Setup) -> Embodiment:
         injector=injector,
     )
     clock = SimulatedClock(setup.inbox, world)
-    detector = learned_detector(settings, setup.knowledge) or world.detector
+    detector = world.detector if settings.detector == "simulated" else setup.detector()
     return Embodiment(
         world.robot,
         _perception(setup, world.camera, detector, injector),
@@ -75,16 +73,6 @@ def physics(setup: Setup) -> Embodiment:
         begin=_begin(world, injector),
         close=world.close,
     )
-
-
-def learned_detector(settings: Settings, knowledge: Knowledge) -> Detector | None:
-    """The detector of `--detector` that works on pictures alone; None for `simulated`."""
-    if settings.detector == "simulated":
-        return None
-    from executive.perception.detector import LEARNED, OnnxDetector
-
-    file = LEARNED if settings.detector == "learned" else Path(settings.detector)
-    return OnnxDetector(file, knowledge.objects_named)
 
 
 def _injector(
