@@ -11,7 +11,9 @@ from pathlib import Path
 from executive.app.parts import Parts, guarded_model
 from executive.app.run_folder import write
 from executive.config import Settings
+from executive.files import read_bytes
 from executive.guards import GuardedRobot, in_words
+from executive.toml_file import MOST_BYTES
 from executive.types import DELIVERY, FLOOR
 from logs.recorder import Sink
 from logs.recording.sink import McapSink
@@ -27,7 +29,7 @@ class Recording:
     """How the missions of a session are recorded.
 
     Attributes:
-        used: what is kept of the settings, by name, the files' contents.
+        used: what is kept of settings and body (`files_used`, `body_used`).
         parts: what the missions are made of.
         policy: what it calls the way in which the parts were chosen.
         view: whether someone watches.
@@ -68,12 +70,16 @@ class Recording:
 
 
 def files_used(settings: Settings) -> dict[str, bytes]:
-    """What a recording keeps of the settings, as it is now: by name, the files' contents."""
-    prompts = {"prompts.toml": settings.prompts.read_bytes()} if settings.prompts else {}
+    """What a recording keeps of the settings, as it is now: by name, the files' contents.
+
+    Raises:
+        InputError: if one of them cannot be read.
+    """
+    prompts = settings.prompts
     return {
         "config.toml": settings.to_toml().encode(),
         "home.toml": home_text(settings.home).encode(),
-        **prompts,
+        **({"prompts.toml": read_bytes(prompts, MOST_BYTES)} if prompts else {}),
     }
 
 

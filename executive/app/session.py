@@ -1,7 +1,4 @@
-"""Runs missions, one at a time, with parts that outlive them.
-
-What takes long to import is imported where it is needed: the model prepares meanwhile.
-"""
+"""Runs missions, one at a time, with parts that outlive them."""
 
 import logging
 import sys
@@ -13,38 +10,22 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self, TextIO
 
-from executive.app.embodiment import Embodiment, Setup
-from executive.app.parts import (
-    OURS,
-    Change,
-    Parts,
-    as_they_are,
-    build_advisor,
-    build_mission,
-    parameters_of,
-)
+from executive.app.building import build_parts
+from executive.app.parts import OURS, Change, as_they_are, build_mission
 from executive.app.recording import Recording, body_used, files_used
 from executive.app.run_folder import new_folder, to_json, write
-from executive.app.worlds import embody
 from executive.config import Settings
-from executive.errors import InputError
 from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
-from executive.guards import GuardedModel, GuardedRecorder, GuardedRobot, GuardedUser, in_words
-from executive.interfaces import LanguageModel, SimulatedHome, User
+from executive.guards import GuardedRecorder, GuardedRobot, GuardedUser, in_words
+from executive.interfaces import LanguageModel, User
 from executive.language.control import control
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
 from executive.situation import Situation
 from executive.text import one_line, too_long, writable
-from executive.types import Answered, ChatRequest, Halt, MissionStatus, Outcome, RankRequest
-from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
-from kb.advice.advisor import PlaceAdvisor
-from kb.advice.prompts import Prompts
-from kb.facts import FactStore
-from kb.llm.open import model_for_missions
-from kb.ontology.ontology import Ontology
+from executive.types import Answered, Halt, MissionStatus, Outcome
+from executive.user import NOTHING_TO_STOP, Console
 from logs.recorder import FanOut, Sink
-from sim.home.home import load_home
 
 log = logging.getLogger(__name__)
 
@@ -83,13 +64,25 @@ class Session:
         self.settings = settings
         self.inbox = inbox or Inbox()
         self.recorder = FanOut(lambda: self.parts.clock.now(), live=view)
+        used = files_used(settings)
         with ExitStack() as opened:
-            self.embodiment, parts = self._build(opened, user, model, out or sys.stderr, gui)
+            self.embodiment, parts = build_parts(
+                settings,
+                self.inbox,
+                self.recorder,
+                opened,
+                user=user,
+                model=model,
+                out=out or sys.stderr,
+                gui=gui,
+            )
             self.parts = change(parts)
             """Whom missions are run with."""
-            used = {**self._used, **body_used(self.parts)} if recorded else {}
+            self._recording = None
+            if recorded:
+                used |= body_used(self.parts)
+                self._recording = Recording(used, self.parts, policy, view)
             self._opened = opened.pop_all()
-        self._recording = Recording(used, self.parts, policy, view) if recorded else None
         self._sinks = tuple(sinks)
         self._in_hand: str | None = None
         self._restless = False
@@ -102,54 +95,6 @@ class Session:
 
         Of several, the first who was not the person: that one ends the session, too.
         """
-
-    def _build(
-        self,
-        opened: ExitStack,
-        user: User | None,
-        model: LanguageModel | None,
-        out: TextIO,
-        gui: bool,
-    ) -> tuple[Embodiment, Parts]:
-        """The parts that the settings name; what is opened for them is noted."""
-        settings, inbox, recorder = self.settings, self.inbox, self.recorder
-        home = load_home(settings.home).with_placement(settings.place)
-        prompts = Prompts.load(settings.prompts)
-        self._used = files_used(settings)
-        if model is None and (model := model_for_missions(settings, inbox)):
-            opened.callback(model.close)
-        knowledge = Ontology(
-            home.places(), defaults=settings.defaults, files=settings.kb, person=settings.person
-        )
-        for warning in knowledge.warnings():
-            log.warning("%s", warning)
-        facts = FactStore(settings.memory, learns=settings.learn)
-        opened.callback(facts.close)
-        advisor = None
-        if model:
-            guarded = GuardedModel(model, inbox, recorder)
-            advisor = build_advisor(settings, knowledge, guarded, prompts, facts)
-            guarded.prepare(anything(settings, advisor))
-        embodiment = embody(Setup(settings, home, inbox, recorder, knowledge, gui))
-        opened.callback(close_safely, embodiment)
-        parts = Parts(
-            settings=settings,
-            home=home,
-            inbox=inbox,
-            clock=embodiment.clock,
-            recorder=recorder,
-            robot=embodiment.robot,
-            perception=embodiment.perception,
-            user=user or build_user(settings, inbox, embodiment.truth, out),
-            knowledge=knowledge,
-            model=model,
-            advisor=advisor,
-            prompts=prompts,
-            facts=facts,
-            in_map=embodiment.in_map,
-            parameters=parameters_of(settings),
-        )
-        return embodiment, parts
 
     def __enter__(self) -> Self:
         """Nothing more to open."""
@@ -310,38 +255,3 @@ def refused(why: str) -> Outcome:
     """The outcome of words that are not read."""
     situation = Situation(status=MissionStatus.NOT_UNDERSTOOD, reason=why)
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
-
-
-def anything(settings: Settings, advisor: PlaceAdvisor) -> ChatRequest | RankRequest:
-    """What the model prepares for: a question about any thing."""
-    ask = advisor.ranking if settings.elicitation == "rank" else advisor.inquiry
-    return ask("thing", ())
-
-
-def close_safely(embodiment: Embodiment) -> None:
-    """Let go of the body; that it raises is no reason to end otherwise than in order."""
-    try:
-        embodiment.close()
-    except Exception as error:
-        log.warning("the robot cannot be let go of: %s", in_words(error))
-
-
-def build_user(settings: Settings, inbox: Inbox, truth: SimulatedHome | None, out: TextIO) -> User:
-    """The person that the settings name.
-
-    Raises:
-        InputError: if it is one who knows the truth, and there is none to know.
-    """
-    match settings.user:
-        case "console":
-            return Console(inbox, out=out)
-        case "none":
-            return Nobody(inbox, out)
-        case "oracle" if truth is not None:
-            return Oracle(inbox, truth.resting_place, settings.seed, out)
-        case _:
-            raise InputError(
-                "setting 'user'",
-                f"the oracle answers from a simulated world's truth, and {settings.world} has none",
-                "use --user console or none",
-            )

@@ -134,9 +134,9 @@ def test_the_same_seed_has_the_same_mishaps_and_one_fault_does_not_disturb_anoth
 
 
 def test_what_strikes_once_strikes_again_in_the_next_mission():
-    mishaps = Senses("moved=mug:desk@3").mishaps
+    mishaps = Senses("moved=mug:desk@3").injector
     assert not mishaps.due(Moved)
-    mishaps = Senses("moved=mug:desk").mishaps
+    mishaps = Senses("moved=mug:desk").injector
     [fault] = mishaps.due(Moved)
     mishaps.strike(fault, "it is moved")
     assert not mishaps.due(Moved)
@@ -153,7 +153,7 @@ def test_frames_keep_their_numbers_and_sizes():
 
 
 def test_kinds_are_told_apart():
-    mishaps = Senses("blind", "miss=0.5").mishaps
+    mishaps = Senses("blind", "miss=0.5").injector
     assert [type(fault) for fault in (*mishaps.active(Blind), *mishaps.active(Miss))] == [
         Blind,
         Miss,
