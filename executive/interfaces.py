@@ -363,7 +363,7 @@ class Clock(Protocol):
     """Mission time (seconds since the mission began)."""
 
     def now(self) -> float:
-        """The time."""
+        """The time; it passes within `wait` only, so that a tick is replayed at its own time."""
         ...
 
     def restart(self) -> None:
