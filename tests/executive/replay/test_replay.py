@@ -11,7 +11,7 @@ from py_trees.common import Status as NodeStatus
 from replays import recorded
 from sample_mission import STARTED, mission
 
-import executive.replay.replaying
+import executive.replay.recorded
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
@@ -171,7 +171,7 @@ def test_a_mission_replays_with_the_ontology_of_its_day(
     today = tmp_path / "defaults.owl"
     today.write_bytes(ontology.DEFAULTS.read_bytes().replace(b"shelf_lobby", b"desk"))
     monkeypatch.setattr(ontology, "DEFAULTS", today)
-    executive.replay.replaying._ontology.cache_clear()
+    executive.replay.recorded._ontology.cache_clear()
     assert replay(run).parting is None
 
 

@@ -3,6 +3,7 @@
 import io
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,15 @@ from executive.campaign import blocks
 from executive.campaign.policies import POLICIES
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
+from executive.replay.body import recorded_body
 from executive.replay.replaying import replay
+from executive.testing.bench import four_rooms
 from executive.types import Box, Detection, Goal, LookAt, MissionStatus, Pick, Saw
 from kb.advice.prompts import TEXTS
 from kb.llm.scripted import Scripted as ScriptedModel
 from logs.recording.reader import Run
 from sim.fake import FakeWorld
+from sim.home.home import FLOOR_VIEWS
 
 OKB = {"world": "fake", "llm": "none", "knowledge": KnowledgeSystem.OKB, "user": "oracle"}
 
@@ -133,3 +137,12 @@ def test_a_recording_keeps_the_texts_that_replaced_ours(tmp_path: Path) -> None:
     run = Run(Path(outcome.run_dir or ""))
     assert "castle" in run.attachments["prompts.toml"].decode()
     assert replay(run.path).parting is None
+
+
+def test_a_recording_from_before_the_body_was_kept_has_one_of_two_bodies(tmp_path: Path) -> None:
+    old = SimpleNamespace(attachments={}, path=tmp_path)
+    home = four_rooms()
+    physical, fake = (recorded_body(old, Settings(world=w), home) for w in ("physics", "fake"))
+    assert (physical.in_map, physical.views["floor"]) == (True, FLOOR_VIEWS)
+    assert physical.views["shelf_lobby"] == len(home.view_targets("shelf_lobby")) > 1
+    assert (fake.in_map, fake.views) == (False, {})
