@@ -63,8 +63,8 @@ CLOSED_S = 1.0
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a mission, or one for each line that the person types; return the exit code."""
     options = vars(parser().parse_args(arguments))
-    words = " ".join(options["words"]) if options["words"] else None
-    del options["words"]
+    said = options.pop("words")
+    words = " ".join(said) if said else None
     as_json, verbose = options.pop("json"), options.pop("verbose")
     view, gui = options.pop("view"), options.pop("gui")
     with on_stop_signals(end_at_once):
