@@ -2,7 +2,9 @@
 
 import importlib
 import logging
+import sys
 from collections.abc import Mapping
+from pathlib import Path
 
 from executive.app import simulation
 from executive.app.embodiment import Embodiment, Factory, Setup
@@ -51,6 +53,9 @@ def _own(name: str, setup: Setup) -> Embodiment:
 def _imported(name: str) -> Factory:
     where = f"--world {name}"
     module_name, _, attribute = name.partition(":")
+    here = str(Path.cwd())
+    if here not in sys.path:
+        sys.path.append(here)  # a console script does not look where it is started
     try:
         module = importlib.import_module(module_name)
     except ModuleNotFoundError as error:

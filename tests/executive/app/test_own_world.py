@@ -24,6 +24,9 @@ from executive.app.simulation import fake
 def robot(setup):
     return replace(fake(setup), truth=None, in_map=True)
 
+def simulated(setup):
+    return fake(setup)
+
 def broken(setup):
     raise ConnectionError("the robot is off")
 
@@ -40,7 +43,7 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     file = tmp_path / "own_world.py"
     file.write_text(OWN)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "path", [*sys.path])
     yield file
     sys.modules.pop("own_world", None)
 
@@ -60,6 +63,10 @@ def test_a_mission_runs_with_it_and_replays_without_it(
     replayed = replay(Path(outcome["run_dir"]))
     assert (replayed.parting, replayed.notes) == (None, ())
     assert "own_world" not in sys.modules
+
+
+def test_the_oracle_answers_from_the_truth_of_a_world_of_ones_own(own: Path) -> None:
+    assert run("--world", "own_world:simulated", "--user", "oracle", "Bring an apple") == 0
 
 
 @pytest.mark.parametrize(
@@ -109,6 +116,7 @@ def test_what_begins_and_ends_with_a_session_is_called(
         return call
 
     own.write_text(OWN.replace("truth=None", "begin=begin, close=close, truth=None"))
+    monkeypatch.syspath_prepend(own.parent)
     import own_world
 
     own_world.begin, own_world.close = broken("begin"), broken("close")
