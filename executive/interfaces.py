@@ -4,7 +4,7 @@ All slow work has one shape: a method that starts it returns a request number at
 comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Protocol
 
 from executive.records import NodeState, Record, TreeShape
@@ -211,6 +211,10 @@ class Facts(Protocol):
         """Where it was seen or said to be, freshest first, as far as no later look contradicts."""
         ...
 
+    def beliefs(self) -> Mapping[str, Sequence[str]]:
+        """Each object that is believed to be anywhere, and where: what a recording keeps."""
+        ...
+
 
 class Advisor(Protocol):
     """Puts questions about places to a language model and lets only real places through.
@@ -359,7 +363,7 @@ class Clock(Protocol):
     """Mission time (seconds since the mission began)."""
 
     def now(self) -> float:
-        """The time."""
+        """The time; it passes within `wait` only, so that a tick is replayed at its own time."""
         ...
 
     def restart(self) -> None:

@@ -67,6 +67,10 @@ class NoFacts:
         """Nowhere."""
         return ()
 
+    def beliefs(self) -> dict[str, tuple[str, ...]]:
+        """None."""
+        return {}
+
 
 @dataclass(frozen=True, slots=True)
 class MissionContext:

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from onnx_models import v8, write_model
 
-from executive.app.session import Session, blind_to
+from executive.app.session import Session
+from executive.app.simulation import blind_to
 from executive.config import KnowledgeSystem, Settings
 from executive.perception.detector import OnnxDetector
 from executive.replay import replay
@@ -85,6 +86,6 @@ def test_a_detector_of_ones_own_knows_what_its_class_list_names(
 ) -> None:
     said = np.asarray(v8([]))
     file = write_model(tmp_path, said, names="['teapot', 'mug']")
-    detector = OnnxDetector(file, session.knowledge.objects_named)
-    assert blind_to(session.home, detector) == ("doorstop", "crate")
-    assert blind_to(session.home, session.world) == ()
+    detector = OnnxDetector(file, session.parts.knowledge.objects_named)
+    assert blind_to(session.parts.home, detector) == ("doorstop", "crate")
+    assert blind_to(session.parts.home, session.parts.robot) == ()

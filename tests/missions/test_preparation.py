@@ -45,7 +45,7 @@ def test_it_prepares_for_every_place_and_all_things_that_are_known(tmp_path: Pat
     model = Preparing(inbox := Inbox())
     settings = load_settings(world="fake", user="none", elicit="rank", runs=tmp_path)
     session = Session(settings, inbox=inbox, model=model, out=io.StringIO())
-    asked = session.advisor.ranking("hammer", ())
+    asked = session.parts.advisor.ranking("hammer", ())
     session.close()
     [request] = model.prepared
     assert (request.neutral, request.options) == (asked.neutral, asked.options)
