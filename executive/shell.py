@@ -39,7 +39,7 @@ _is_program = False
 def begin() -> None:
     """What a program does first of all, before the imports that take long.
 
-    A signal that says stop ends it without a traceback, also while it imports. Where it would import
+    A signal that says stop ends it without a traceback, also while it imports. If it would import
     what is not ours, it says so and ends.
     """
     global _is_program

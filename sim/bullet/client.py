@@ -5,8 +5,8 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import pybullet as p
-from pybullet_utils.bullet_client import BulletClient
+from sim.engine import BulletClient
+from sim.engine import pybullet as p
 
 GRAVITY_M_S2 = 9.81
 

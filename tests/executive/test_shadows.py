@@ -1,4 +1,4 @@
-"""What somebody has in their folder neither breaks a command nor is run in place of what is ours."""
+"""What lies in the folder neither breaks a command nor is run in place of what is ours."""
 
 import subprocess
 import sys
