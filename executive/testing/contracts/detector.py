@@ -70,11 +70,6 @@ class DetectorContract:
             assert detection.mask.shape == (detection.box.height, detection.box.width)
             assert detection.mask.any()
 
-    def test_where_a_thing_is_in_space_is_left_to_the_depth(
-        self, found: tuple[Detection, ...]
-    ) -> None:
-        assert all(detection.position is None for detection in found)
-
     def test_the_picture_is_only_read(self, detector_bench: DetectorBench) -> None:
         color, depth = detector_bench.frame.color.copy(), detector_bench.frame.depth.copy()
         detector_bench.detector.detect(detector_bench.frame)
