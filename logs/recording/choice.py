@@ -41,7 +41,8 @@ def newest(named: Sequence[Path]) -> Chosen:
     if not runs:
         where = ", ".join(map(str, folders))
         raise InputError(where, "there is no run", "name a run's folder")
-    return Chosen(max(runs, key=_written), f"the newest of {len(runs)}")
+    why = f"the newest of {len(runs)}" if len(runs) > 1 else "the only run"
+    return Chosen(max(runs, key=_written), why)
 
 
 def _is_recording(run: Path) -> bool:

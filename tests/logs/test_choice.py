@@ -42,6 +42,12 @@ def test_of_several_it_is_the_newest_whatever_else_a_pattern_matched(runs: Path)
     assert newest(sorted(runs.glob("[!b]*"))) == (runs / "c", "the newest of 2")
 
 
+def test_the_only_run_is_the_newest(runs: Path) -> None:
+    for name in ("a", "c"):
+        (runs / name / FILE_NAME).unlink()
+    assert newest([]) == (runs / "b", "the only run")
+
+
 def test_of_a_folder_of_runs_it_is_the_newest(runs: Path) -> None:
     assert newest([runs]) == (runs / "b", "the newest of 3")
 
