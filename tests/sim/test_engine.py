@@ -42,3 +42,9 @@ def test_why_it_cannot_be_imported_is_told(tmp_path: Path, monkeypatch: pytest.M
 def test_a_lost_standard_error_does_not_keep_it_from_being_imported(redirection: str) -> None:
     ended = imported(redirection=redirection)
     assert (ended.returncode, ended.stdout) == (0, "pybullet\n")
+
+
+def test_a_world_is_opened_by_a_program_whose_standard_output_is_closed() -> None:
+    code = "from sim.bullet.client import connect; connect().disconnect()"
+    script = f"{sys.executable} -c '{code}' >&-"
+    assert subprocess.run(["bash", "-c", script], capture_output=True).returncode == 0
