@@ -4,7 +4,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from executive.config import load_settings
 from executive.errors import InputError
 from logs.recording.reader import FILE_NAME
 
@@ -33,7 +32,7 @@ def newest(named: Sequence[Path]) -> Chosen:
     Raises:
         InputError: if there is none. One that is named alone is taken as it is.
     """
-    folders = named or [load_settings().runs]
+    folders = named or [_folder_of_runs()]
     found = list(runs_in(folders))
     if named and len(found) == 1:
         return Chosen(found[0])
@@ -43,6 +42,12 @@ def newest(named: Sequence[Path]) -> Chosen:
         raise InputError(where, "there is no run", "name a run's folder")
     why = f"the newest of {len(runs)}" if len(runs) > 1 else "the only run"
     return Chosen(max(runs, key=_written), why)
+
+
+def _folder_of_runs() -> Path:
+    from executive.config import load_settings  # takes a tenth of a second
+
+    return load_settings().runs
 
 
 def _is_recording(run: Path) -> bool:
