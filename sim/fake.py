@@ -185,10 +185,12 @@ class FakeRobot:
             case Halt():
                 return REST_S, Succeeded
 
+    def _knows(self, place: str) -> bool:
+        return place in {"person", "delivery", *(p.name for p in self._world.home.places())}
+
     def _drive(self, place: str) -> tuple[float, Callable[[], Result]]:
         world = self._world
-        known = {"person", "delivery", *(p.name for p in world.home.places())}
-        if place not in known:
+        if not self._knows(place):
             return 0.0, lambda: Failed(f"there is no {place} in this home")
         goal = world.home.stand(place)
         distance = math.dist(goal[:2], world.pose[:2])

@@ -4,12 +4,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
-import pybullet as p
-from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Shape
 from executive.types import Color, Pose, Vector3
+from sim.engine import BulletClient
+from sim.engine import pybullet as p
 from sim.home.furniture import box
 from sim.home.home import PERSON, Home
 from sim.objects.objects import ObjectModel

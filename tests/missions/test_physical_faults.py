@@ -5,7 +5,6 @@ from math import dist
 from typing import Any
 
 import numpy as np
-import pybullet
 import pytest
 
 from executive.clock import SimulatedClock
@@ -15,6 +14,7 @@ from executive.records import Mishap, PlannedPath, Scene, Transforms
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, PutDown, Succeeded
+from sim.engine import pybullet
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_faults
 from sim.objects.objects import load_objects
