@@ -8,7 +8,7 @@ from typing import Any
 from executive.app.parts import near_person
 from executive.clock import SimulatedClock
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Detector, Facts, User
+from executive.interfaces import Detector, Facts, Tree, User
 from executive.language.grammar import EnglishInterpreter
 from executive.loop import Executive
 from executive.perception.pipeline import CameraPerception
@@ -101,11 +101,13 @@ def run_mission(
     notebook: Notebook | None = None,
     facts: Facts | None = None,
     detector: Callable[[FakeWorld], Detector] = FakeDetector,
+    build: Callable[[MissionContext], Tree] = lambda context: MissionTree(mission(context)),
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
     `mishaps` are ordered as with `--fault`. `during` is called at the start of every goal of the
-    robot, and may post events; `first` are posted before the mission starts.
+    robot, and may post events; `first` are posted before the mission starts. `build` makes the
+    tree.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
     home = four_rooms().with_placement(place or {})
@@ -155,7 +157,7 @@ def run_mission(
         near_person=near_person(home),
     )
     executive = Executive(
-        MissionTree(mission(context)),
+        build(context),
         situation,
         inbox=inbox,
         clock=clock,
