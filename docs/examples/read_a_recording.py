@@ -18,13 +18,13 @@ def story(folder: Path) -> Iterator[str]:
     run = Run(folder)
     settings = run.config()
     yield f"run {run.name}, knowledge {settings['knowledge']}, seed {settings['seed']}"
-    for at in run.dialog():
-        yield f"{at.time_s:8.3f} s  {at.value.speaker}: {at.value.text}"
-    for at in run.ticks():
-        yield f"{at.time_s:8.3f} s  tick {at.value.number} by {at.value.cause}: {at.value.tip}"
-    for at in run.llm_calls():
-        usage = at.value.result.usage
-        yield f"{at.time_s:8.3f} s  {usage.model} took {usage.total_s:.2f} s"
+    for said in run.dialog():
+        yield f"{said.time_s:8.3f} s  {said.value.speaker}: {said.value.text}"
+    for tick in run.ticks():
+        yield f"{tick.time_s:8.3f} s  tick {tick.value.number} by {tick.value.cause}"
+    for call in run.llm_calls():
+        usage = call.value.result.usage
+        yield f"{call.time_s:8.3f} s  {usage.model} took {usage.total_s:.2f} s"
     if outcome := run.outcome():  # None: the run was killed before its end
         yield f"{outcome.status}: {outcome.reason}"
 
