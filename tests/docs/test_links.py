@@ -3,6 +3,7 @@
 import re
 from importlib.util import find_spec
 from pathlib import Path
+from pkgutil import resolve_name
 from urllib.parse import unquote
 
 import pytest
@@ -14,6 +15,7 @@ PACKAGES = "executive|trees|kb|sim|logs"
 LINK = re.compile(r"\]\((?!\w+:)([^)\s]+)\)")
 FILE = re.compile(rf"(?<![\w/.-])(?:{PACKAGES}|tests|docs)/[\w/.-]*\w/?")
 MODULE = re.compile(rf"\b(?:python -m|from|import) ((?:{PACKAGES})(?:\.\w+)*)\b")
+NAME = re.compile(rf"`((?:{PACKAGES})(?:\.\w+)+)")
 TO_BE_WRITTEN = {
     "docs/examples/own_object.toml",
     "docs/examples/own_source.py",
@@ -59,3 +61,9 @@ def test_every_file_that_is_named_exists(page: Path) -> None:
 def test_every_module_that_is_named_exists(page: Path) -> None:
     named = set(MODULE.findall(text_of(page)))
     assert [name for name in named if find_spec(name) is None] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
+def test_every_python_name_that_is_quoted_exists(page: Path) -> None:
+    for name in NAME.findall(text_of(page)):
+        resolve_name(name)
