@@ -12,12 +12,13 @@ from executive.app.parts import (
     advised,
     as_they_are,
     build_mission,
+    mission_tree,
     parameters_of,
 )
 from executive.app.simulation import fake
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Detector, Facts, User
+from executive.interfaces import Detector, Facts, Tree, User
 from executive.perception.pipeline import CameraPerception
 from executive.records import Record, Tick, Verified
 from executive.situation import Situation
@@ -27,7 +28,7 @@ from kb.llm.scripted import Scripted as ScriptedModel
 from kb.ontology.ontology import Ontology
 from sim.fake import FakeCamera, FakeWorld
 from sim.home.home import Home, load_home
-from trees.context import NoFacts
+from trees.context import MissionContext, NoFacts
 
 
 @cache
@@ -110,12 +111,13 @@ def run_mission(
     facts: Facts | None = None,
     detector: Callable[[FakeWorld], Detector] | None = None,
     change: Change = as_they_are,
+    build: Callable[[MissionContext], Tree] = mission_tree,
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
     `mishaps` are ordered as with `--fault`. `during` is called at the start of every goal of the
     robot, and may post events; `first` are posted before the mission starts. `change` puts in other
-    parts.
+    parts, and `build` makes the tree.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
     settings = Settings(
@@ -169,7 +171,7 @@ def run_mission(
         in_map=body.in_map,
         parameters=replace(parameters_of(settings), **(parameters or {})),
     )
-    executive = build_mission(change(advised(parts)), situation)
+    executive = build_mission(change(advised(parts)), situation, build)
     for event in (*first, Started(words)):
         inbox.post(event)
     executive.run()
