@@ -131,8 +131,9 @@ def build_mission(
     parts: Parts, situation: Situation, build: Callable[[MissionContext], Tree] = mission_tree
 ) -> Executive:
     """One mission of these parts, ready to run; `build` makes the tree."""
+    context = build_context(parts, situation)
     return Executive(
-        build(build_context(parts, situation)),
+        build(context),
         situation,
         inbox=parts.inbox,
         clock=parts.clock,

@@ -117,7 +117,7 @@ def run_mission(
 
     `mishaps` are ordered as with `--fault`. `during` is called at the start of every goal of the
     robot, and may post events; `first` are posted before the mission starts. `change` puts in other
-    parts, `build` makes the tree.
+    parts, and `build` makes the tree.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
     settings = Settings(
