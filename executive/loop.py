@@ -59,11 +59,11 @@ class Executive:
         try:
             decided = self._decide()
             self._call_off()
-            if not decided or self._situation.restless:
+            if not decided or self._situation.ending.restless:
                 self._come_to_rest()
         except BaseException as interrupt:
             self._take_in(StopRequested(who_interrupts(interrupt)))
-            self._situation.stay_restless()
+            self._situation.ending.stay_restless()
             try:
                 self._call_off()
             finally:
@@ -91,11 +91,11 @@ class Executive:
     def _run_until_decided(self) -> bool:
         while True:
             cause = self._take_events()
-            if self._situation.is_cut_short:
+            if self._situation.ending.is_cut_short:
                 return False
             self._tick(cause)
             if self._tree.status != "RUNNING":
-                self._situation.decided = True
+                self._situation.ending.decided = True
                 return True
             self._clock.wait(self._situation.next_deadline)
 
@@ -134,7 +134,7 @@ class Executive:
     def _feel(self) -> None:
         """Ask the fingers; what they feel anew is an event."""
         holding = self._robot.holding
-        if holding != self._situation.felt:
+        if holding != self._situation.hand.felt:
             self._take_in(HandFelt(holding))
 
     def _tick(self, cause: str) -> None:
@@ -180,10 +180,10 @@ class Executive:
             if not isinstance(result, Failed):
                 break
         if isinstance(result, Succeeded):
-            self._situation.restless = False
+            self._situation.ending.restless = False
         else:
             why = result.reason if isinstance(result, Failed) else ""
-            self._situation.stay_restless(printable(why)[:LONGEST])
+            self._situation.ending.stay_restless(printable(why)[:LONGEST])
         self._inbox.drop_all()
         self._feel()
 

@@ -54,7 +54,7 @@ class Step(Behaviour):
 
     def fail(self, reason: str) -> Status:
         """Fail, and keep why, for the log and for the person: on one line, and never empty."""
-        self.feedback_message = self.situation.reason = printable(reason).strip() or UNSAID
+        self.feedback_message = self.situation.ending.reason = printable(reason).strip() or UNSAID
         return Status.FAILURE
 
 
@@ -166,12 +166,12 @@ class Optionally(FailureIsSuccess):
 
     def initialise(self) -> None:
         """Remember the reason."""
-        self._reason = self._situation.reason
+        self._reason = self._situation.ending.reason
 
     def update(self) -> Status:
         """Succeed in either case."""
         if self.decorated.status == Status.FAILURE:
-            self._situation.reason = self._reason
+            self._situation.ending.reason = self._reason
         return super().update()
 
 

@@ -13,7 +13,7 @@ from trees.person import AskDoYouMean, AskWhichObject
 
 
 def resolve_object(context: MissionContext) -> Behaviour:
-    """Words for a thing -> `situation.object`."""
+    """Words for a thing -> `situation.request.object`."""
     return fallback(
         "which object",
         known_object(context),
@@ -25,7 +25,7 @@ def resolve_object(context: MissionContext) -> Behaviour:
         ),
         sequence(
             "ask",
-            Check("person may help", context, lambda: not context.situation.no_help),
+            Check("person may help", context, lambda: not context.situation.dialogue.no_help),
             AskWhichObject("ask which object", context),
         ),
     )
@@ -45,13 +45,13 @@ class OntologyKnowsObject(Step):
 
     def update(self) -> Status:
         """Look the words up."""
-        assert self.situation.command
-        target = self.situation.command.target
+        assert self.situation.request.command
+        target = self.situation.request.command.target
         named = self.context.knowledge.objects_named(target)
         if len(named) == 1:
-            self.situation.object = named[0]
+            self.situation.request.object = named[0]
             return self.succeed(named[0])
-        self.situation.options = named
+        self.situation.request.options = named
         return self.fail(f"'{target}' names {len(named) or 'no'} known objects")
 
 
@@ -60,10 +60,10 @@ class PersonPrefersOne(Step):
 
     def update(self) -> Status:
         """Look for a favourite."""
-        favourites = self.context.knowledge.preferred(self.situation.options)
+        favourites = self.context.knowledge.preferred(self.situation.request.options)
         if len(favourites) != 1:
             return self.fail(f"{len(favourites) or 'none'} of them is a favourite")
-        self.situation.object = favourites[0]
+        self.situation.request.object = favourites[0]
         return self.succeed(favourites[0])
 
 
@@ -75,19 +75,19 @@ class GuessName(Step):
 
     def update(self) -> Status:
         """Look for known names."""
-        assert self.situation.command
-        target = self.situation.command.target
-        if self.situation.options:
+        assert self.situation.request.command
+        target = self.situation.request.command.target
+        if self.situation.request.options:
             return self.fail(f"'{target}' is known")
         knowledge = self.context.knowledge
         names = knowledge.names_in(target)
         if len(names) > 1:
-            self.situation.several = True
-            self.situation.options = tuple(
+            self.situation.request.several = True
+            self.situation.request.options = tuple(
                 dict.fromkeys(one for name in names for one in knowledge.objects_named(name))
             )
             return self.fail(f"'{target}' names several things")
-        self.situation.guess = names[0] if names else knowledge.near_name(target) or ""
-        if not self.situation.guess:
+        self.situation.request.guess = names[0] if names else knowledge.near_name(target) or ""
+        if not self.situation.request.guess:
             return self.fail(f"'{target}' is like no known name")
-        return self.succeed(self.situation.guess)
+        return self.succeed(self.situation.request.guess)

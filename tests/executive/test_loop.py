@@ -223,7 +223,7 @@ def test_a_behaviour_that_raises_ends_the_mission_with_the_traceback_in_the_log(
 
     executive, situation, notebook = executive_of(broken)
     executive.run()
-    assert situation.reason == "internal error: ValueError: oops"
+    assert situation.ending.reason == "internal error: ValueError: oops"
     assert "Traceback" in notebook.all(Note)[0].text
     assert isinstance(notebook.records[0], TreeShape)
 
@@ -234,4 +234,4 @@ def test_an_error_for_the_person_is_told_as_it_is() -> None:
 
     executive, situation, _ = executive_of(broken)
     executive.run()
-    assert situation.reason == "the model file is broken"
+    assert situation.ending.reason == "the model file is broken"

@@ -1,0 +1,152 @@
+"""What this mission knows so far: the one place that behaviours read from and write to."""
+
+from copy import copy
+from dataclasses import asdict, dataclass, field, is_dataclass
+from typing import Any, Self
+
+from executive.events import (
+    Broke,
+    DeadlinePassed,
+    Ended,
+    Event,
+    HandFelt,
+    Started,
+    StopRequested,
+)
+from executive.situation.dialogue import Dialogue
+from executive.situation.ending import Ending
+from executive.situation.hand import Hand
+from executive.situation.model import ModelUse
+from executive.situation.request import Request
+from executive.situation.search import Search
+from executive.types import Outcome, Replied, Result, Scored
+
+
+@dataclass
+class Situation:
+    """Facts of one mission, in parts.
+
+    Events are folded in by the loop before each tick; everything else is set by behaviours.
+    """
+
+    request: Request = field(default_factory=Request)
+    search: Search = field(default_factory=Search)
+    hand: Hand = field(default_factory=Hand)
+    dialogue: Dialogue = field(default_factory=Dialogue)
+    model: ModelUse = field(default_factory=ModelUse)
+    ending: Ending = field(default_factory=Ending)
+    results: dict[int, Result] = field(default_factory=dict)
+    """Ends of requests that no behaviour has read yet."""
+    deadlines: dict[str, float] = field(default_factory=dict)
+    """When (mission time, s) the behaviours that wait will wait no longer."""
+
+    @classmethod
+    def at_start(
+        cls, words: str = "", *, in_hand: str | None = None, restless: bool = False
+    ) -> Self:
+        """What is known before the first tick: the words, and in what state the robot was left."""
+        return cls(
+            request=Request(words), hand=Hand(in_hand=in_hand), ending=Ending(restless=restless)
+        )
+
+    def fold(self, event: Event) -> None:
+        """Take in what happened."""
+        match event:
+            case Started(words):
+                self.request.words = words
+            case Ended(request, result):
+                self.results[request] = result
+                if isinstance(result, Replied | Scored):
+                    self.model.calls += 1
+            case StopRequested(by):
+                self.ending.stop(by)
+            case Broke(reason):
+                self.ending.break_off(reason)
+            case HandFelt(holding):
+                self.hand.feel(holding)
+            case DeadlinePassed():
+                pass
+
+    @property
+    def has_it(self) -> bool:
+        """Whether what was asked for is in the hand."""
+        return self.hand.in_hand is not None and self.hand.in_hand == self.request.object
+
+    @property
+    def next_deadline(self) -> float | None:
+        """The earliest time (mission time, s) at which a tick is due without an event."""
+        return min(self.deadlines.values(), default=None)
+
+    def saved(self) -> "Situation":
+        """A copy, for `restore`."""
+        twin: Situation = _copied(self)
+        return twin
+
+    def restore(self, saved: "Situation") -> None:
+        """Know again what was known then, and nothing else."""
+        vars(self).update(vars(saved))
+
+    def snapshot(self) -> dict[str, Any]:
+        """Everything that fits in a log line: plain values, no pictures."""
+        request, search = self.request, self.search
+        return {
+            "command": asdict(request.command) if request.command else None,
+            "options": list(request.options),
+            "object": request.object,
+            "among": list(search.default_locations),
+            "consultation": asdict(search.consultation),
+            "candidates": [asdict(c) for c in search.candidates],
+            "candidate": asdict(search.candidate) if search.candidate else None,
+            "view": search.view,
+            "visited": list(search.looks.visited),
+            "unreached": dict(search.looks.unreached),
+            "unseen": dict(search.looks.unseen),
+            "sighting": list(search.detection.position or ()) if search.detection else None,
+            "found": asdict(search.found) if search.found else None,
+            "in_hand": self.hand.in_hand,
+            "gone": search.gone,
+            "lost": self.hand.lost,
+            "put_at": self.hand.put_at,
+            "inquiries": self.dialogue.inquiries,
+            "llm_calls": self.model.calls,
+            "status": self.ending.status,
+            "reason": self.ending.reason,
+            "deadlines": dict(self.deadlines),
+        }
+
+    def outcome(self, *, mission_time_s: float, wall_time_s: float, run_dir: str | None) -> Outcome:
+        """The mission's result."""
+        command, found = self.request.command, self.search.found
+        return Outcome(
+            command=self.request.words,
+            kind=command.kind if command else None,
+            target=command.target if command else None,
+            object=self.request.object,
+            status=self.ending.status,
+            reason=self.ending.why,
+            source=found.source if found else None,
+            location=found.place if found else None,
+            inquiries=self.dialogue.inquiries,
+            visited=tuple(self.search.looks.visited),
+            llm_calls=self.model.calls,
+            candidates=self.search.candidates,
+            mission_time_s=round(mission_time_s, 3),
+            thinking_time_s=round(self.model.thinking_time_s, 3),
+            wall_time_s=round(wall_time_s, 3),
+            run_dir=run_dir,
+            model_failure=self.model.failure,
+        )
+
+
+def _copied(value: Any) -> Any:
+    """A copy of what may be changed in place; the rest as it is."""
+    kind = type(value)
+    if kind is list or kind is set:
+        return kind(map(_copied, value))
+    if kind is dict:
+        return {name: _copied(item) for name, item in value.items()}
+    if is_dataclass(kind) and not kind.__dataclass_params__.frozen:  # type: ignore[attr-defined]
+        twin = copy(value)
+        vars(twin).update({name: _copied(item) for name, item in vars(value).items()})
+        return twin
+    return value
