@@ -7,6 +7,7 @@ from executive.errors import ExecutiveError
 from executive.events import Broke, DeadlinePassed, Ended, Event, HandFelt, Inbox, StopRequested
 from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
 from executive.interfaces import Clock, Recorder, Robot, Tree
+from executive.pending import Pending
 from executive.records import EventTaken, LlmCall, Note, Record, Tick
 from executive.situation import Situation
 from executive.text import printable
@@ -31,14 +32,19 @@ class Executive:
         tree: Tree,
         situation: Situation,
         *,
+        pending: Pending,
         inbox: Inbox,
         clock: Clock,
         robot: Robot,
         recorder: Recorder,
     ) -> None:
-        """Put the parts together; `run` starts."""
+        """Put the parts together; `run` starts.
+
+        `pending` is where the behaviours of this tree, and no others, wait for what they started.
+        """
         self._tree = tree
         self._situation = situation
+        self._pending = pending
         self._inbox = inbox
         self._clock = clock
         self._robot = GuardedRobot(robot, inbox, recorder)
@@ -97,7 +103,7 @@ class Executive:
             if self._tree.status != "RUNNING":
                 self._situation.ending.decided = True
                 return True
-            self._clock.wait(self._situation.next_deadline)
+            self._clock.wait(self._pending.next_deadline)
 
     def _take_events(self) -> str:
         """Fold what happened into the situation; say what it was."""
@@ -118,6 +124,8 @@ class Executive:
         return events
 
     def _take_in(self, event: Event) -> None:
+        if isinstance(event, Ended):
+            self._pending.end(event.request, event.result)
         self._situation.fold(event)
         self._recorder.record(EventTaken(event))
         if isinstance(event, StopRequested):
@@ -159,7 +167,7 @@ class Executive:
             cause=cause,
             tip=self._tree.tip,
             nodes=self._tree.states(),
-            situation=self._situation.snapshot(),
+            situation=self._situation.snapshot() | {"deadlines": self._pending.deadlines()},
             duration_s=time.perf_counter() - began,
         )
 
@@ -198,7 +206,7 @@ class Executive:
                 self._note(error)
                 failures += 1
             self._take_all()
-        return self._situation.results.pop(request, None)
+        return self._pending.take_end(request)
 
     def _note(self, error: Exception) -> None:
         log.debug("the mission is cut short", exc_info=error)

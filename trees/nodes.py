@@ -115,32 +115,32 @@ class Action(Step):
         self.feedback_message = ""
         self._request = self.start()
         self._deadline = self.context.clock.now() + self._patience_s
-        self.situation.deadlines[self.name] = self._deadline
+        self.context.pending.wait_until(self._deadline, self._request, self.name)
         return Status.RUNNING
 
     def update(self) -> Status:
         """Look whether it ended."""
-        assert self._request is not None
-        result = self.situation.results.pop(self._request, None)
+        request = self._request
+        assert request is not None
+        result = self.context.pending.take_end(request)
         if result is not None:
-            self._wait_no_more()
+            self._wait_no_more(request)
             return self.ended(result)
         if self.context.clock.now() < self._deadline:
             return Status.RUNNING
-        self.cancel(self._request)
-        self._wait_no_more()
+        self.cancel(request)
+        self._wait_no_more(request)
         return self.out_of_time()
 
     def terminate(self, new_status: Status) -> None:
         """Cancel what is still under way."""
-        if self._request is not None:
-            request = self._request
-            self._wait_no_more()
+        if (request := self._request) is not None:
+            self._wait_no_more(request)
             self.cancel(request)
 
-    def _wait_no_more(self) -> None:
+    def _wait_no_more(self, request: int) -> None:
         self._request = None
-        self.situation.deadlines.pop(self.name, None)
+        self.context.pending.wait_no_more(request)
 
     def failed(self, result: Result) -> Status:
         """Fail for the reason in a result that is no success."""

@@ -246,6 +246,7 @@ class Session:
         executive = Executive(
             MissionTree(mission(context)),
             situation,
+            pending=context.pending,
             inbox=self.inbox,
             clock=self.clock,
             robot=self.robot,

@@ -112,7 +112,13 @@ def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree)
         user=absent,
     )
     executive = Executive(
-        build(context), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
+        build(context),
+        situation,
+        pending=context.pending,
+        inbox=inbox,
+        clock=clock,
+        robot=absent,
+        recorder=judge,
     )
     clock.wait(None)
     executive.run()

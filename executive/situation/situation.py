@@ -19,7 +19,7 @@ from executive.situation.hand import Hand
 from executive.situation.model import ModelUse
 from executive.situation.request import Request
 from executive.situation.search import Search
-from executive.types import Outcome, Replied, Result, Scored
+from executive.types import Outcome, Replied, Scored
 
 
 @dataclass
@@ -35,10 +35,6 @@ class Situation:
     dialogue: Dialogue = field(default_factory=Dialogue)
     model: ModelUse = field(default_factory=ModelUse)
     ending: Ending = field(default_factory=Ending)
-    results: dict[int, Result] = field(default_factory=dict)
-    """Ends of requests that no behaviour has read yet."""
-    deadlines: dict[str, float] = field(default_factory=dict)
-    """When (mission time, s) the behaviours that wait will wait no longer."""
 
     @classmethod
     def at_start(
@@ -54,28 +50,21 @@ class Situation:
         match event:
             case Started(words):
                 self.request.words = words
-            case Ended(request, result):
-                self.results[request] = result
-                if isinstance(result, Replied | Scored):
-                    self.model.calls += 1
+            case Ended(result=Replied() | Scored()):
+                self.model.calls += 1
             case StopRequested(by):
                 self.ending.stop(by)
             case Broke(reason):
                 self.ending.break_off(reason)
             case HandFelt(holding):
                 self.hand.feel(holding)
-            case DeadlinePassed():
+            case Ended() | DeadlinePassed():
                 pass
 
     @property
     def has_it(self) -> bool:
         """Whether what was asked for is in the hand."""
         return self.hand.in_hand is not None and self.hand.in_hand == self.request.object
-
-    @property
-    def next_deadline(self) -> float | None:
-        """The earliest time (mission time, s) at which a tick is due without an event."""
-        return min(self.deadlines.values(), default=None)
 
     def saved(self) -> "Situation":
         """A copy, for `restore`."""
@@ -111,7 +100,6 @@ class Situation:
             "llm_calls": self.model.calls,
             "status": self.ending.status,
             "reason": self.ending.reason,
-            "deadlines": dict(self.deadlines),
         }
 
     def outcome(self, *, mission_time_s: float, wall_time_s: float, run_dir: str | None) -> Outcome:

@@ -10,6 +10,7 @@ from executive.clock import SimulatedClock
 from executive.errors import ExecutiveError
 from executive.events import Inbox, StopRequested
 from executive.loop import Executive
+from executive.pending import Pending
 from executive.records import EventTaken, Note, Tick, TreeShape
 from executive.situation import Situation
 from executive.testing.bench import Notebook, run_mission
@@ -209,6 +210,7 @@ def executive_of(update: Callable[[], None]) -> tuple[Executive, Situation, Note
     executive = Executive(
         MissionTree(Faulty()),
         situation,
+        pending=Pending(),
         inbox=inbox,
         clock=SimulatedClock(inbox, world),
         robot=FakeRobot(world),
