@@ -219,7 +219,14 @@ def test_a_world_that_cannot_be_drawn_costs_no_mission(
 
 # --- all of it, at random ---
 
-CALLS = ["robot.start", "robot.cancel", "robot.views", "eyes.see", "eyes.cancel", "user.ask"]
+CALLS = [
+    "robot.start",
+    "robot.cancel",
+    "robot.views",
+    "perception.see",
+    "perception.cancel",
+    "user.ask",
+]
 CALLS += ["user.tell", "user.cancel", "world.advance", "world.describe", "knowledge.usual_places"]
 WORDS = ["Bring an apple", "Take a power_drill", "Find the mug", "Bring the hammer", "Nonsense"]
 
