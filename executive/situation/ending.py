@@ -1,7 +1,8 @@
 """How the mission ends: what is told, and whether it was the tree that decided."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from executive.situation.snapshot import NOT_LOGGED
 from executive.types import MissionStatus
 
 
@@ -12,10 +13,11 @@ class Ending:
     status: MissionStatus = MissionStatus.NOT_DONE
     reason: str = ""
     """What is told at the end: what was done, or why it was not."""
-    stopped_by: str = ""
-    broke: str = ""
+    stopped_by: str = field(default="", metadata=NOT_LOGGED)
+    """Who said stop; empty if nobody did. No tick comes after this, or the next two."""
+    broke: str = field(default="", metadata=NOT_LOGGED)
     """Why the program itself failed; empty if it did not."""
-    decided: bool = False
+    decided: bool = field(default=False, metadata=NOT_LOGGED)
     """Whether the tree has decided how the mission ends."""
     restless: bool = False
     """Whether the robot did not do what it was told last, so that it may not stand still."""

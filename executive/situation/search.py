@@ -2,8 +2,10 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 from executive.situation.looks import Looks
+from executive.situation.snapshot import PART, logged_as
 from executive.types import DELIVERY, Candidate, Detection, Source
 
 
@@ -23,11 +25,23 @@ class Consultation:
     """The room that is being expanded."""
 
 
+def _position(detection: Detection | None) -> list[float] | None:
+    """Where it is in `map` (metres); empty if that is not known, None if it was not seen."""
+    return list(detection.position or ()) if detection else None
+
+
+def _guess(detection: Detection | None) -> dict[str, Any] | None:
+    """What may have been seen, and how surely."""
+    if detection is None:
+        return None
+    return {"label": detection.label, "confidence": detection.confidence}
+
+
 @dataclass
 class Search:
     """From places where the thing may be to the place where it is."""
 
-    default_locations: tuple[str, ...] = ()
+    default_locations: tuple[str, ...] = field(default=(), metadata=logged_as("among"))
     """The ontology's default locations for the object."""
     consultation: Consultation = field(default_factory=Consultation)
     candidates: tuple[Candidate, ...] = ()
@@ -35,11 +49,11 @@ class Search:
     """Where the robot is going or looking now."""
     view: int = 0
     """The part of the place that it looks at."""
-    looks: Looks = field(default_factory=Looks)
+    looks: Looks = field(default_factory=Looks, metadata=PART)
     """Where the thing was looked for, and what came of it."""
-    doubtful: Detection | None = None
+    doubtful: Detection | None = field(default=None, metadata=logged_as(plain=_guess))
     """What may be the thing, or a part of it, in the last picture; None if it was surely seen."""
-    detection: Detection | None = None
+    detection: Detection | None = field(default=None, metadata=logged_as("sighting", _position))
     """The thing, as last seen."""
     found: Candidate | None = None
     """Where the thing was seen."""

@@ -1,7 +1,7 @@
 """What this mission knows so far: the one place that behaviours read from and write to."""
 
-from copy import copy
-from dataclasses import asdict, dataclass, field, is_dataclass
+from dataclasses import dataclass, field, is_dataclass
+from functools import cache
 from typing import Any, Self
 
 from executive.events import (
@@ -19,6 +19,7 @@ from executive.situation.hand import Hand
 from executive.situation.model import ModelUse
 from executive.situation.request import Request
 from executive.situation.search import Search
+from executive.situation.snapshot import PART, snapshot
 from executive.types import Outcome, Replied, Scored
 
 
@@ -29,12 +30,12 @@ class Situation:
     Events are folded in by the loop before each tick; everything else is set by behaviours.
     """
 
-    request: Request = field(default_factory=Request)
-    search: Search = field(default_factory=Search)
-    hand: Hand = field(default_factory=Hand)
-    dialogue: Dialogue = field(default_factory=Dialogue)
-    model: ModelUse = field(default_factory=ModelUse)
-    ending: Ending = field(default_factory=Ending)
+    request: Request = field(default_factory=Request, metadata=PART)
+    search: Search = field(default_factory=Search, metadata=PART)
+    hand: Hand = field(default_factory=Hand, metadata=PART)
+    dialogue: Dialogue = field(default_factory=Dialogue, metadata=PART)
+    model: ModelUse = field(default_factory=ModelUse, metadata=PART)
+    ending: Ending = field(default_factory=Ending, metadata=PART)
 
     @classmethod
     def at_start(
@@ -66,41 +67,19 @@ class Situation:
         """Whether what was asked for is in the hand."""
         return self.hand.in_hand is not None and self.hand.in_hand == self.request.object
 
-    def saved(self) -> "Situation":
+    def saved(self) -> Self:
         """A copy, for `restore`."""
-        twin: Situation = _copied(self)
+        twin: Self = _copied(self)
         return twin
 
-    def restore(self, saved: "Situation") -> None:
-        """Know again what was known then, and nothing else."""
-        vars(self).update(vars(saved))
+    def restore(self, saved: Self) -> None:
+        """Know again what was known then, and nothing else; the parts are the same as before."""
+        for name, part in vars(self).items():
+            vars(part).update(vars(getattr(saved, name)))
 
     def snapshot(self) -> dict[str, Any]:
         """Everything that fits in a log line: plain values, no pictures."""
-        request, search = self.request, self.search
-        return {
-            "command": asdict(request.command) if request.command else None,
-            "options": list(request.options),
-            "object": request.object,
-            "among": list(search.default_locations),
-            "consultation": asdict(search.consultation),
-            "candidates": [asdict(c) for c in search.candidates],
-            "candidate": asdict(search.candidate) if search.candidate else None,
-            "view": search.view,
-            "visited": list(search.looks.visited),
-            "unreached": dict(search.looks.unreached),
-            "unseen": dict(search.looks.unseen),
-            "sighting": list(search.detection.position or ()) if search.detection else None,
-            "found": asdict(search.found) if search.found else None,
-            "in_hand": self.hand.in_hand,
-            "gone": search.gone,
-            "lost": self.hand.lost,
-            "put_at": self.hand.put_at,
-            "inquiries": self.dialogue.inquiries,
-            "llm_calls": self.model.calls,
-            "status": self.ending.status,
-            "reason": self.ending.reason,
-        }
+        return snapshot(self)
 
     def outcome(self, *, mission_time_s: float, wall_time_s: float, run_dir: str | None) -> Outcome:
         """The mission's result."""
@@ -128,13 +107,19 @@ class Situation:
 
 def _copied(value: Any) -> Any:
     """A copy of what may be changed in place; the rest as it is."""
-    kind = type(value)
+    kind = value.__class__
     if kind is list or kind is set:
         return kind(map(_copied, value))
     if kind is dict:
         return {name: _copied(item) for name, item in value.items()}
-    if is_dataclass(kind) and not kind.__dataclass_params__.frozen:  # type: ignore[attr-defined]
-        twin = copy(value)
+    if _changes(kind):
+        twin = kind.__new__(kind)
         vars(twin).update({name: _copied(item) for name, item in vars(value).items()})
         return twin
     return value
+
+
+@cache
+def _changes(kind: type) -> bool:
+    """Whether things of this type are dataclasses whose fields may be set."""
+    return is_dataclass(kind) and not kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
