@@ -90,7 +90,7 @@ class SayHowFar(Step):
 
     def update(self) -> Status:
         """Who asks where a thing is wants to know it, even if the robot cannot come back."""
-        found, why = self.situation.search.found, self.situation.ending.reason
+        found, why = self.situation.search.found, self.why_before()
         if self.situation.request.asks_to(CommandKind.FIND) and found:
             return self.fail(f"the {self.situation.request.object} is at {found.place}, but {why}")
         if self.situation.request.asks_to(CommandKind.TAKE) and not self.situation.has_it:

@@ -72,7 +72,7 @@ class SayItFell(Step):
         held, lost, why = (
             self.situation.hand.in_hand,
             self.situation.hand.lost,
-            self.situation.ending.reason,
+            self.why_before(),
         )
         if lost and lost != why:
             return self.fail(f"{lost}, and {why}")

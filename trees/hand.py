@@ -59,7 +59,7 @@ class HandStaysFull(Step):
 
     def update(self) -> Status:
         """There was no room for what it holds, or it may not be put down."""
-        held, why = self.situation.hand.in_hand, self.situation.ending.reason
+        held, why = self.situation.hand.in_hand, self.why_before()
         if held is None:
             return self.fail(why)
         if self.situation.hand.unplaced:
@@ -72,7 +72,7 @@ class StillHolds(Step):
 
     def update(self) -> Status:
         """What fell is no longer held; nor is what was let go of before it went wrong."""
-        held, why = self.situation.hand.in_hand, self.situation.ending.reason
+        held, why = self.situation.hand.in_hand, self.why_before()
         if held:
             return self.fail(f"{why}; I still hold {the(held)}")
         if self.situation.hand.lost:

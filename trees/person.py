@@ -298,7 +298,7 @@ class Report(Step):
                 why=self.situation.hand.unplaced.get(DELIVERY, ""),
             )
         )
-        self.situation.ending.reason = said
+        self.situation.ending.tell(said)
         tell(self.context, said)
         return self.succeed(said)
 
@@ -307,7 +307,8 @@ class Apologise(Step):
     """Tells why it was not done."""
 
     def update(self) -> Status:
-        """Say the reason that the failed behaviour left."""
+        """Say why the last thing failed that was tried."""
+        self.situation.ending.tell(self.why_before())
         tell(self.context, f"Sorry: {self.situation.ending.why}.")
         return self.succeed(self.situation.ending.why)
 

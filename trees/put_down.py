@@ -56,5 +56,5 @@ class NotPutDown(Step):
         """What is in the hand no more has its own reason."""
         tried, silence = self.situation.hand.not_put_down, self.situation.dialogue.no_help
         if self.situation.hand.in_hand is None or not tried:
-            return self.fail(self.situation.ending.reason)
+            return self.fail(self.why_before())
         return self.fail(f"{tried}, and {silence}" if silence else tried)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from executive.situation.snapshot import NOT_LOGGED
+from executive.situation.snapshot import NOT_LOGGED, logged_as
 from executive.types import MissionStatus
 
 
@@ -11,8 +11,10 @@ class Ending:
     """What becomes known at the end of a mission, or cuts it short."""
 
     status: MissionStatus = MissionStatus.NOT_DONE
-    reason: str = ""
+    reason: str = field(default="", metadata=NOT_LOGGED)
     """What is told at the end: what was done, or why it was not."""
+    last_word: str = field(default="", metadata=logged_as("reason"))
+    """Why a behaviour failed last, or what was told: for the log, nothing is decided by it."""
     stopped_by: str = field(default="", metadata=NOT_LOGGED)
     """Who said stop; empty if nobody did. No tick comes after this, or the next two."""
     broke: str = field(default="", metadata=NOT_LOGGED)
@@ -21,6 +23,10 @@ class Ending:
     """Whether the tree has decided how the mission ends."""
     restless: bool = False
     """Whether the robot did not do what it was told last, so that it may not stand still."""
+
+    def tell(self, reason: str) -> None:
+        """It is settled what is told at the end."""
+        self.reason = self.last_word = reason
 
     def stop(self, by: str) -> None:
         """Someone says stop; the first who does, and in time, is heard."""
