@@ -40,7 +40,10 @@ def empty_hand(context: MissionContext) -> Behaviour:
 
 
 class HandIsFree(Step):
-    """Succeeds if the hand is free for what is asked: it holds one thing at a time."""
+    """Succeeds if the hand is free for what is asked: it holds one thing at a time.
+
+    Reads request.command and hand.in_hand.
+    """
 
     def update(self) -> Status:
         """Fail if another thing than the one that is asked for is in it."""
@@ -83,7 +86,10 @@ class StillHolds(Step):
 
 
 class HoldsWhatIsMeant(Step):
-    """Succeeds if what is to be put down is in the hand."""
+    """Succeeds if what is to be put down is in the hand.
+
+    Reads request.command and hand.in_hand; writes request.object.
+    """
 
     def update(self) -> Status:
         """Nobody need say the name of what is held; if they do, it has to be that."""

@@ -88,7 +88,10 @@ def existence_check(context: MissionContext) -> Behaviour:
 
 
 class MemoryKnowsPlaces(Step):
-    """Succeeds if the thing was seen somewhere in this home, or was said to be there."""
+    """Succeeds if the thing was seen somewhere in this home, or was said to be there.
+
+    Writes search.candidates.
+    """
 
     def update(self) -> Status:
         """Recall it."""
@@ -103,7 +106,10 @@ class MemoryKnowsPlaces(Step):
 
 
 class OntologyKnowsPlace(Step):
-    """Succeeds if the ontology has exactly one default location for the object, still unvisited."""
+    """Succeeds if the ontology has exactly one default location for the object, still unvisited.
+
+    Writes search.candidates, or search.default_locations if there are several.
+    """
 
     def update(self) -> Status:
         """Look it up; several are kept to narrow down what the model may say."""
@@ -128,7 +134,10 @@ class BeginConsultation(Step):
 
 
 class ModelAction(Action):
-    """One call of the language model."""
+    """One call of the language model.
+
+    Writes model.thinking_time_s and model.failure.
+    """
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Give the model as long as the parameters allow."""
@@ -174,7 +183,10 @@ class ModelAction(Action):
 
 
 class RankPlaces(ModelAction):
-    """Has every allowed place scored, and keeps the likeliest."""
+    """Has every allowed place scored, and keeps the likeliest.
+
+    Reads search.default_locations; writes search.candidates.
+    """
 
     def start(self) -> int:
         """Ask for the scores."""
@@ -199,7 +211,10 @@ class RankPlaces(ModelAction):
 
 
 class Chat(ModelAction):
-    """Asks the model to write, and keeps the reply."""
+    """Asks the model to write, and keeps the reply.
+
+    Writes consultation.reply.
+    """
 
     @abstractmethod
     def request(self) -> ChatRequest:
@@ -249,7 +264,10 @@ class Again(Chat):
 
 
 class AskFurniture(Chat):
-    """`furniture`: a room was named; which furniture in it?"""
+    """`furniture`: a room was named; which furniture in it?
+
+    Reads consultation.room.
+    """
 
     def request(self) -> ChatRequest:
         """Ask for the room at hand."""
@@ -258,7 +276,10 @@ class AskFurniture(Chat):
 
 
 class ReadReply(Step):
-    """Preprocessing: the names in the reply, if it keeps to the output format."""
+    """Preprocessing: the names in the reply, if it keeps to the output format.
+
+    Reads consultation.reply; writes consultation.names.
+    """
 
     def update(self) -> Status:
         """Read it."""
@@ -271,7 +292,10 @@ class ReadReply(Step):
 
 
 class VerifyNames(Step):
-    """Existence check: unknown names are dropped, rooms are set aside to be expanded."""
+    """Existence check: unknown names are dropped, rooms are set aside to be expanded.
+
+    Reads consultation.names; writes consultation.furniture and consultation.rooms.
+    """
 
     takes_rooms = True
 
@@ -302,7 +326,10 @@ class VerifyFurniture(VerifyNames):
 
 
 class AdoptFurniture(Step):
-    """What passed, and was not looked at yet, becomes the list of candidates."""
+    """What passed, and was not looked at yet, becomes the list of candidates.
+
+    Reads consultation.furniture; writes search.candidates.
+    """
 
     def update(self) -> Status:
         """Keep the model's order."""

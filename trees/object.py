@@ -41,7 +41,10 @@ def known_object(context: MissionContext) -> Behaviour:
 
 
 class OntologyKnowsObject(Step):
-    """Succeeds if the words name exactly one known object."""
+    """Succeeds if the words name exactly one known object.
+
+    Reads request.command; writes request.object, or request.options.
+    """
 
     def update(self) -> Status:
         """Look the words up."""
@@ -56,7 +59,10 @@ class OntologyKnowsObject(Step):
 
 
 class PersonPrefersOne(Step):
-    """Succeeds if the ontology knows that this person prefers one of the things that fit."""
+    """Succeeds if the ontology knows that this person prefers one of the things that fit.
+
+    Reads request.options; writes request.object.
+    """
 
     def update(self) -> Status:
         """Look for a favourite."""
@@ -71,6 +77,7 @@ class GuessName(Step):
     """Succeeds if one known name is in the words, or is so near that they may be a slip of it.
 
     If several are, the person has to choose: the robot does one thing at a time.
+    Reads request.command; writes request.guess, or request.options and request.several.
     """
 
     def update(self) -> Status:

@@ -15,7 +15,10 @@ from trees.nodes import Action, Step, why_of
 
 
 class Ask(Action):
-    """Puts a question, and puts it again while the answer makes no sense."""
+    """Puts a question, and puts it again while the answer makes no sense.
+
+    Writes dialogue.inquiries, and dialogue.no_help if no answer is of use.
+    """
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Wait for each answer as long as the parameters allow."""
@@ -113,7 +116,10 @@ class AskYesNo(Ask):
 
 
 class AskDoYouMean(AskYesNo):
-    """Asks whether a known name is meant: the robot never silently guesses."""
+    """Asks whether a known name is meant: the robot never silently guesses.
+
+    Reads request.guess; writes request.command.
+    """
 
     def question(self) -> Question:
         """Offer the guess."""
@@ -148,7 +154,10 @@ class AskDoYouMean(AskYesNo):
 
 
 class AskWhichObject(Ask):
-    """Asks which thing is meant, where the words fit several or none."""
+    """Asks which thing is meant, where the words fit several or none.
+
+    Reads request.options; writes request.object, or fewer request.options.
+    """
 
     def question(self) -> Question:
         """Offer the members of the class, or the nearest known names."""
@@ -191,13 +200,16 @@ class AskWhichObject(Ask):
 
 
 class AskWhere(Ask):
-    """Asks where the thing is."""
+    """Asks where the thing is.
+
+    Reads request.object and search.looks; writes search.candidates.
+    """
 
     def question(self) -> Question:
         """Say where it was looked for, if anywhere."""
         name = self.situation.request.object or ""
         text = f"Where is the {name}?"
-        if so_far := self.situation.search.so_far(self.situation.request.object):
+        if so_far := self.situation.search.so_far(name):
             text = f"{so_far}. {text}"
         if self._tries:
             known = ", ".join(place.name for place in self.context.knowledge.places())
@@ -215,14 +227,15 @@ class AskWhere(Ask):
 
     def unresolved(self) -> str:
         """Say what was tried."""
-        return (
-            self.situation.search.so_far(self.situation.request.object)
-            or f"I do not know where the {self.situation.request.object} is"
-        )
+        name = self.situation.request.object
+        return self.situation.search.so_far(name) or f"I do not know where the {name} is"
 
 
 class AskWhereToPut(Ask):
-    """Asks where what is in the hand may be put down, when it found no room for it."""
+    """Asks where what is in the hand may be put down, when it found no room for it.
+
+    Reads hand.unplaced; writes hand.surfaces.
+    """
 
     def question(self) -> Question:
         """Say where there was none."""
@@ -261,7 +274,10 @@ class AskToPutDown(AskYesNo):
 
 
 class Announce(Step):
-    """Tells where the robot is going to look, and who says so."""
+    """Tells where the robot is going to look, and who says so.
+
+    Reads search.candidates.
+    """
 
     def update(self) -> Status:
         """Say it."""
@@ -279,7 +295,10 @@ class Announce(Step):
 
 
 class Report(Step):
-    """Tells what was done."""
+    """Tells what was done.
+
+    Reads search.found, hand.put_at and hand.unplaced; writes ending.reason.
+    """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
         """`text` may use {object}, {the_object}, {place}, {surface} and {why}."""
@@ -304,7 +323,10 @@ class Report(Step):
 
 
 class Apologise(Step):
-    """Tells why it was not done."""
+    """Tells why it was not done.
+
+    Writes ending.reason.
+    """
 
     def update(self) -> Status:
         """Say why the last thing failed that was tried."""

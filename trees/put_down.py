@@ -50,7 +50,10 @@ def go_and_put(context: MissionContext) -> Behaviour:
 
 
 class NotPutDown(Step):
-    """Says where there was no room, and why the person could not help; always fails."""
+    """Says where there was no room, and why the person could not help; always fails.
+
+    Reads hand.unplaced and dialogue.no_help.
+    """
 
     def update(self) -> Status:
         """What is in the hand no more has its own reason."""

@@ -58,7 +58,11 @@ class BodyAction(Action):
 
 
 class RobotAction(BodyAction):
-    """Pursues one goal of the robot."""
+    """Pursues one goal of the robot.
+
+    Writes ending.restless, and hand.lost if it lost what it held; what failed goes to search.looks
+    or hand.unplaced.
+    """
 
     searches = False
     """Whether it serves to look for the thing, so that its failure leaves a place unseen."""
@@ -118,7 +122,10 @@ class RobotAction(BodyAction):
 
 
 class DriveToCandidate(RobotAction):
-    """Goes to the place where the thing may be."""
+    """Goes to the place where the thing may be.
+
+    Reads search.candidate; writes dialogue.away.
+    """
 
     searches = True
 
@@ -130,7 +137,10 @@ class DriveToCandidate(RobotAction):
 
 
 class Visit(DriveToCandidate):
-    """Goes to a place for the first time: it counts as visited if it is reached."""
+    """Goes to a place for the first time: it counts as visited if it is reached.
+
+    Reads search.candidate; writes search.looks.
+    """
 
     def ended(self, result: Result) -> Status:
         """Count only a place that was reached."""
@@ -141,7 +151,10 @@ class Visit(DriveToCandidate):
 
 
 class DriveBack(RobotAction):
-    """Goes to where things are asked for or delivered: `person` or `delivery`."""
+    """Goes to where things are asked for or delivered: `person` or `delivery`.
+
+    Writes dialogue.away.
+    """
 
     def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
@@ -159,7 +172,10 @@ class DriveBack(RobotAction):
 
 
 class LookAtCandidate(RobotAction):
-    """Points the head at the next part of the place."""
+    """Points the head at the next part of the place.
+
+    Reads search.candidate and search.view; clears search.doubtful.
+    """
 
     searches = True
 
@@ -171,7 +187,10 @@ class LookAtCandidate(RobotAction):
 
 
 class LookCloser(RobotAction):
-    """Brings what may be the thing to the middle of the picture."""
+    """Brings what may be the thing to the middle of the picture.
+
+    Reads search.doubtful, search.candidate and search.view.
+    """
 
     searches = True
 
@@ -184,7 +203,10 @@ class LookCloser(RobotAction):
 
 
 class LookForLost(RobotAction):
-    """Points the head at where the thing may have fallen."""
+    """Points the head at where the thing may have fallen.
+
+    Reads hand.spot and search.view.
+    """
 
     def goal(self) -> Goal:
         """Look at the next part of the spot."""
@@ -192,7 +214,11 @@ class LookForLost(RobotAction):
 
 
 class PickUp(RobotAction):
-    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides."""
+    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides.
+
+    Reads search.detection, search.found and hand.felt; writes hand.reached_for and hand.in_hand,
+    clears hand.lost and hand.unplaced.
+    """
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Reach for it."""
@@ -215,30 +241,28 @@ class PickUp(RobotAction):
 
         If the robot failed with the thing in its hand, it is given one chance to finish.
         """
-        assert self.situation.search.detection
-        name, felt = self.situation.search.detection.label, self.situation.hand.felt
-        if isinstance(result, Succeeded) and felt is False:
+        hand, search = self.situation.hand, self.situation.search
+        assert search.detection
+        name = search.detection.label
+        if isinstance(result, Succeeded) and hand.felt is False:
             result = Failed(f"the {name} slipped from my fingers")
-        if isinstance(result, Failed) and felt and self.situation.hand.in_hand == name:
+        if isinstance(result, Failed) and hand.felt and hand.in_hand == name:
             if not self._finished:
                 self._finished = True
                 return self.start_again()
             result = Succeeded()
         if isinstance(result, Succeeded):
-            assert self.situation.search.found
-            self.situation.hand.in_hand = name
-            self.context.facts.took(name, self.situation.search.found.place)
-            self.situation.hand.lost = ""
-            self.situation.hand.unplaced.clear()
+            assert search.found
+            hand.in_hand, hand.lost = name, ""
+            hand.unplaced.clear()
+            self.context.facts.took(name, search.found.place)
         return super().ended(result)
 
     def out_of_time(self) -> Status:
         """With the thing in the hand it is as if the robot had failed; only that it may move."""
-        assert self.situation.search.detection
-        if not (
-            self.situation.hand.felt
-            and self.situation.hand.in_hand == self.situation.search.detection.label
-        ):
+        hand, seen = self.situation.hand, self.situation.search.detection
+        assert seen
+        if not (hand.felt and hand.in_hand == seen.label):
             return super().out_of_time()
         status = self.ended(Failed(f"it took longer than {self._patience_s:g} s"))
         self.situation.ending.restless = True
@@ -246,7 +270,10 @@ class PickUp(RobotAction):
 
 
 class PutDownAt(RobotAction):
-    """Puts the held thing down."""
+    """Puts the held thing down.
+
+    Reads hand.in_hand and hand.felt; writes hand.in_hand and hand.put_at.
+    """
 
     def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
@@ -275,7 +302,10 @@ class PutDownAt(RobotAction):
 
 
 class PutDownThere(PutDownAt):
-    """Puts the held thing down on the surface at hand."""
+    """Puts the held thing down on the surface at hand.
+
+    Reads hand.surface.
+    """
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Wait for the surface to be chosen."""
@@ -286,7 +316,10 @@ class PutDownThere(PutDownAt):
 
 
 class DriveToSurface(RobotAction):
-    """Goes to the furniture where the held thing may be put down."""
+    """Goes to the furniture where the held thing may be put down.
+
+    Reads hand.surface; writes dialogue.away.
+    """
 
     def goal(self) -> Goal:
         """Drive there; the person is not there."""
@@ -295,7 +328,11 @@ class DriveToSurface(RobotAction):
 
 
 class SeeTarget(BodyAction):
-    """Takes a picture and succeeds if the thing is in it, surely and wholly."""
+    """Takes a picture and succeeds if the thing is in it, surely and wholly.
+
+    Reads request.object and search.candidate; writes search.detection and search.found if it is
+    sure, else search.doubtful or search.looks.
+    """
 
     def __init__(self, name: str, context: MissionContext, closer: bool = False) -> None:
         """`closer`, a part of the thing is enough."""
@@ -308,27 +345,27 @@ class SeeTarget(BodyAction):
 
     def ended(self, result: Result) -> Status:
         """Keep the surest detection of the thing, and where it was; remember all that was seen."""
-        assert self.situation.search.candidate
+        search = self.situation.search
+        assert search.candidate
         if not isinstance(result, Saw):
             return self.failed(result)
         self._remember(result.detections)
-        self.situation.search.doubtful = None
+        search.doubtful = None
         seen = self._surest(result)
         if seen is None:
-            place, view = self.situation.search.candidate.place, self.situation.search.view
-            self.situation.search.looks.without(place, view)
+            search.looks.without(search.candidate.place, search.view)
             self.feedback_message = f"no {self.situation.request.object} in view"
             return Status.FAILURE
         if seen.confidence < self.context.parameters.min_confidence:
-            self.situation.search.doubtful = seen
+            search.doubtful = seen
             self.feedback_message = f"perhaps {seen.label}, confidence {seen.confidence:.2f}"
             return Status.FAILURE
         if seen.cut_off and not self._closer:
-            self.situation.search.doubtful = seen
+            search.doubtful = seen
             self.feedback_message = f"{seen.label}, at the edge of the picture"
             return Status.FAILURE
-        self.situation.search.detection = seen
-        self.situation.search.found = self._where(seen)
+        search.detection = seen
+        search.found = self._where(seen)
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
     def attempt(self) -> str:
@@ -347,11 +384,10 @@ class SeeTarget(BodyAction):
 
     def _where(self, seen: Detection) -> Candidate:
         """Here; but what is seen on furniture behind this place is on that."""
-        assert self.situation.search.candidate
+        here = self.situation.search.candidate
+        assert here
         below = self.context.place_at(seen.position) if seen.position else None
-        return replace(
-            self.situation.search.candidate, place=below or self.situation.search.candidate.place
-        )
+        return replace(here, place=below or here.place)
 
     def _surest(self, saw: Saw) -> Detection | None:
         """The surest detection of the thing, if it was seen."""
@@ -367,7 +403,10 @@ class SeeTarget(BodyAction):
 
 
 class SeeLost(SeeTarget):
-    """Takes a picture and succeeds if what fell from the hand is in it."""
+    """Takes a picture and succeeds if what fell from the hand is in it.
+
+    Reads request.object and hand.spot; writes search.detection.
+    """
 
     def ended(self, result: Result) -> Status:
         """Keep where it lies now; it was found elsewhere."""

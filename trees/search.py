@@ -86,29 +86,32 @@ def see(context: MissionContext) -> Behaviour:
 
 
 class NotHere(Step):
-    """Remembers that the thing is not here, if every part of the place was seen; always fails."""
+    """Remembers that the thing is not here, if every part of the place was seen; always fails.
+
+    Reads search.candidate, search.looks and search.detection; writes search.gone.
+    """
 
     def update(self) -> Status:
         """Only what was looked at can be known."""
-        assert self.situation.search.candidate
-        assert self.situation.request.object
-        name, place = self.situation.request.object, self.situation.search.candidate.place
-        looks = self.situation.search.looks
-        if not looks.all_without(place):
-            return self.fail(looks.why_not_all(name, place))
+        name, search = self.situation.request.object, self.situation.search
+        assert name
+        assert search.candidate
+        place = search.candidate.place
+        if not search.looks.all_without(place):
+            return self.fail(search.looks.why_not_all(name, place))
         self.context.facts.missed(name, place)
-        self.situation.search.gone = self.situation.search.detection is not None
+        search.gone = search.detection is not None
         return self.fail(f"no {name} at {place}")
 
 
 class GiveUpSearch(Step):
-    """Fails, and says where the thing was looked for."""
+    """Fails, and says where the thing was looked for.
+
+    Reads search.looks and dialogue.no_help.
+    """
 
     def update(self) -> Status:
         """Sum up the search, and why the person could not help if they were asked."""
         name, silence = self.situation.request.object, self.situation.dialogue.no_help
-        so_far = (
-            self.situation.search.so_far(self.situation.request.object)
-            or f"I do not know where the {name} is"
-        )
+        so_far = self.situation.search.so_far(name) or f"I do not know where the {name} is"
         return self.fail(f"{so_far}, and {silence}" if silence else so_far)

@@ -44,7 +44,10 @@ class ReadCommand(Step):
 
 
 class HasKnownName(Step):
-    """Succeeds if a known thing is named, so that there is something to do it with."""
+    """Succeeds if a known thing is named, so that there is something to do it with.
+
+    Reads request.words; writes request.guess.
+    """
 
     def update(self) -> Status:
         """Look for the names; a model that writes may still choose another."""
@@ -56,7 +59,10 @@ class HasKnownName(Step):
 
 
 class RankKinds(ModelAction):
-    """Has the kinds of command scored; what to do it with is what the words name."""
+    """Has the kinds of command scored; what to do it with is what the words name.
+
+    Reads request.guess; writes request.command.
+    """
 
     def start(self) -> int:
         """Ask for the scores."""
@@ -72,7 +78,10 @@ class RankKinds(ModelAction):
 
 
 class WriteCommand(ModelAction):
-    """Has the model write kind and object, of which only what exists is taken."""
+    """Has the model write kind and object, of which only what exists is taken.
+
+    Reads request.words; writes request.command.
+    """
 
     def start(self) -> int:
         """Ask."""
@@ -111,7 +120,10 @@ class ConfirmCommand(AskYesNo):
 
 
 class NotUnderstood(Step):
-    """What nobody can read is the person's to say again; always fails."""
+    """What nobody can read is the person's to say again; always fails.
+
+    Clears request.command; writes ending.status.
+    """
 
     def update(self) -> Status:
         """Say what can be said."""
