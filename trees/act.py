@@ -16,14 +16,14 @@ def act(context: MissionContext) -> Behaviour:
     situation = context.situation
 
     def from_a_place() -> Check:
-        return Check("found at a place", context, lambda: situation.found is not None)
+        return Check("found at a place", context, lambda: situation.search.found is not None)
 
     return fallback(
         "act",
         sequence(
             "is there already",
             asked_to(context, CommandKind.BRING),
-            Check("at the delivery place", context, lambda: situation.is_delivered),
+            Check("at the delivery place", context, lambda: situation.search.is_delivered),
             Report("report", context, "The {object} is here already, on the delivery table."),
         ),
         sequence(
@@ -34,7 +34,7 @@ def act(context: MissionContext) -> Behaviour:
                 "say so",
                 sequence(
                     "elsewhere",
-                    Check("on other furniture", context, lambda: situation.put_at != DELIVERY),
+                    Check("on other furniture", context, lambda: situation.hand.put_at != DELIVERY),
                     Report(
                         "report",
                         context,
@@ -66,8 +66,14 @@ def act(context: MissionContext) -> Behaviour:
         ),
         sequence(
             "have it",
-            Check("had it before", context, lambda: situation.has_it and not situation.found),
-            Check("not asked to bring", context, lambda: not situation.asks_to(CommandKind.BRING)),
+            Check(
+                "had it before", context, lambda: situation.has_it and not situation.search.found
+            ),
+            Check(
+                "not asked to bring",
+                context,
+                lambda: not situation.request.asks_to(CommandKind.BRING),
+            ),
             Report("report", context, "I hold the {object}."),
         ),
         SayHowFar("not all of it", context),
@@ -76,7 +82,7 @@ def act(context: MissionContext) -> Behaviour:
 
 def asked_to(context: MissionContext, kind: CommandKind) -> Check:
     """Whether this kind of deed was asked for."""
-    return Check(f"asked to {kind}", context, lambda: context.situation.asks_to(kind))
+    return Check(f"asked to {kind}", context, lambda: context.situation.request.asks_to(kind))
 
 
 class SayHowFar(Step):
@@ -84,9 +90,9 @@ class SayHowFar(Step):
 
     def update(self) -> Status:
         """Who asks where a thing is wants to know it, even if the robot cannot come back."""
-        found, why = self.situation.found, self.situation.reason
-        if self.situation.asks_to(CommandKind.FIND) and found:
-            return self.fail(f"the {self.situation.object} is at {found.place}, but {why}")
-        if self.situation.asks_to(CommandKind.TAKE) and not self.situation.has_it:
-            return self.fail(f"the {self.situation.object} is not in my hand any more")
+        found, why = self.situation.search.found, self.why_before()
+        if self.situation.request.asks_to(CommandKind.FIND) and found:
+            return self.fail(f"the {self.situation.request.object} is at {found.place}, but {why}")
+        if self.situation.request.asks_to(CommandKind.TAKE) and not self.situation.has_it:
+            return self.fail(f"the {self.situation.request.object} is not in my hand any more")
         return self.fail(why)

@@ -49,11 +49,11 @@ def pick_up_again(context: MissionContext, *spots: str) -> Behaviour:
         return ((spot, view) for spot in spots for view in range(context.robot.views(spot)))
 
     def choose(look: tuple[str, int]) -> None:
-        situation.spot, situation.view = look
+        situation.hand.spot, situation.search.view = look
 
     return sequence(
         "pick it up again",
-        Check("it fell", context, lambda: bool(situation.lost)),
+        Check("it fell", context, lambda: bool(situation.hand.lost)),
         FirstOf(
             "look around",
             views,
@@ -69,10 +69,14 @@ class SayItFell(Step):
 
     def update(self) -> Status:
         """Put the clauses together, if there are two."""
-        held, lost, why = self.situation.in_hand, self.situation.lost, self.situation.reason
+        held, lost, why = (
+            self.situation.hand.in_hand,
+            self.situation.hand.lost,
+            self.why_before(),
+        )
         if lost and lost != why:
             return self.fail(f"{lost}, and {why}")
         if held:
             return self.fail(f"{why}; I still hold {the(held)}")
-        gone = f"the {self.situation.object} is not in my hand any more"
+        gone = f"the {self.situation.request.object} is not in my hand any more"
         return self.fail(why if lost else f"{why}; {gone}")

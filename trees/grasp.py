@@ -16,8 +16,8 @@ def grasp(context: MissionContext) -> Behaviour:
     situation = context.situation
 
     def may_stay() -> bool:
-        delivered = situation.asks_to(CommandKind.BRING) and situation.is_delivered
-        return delivered or situation.asks_to(CommandKind.FIND)
+        delivered = situation.request.asks_to(CommandKind.BRING) and situation.search.is_delivered
+        return delivered or situation.request.asks_to(CommandKind.FIND)
 
     return fallback(
         "grasp",
@@ -26,7 +26,7 @@ def grasp(context: MissionContext) -> Behaviour:
         get_hold(context),
         sequence(
             "search again",
-            Check("it is gone", context, lambda: situation.gone),
+            Check("it is gone", context, lambda: situation.search.gone),
             ForgetSighting("begin anew", context),
             search(context),
             get_hold(context, Check("in my hand", context, lambda: situation.has_it)),
@@ -51,7 +51,7 @@ def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
             lambda _: None,
             sequence(
                 "another approach",
-                Check("it was there", context, lambda: not situation.gone),
+                Check("it was there", context, lambda: not situation.search.gone),
                 DriveToCandidate("return", context),
                 look_over(context),
                 PickUp("pick", context),
@@ -66,6 +66,6 @@ class ForgetSighting(Step):
 
     def update(self) -> Status:
         """Begin the search anew."""
-        self.situation.detection = self.situation.found = None
-        self.situation.gone = False
+        self.situation.search.detection = self.situation.search.found = None
+        self.situation.search.gone = False
         return Status.SUCCESS

@@ -40,13 +40,19 @@ def empty_hand(context: MissionContext) -> Behaviour:
 
 
 class HandIsFree(Step):
-    """Succeeds if the hand is free for what is asked: it holds one thing at a time."""
+    """Succeeds if the hand is free for what is asked: it holds one thing at a time.
+
+    Reads request.command and hand.in_hand.
+    """
 
     def update(self) -> Status:
         """Fail if another thing than the one that is asked for is in it."""
-        assert self.situation.command
-        held = self.situation.in_hand
-        if held in (None, self.situation.object) or self.situation.command.kind == CommandKind.FIND:
+        assert self.situation.request.command
+        held = self.situation.hand.in_hand
+        if (
+            held in (None, self.situation.request.object)
+            or self.situation.request.command.kind == CommandKind.FIND
+        ):
             return Status.SUCCESS
         return self.fail(full_hand(held))
 
@@ -56,10 +62,10 @@ class HandStaysFull(Step):
 
     def update(self) -> Status:
         """There was no room for what it holds, or it may not be put down."""
-        held, why = self.situation.in_hand, self.situation.reason
+        held, why = self.situation.hand.in_hand, self.why_before()
         if held is None:
             return self.fail(why)
-        if self.situation.unplaced:
+        if self.situation.hand.unplaced:
             return self.fail(f"{why}; I still hold {the(held)}")
         return self.fail(full_hand(held))
 
@@ -69,27 +75,30 @@ class StillHolds(Step):
 
     def update(self) -> Status:
         """What fell is no longer held; nor is what was let go of before it went wrong."""
-        held, why = self.situation.in_hand, self.situation.reason
+        held, why = self.situation.hand.in_hand, self.why_before()
         if held:
             return self.fail(f"{why}; I still hold {the(held)}")
-        if self.situation.lost:
+        if self.situation.hand.lost:
             return self.fail(why)
         return self.fail(
-            f"{why}; {the(self.situation.object or SOMETHING)} is not in my hand any more"
+            f"{why}; {the(self.situation.request.object or SOMETHING)} is not in my hand any more"
         )
 
 
 class HoldsWhatIsMeant(Step):
-    """Succeeds if what is to be put down is in the hand."""
+    """Succeeds if what is to be put down is in the hand.
+
+    Reads request.command and hand.in_hand; writes request.object.
+    """
 
     def update(self) -> Status:
         """Nobody need say the name of what is held; if they do, it has to be that."""
-        assert self.situation.command
-        held, target = self.situation.in_hand, self.situation.command.target
+        assert self.situation.request.command
+        held, target = self.situation.hand.in_hand, self.situation.request.command.target
         if held is None:
             return self.fail("my hand is empty")
         named = self.context.knowledge.objects_named(target)
         if target != HELD and held not in (SOMETHING, *named):
             return self.fail(f"my hand holds {the(held)}, not the {target}")
-        self.situation.object = held
+        self.situation.request.object = held
         return self.succeed(held)

@@ -19,7 +19,7 @@ from trees.person import AskWhere, tell
 
 
 def resolve_location(context: MissionContext) -> Behaviour:
-    """An object -> `situation.candidates`, likeliest first, with who said so."""
+    """An object -> `situation.search.candidates`, likeliest first, with who said so."""
     sources: list[Behaviour] = [OntologyKnowsPlace("ontology knows one place", context)]
     if context.model is not None:
         elicit = rank_places if context.parameters.elicit == "rank" else generate_places
@@ -63,14 +63,14 @@ def existence_check(context: MissionContext) -> Behaviour:
     thought = context.situation
 
     def choose(room: str) -> None:
-        thought.consultation.room = room
+        thought.search.consultation.room = room
 
     return sequence(
         "existence check",
         VerifyNames("names exist", context),
         EachOf(
             "each room",
-            lambda: tuple(thought.consultation.rooms),
+            lambda: tuple(thought.search.consultation.rooms),
             choose,
             Optionally(
                 "if it helps",
@@ -83,42 +83,48 @@ def existence_check(context: MissionContext) -> Behaviour:
                 ),
             ),
         ),
-        Check("something is left", context, lambda: bool(thought.consultation.furniture)),
+        Check("something is left", context, lambda: bool(thought.search.consultation.furniture)),
     )
 
 
 class MemoryKnowsPlaces(Step):
-    """Succeeds if the thing was seen somewhere in this home, or was said to be there."""
+    """Succeeds if the thing was seen somewhere in this home, or was said to be there.
+
+    Writes search.candidates.
+    """
 
     source = Source.MEMORY
 
     def update(self) -> Status:
         """Recall it."""
-        assert self.situation.object
-        known = self.context.facts.places_of(self.situation.object)
+        assert self.situation.request.object
+        known = self.context.facts.places_of(self.situation.request.object)
         here = self.context.knowledge.has_place
         places = [place for place in known if place == DELIVERY or here(place)]
         if not places:
-            return self.fail(f"I have not seen the {self.situation.object}")
-        self.situation.candidates = candidates_from(places, Source.MEMORY)
+            return self.fail(f"I have not seen the {self.situation.request.object}")
+        self.situation.search.candidates = candidates_from(places, Source.MEMORY)
         return self.succeed(", ".join(places))
 
 
 class OntologyKnowsPlace(Step):
-    """Succeeds if the ontology has exactly one default location for the object, still unvisited."""
+    """Succeeds if the ontology has exactly one default location for the object, still unvisited.
+
+    Writes search.candidates, or search.default_locations if there are several.
+    """
 
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
         """Look it up; several are kept to narrow down what the model may say."""
-        assert self.situation.object
-        usual = self.context.knowledge.usual_places(self.situation.object)
-        if len(usual) == 1 and usual[0] in self.situation.looks.visited:
+        assert self.situation.request.object
+        usual = self.context.knowledge.usual_places(self.situation.request.object)
+        if len(usual) == 1 and usual[0] in self.situation.search.looks.visited:
             return self.fail(f"{usual[0]} is its place, but it is not there")
         if len(usual) == 1:
-            self.situation.candidates = candidates_from(usual, Source.ONTOLOGY)
+            self.situation.search.candidates = candidates_from(usual, Source.ONTOLOGY)
             return self.succeed(usual[0])
-        self.situation.default_locations = usual
+        self.situation.search.default_locations = usual
         return self.fail(f"the ontology has {len(usual) or 'no'} places for it")
 
 
@@ -127,12 +133,15 @@ class BeginConsultation(Step):
 
     def update(self) -> Status:
         """Begin with nothing."""
-        self.situation.consultation = Consultation()
+        self.situation.search.consultation = Consultation()
         return Status.SUCCESS
 
 
 class ModelAction(Action):
-    """One call of the language model."""
+    """One call of the language model.
+
+    Writes model.thinking_time_s and model.failure.
+    """
 
     source = Source.LLM
     activity = Activity.THINKING
@@ -154,7 +163,7 @@ class ModelAction(Action):
     def terminate(self, new_status: Status) -> None:
         """Count the time spent thinking."""
         if self._began is not None:
-            self.situation.thinking_time_s += self.context.clock.now() - self._began
+            self.situation.model.thinking_time_s += self.context.clock.now() - self._began
             self._began = None
         super().terminate(new_status)
 
@@ -175,36 +184,44 @@ class ModelAction(Action):
 
     def _warn(self, why: str) -> None:
         """Once a mission."""
-        if not self.situation.model_failure:
-            self.situation.model_failure = why
+        if not self.situation.model.failure:
+            self.situation.model.failure = why
             tell(self.context, f"My language model does not answer: {why}.")
 
 
 class RankPlaces(ModelAction):
-    """Has every allowed place scored, and keeps the likeliest."""
+    """Has every allowed place scored, and keeps the likeliest.
+
+    Reads search.default_locations; writes search.candidates.
+    """
 
     def start(self) -> int:
         """Ask for the scores."""
-        assert self.situation.object
+        assert self.situation.request.object
         return self.model.rank(
-            self.advisor.ranking(self.situation.object, self.situation.default_locations)
+            self.advisor.ranking(
+                self.situation.request.object, self.situation.search.default_locations
+            )
         )
 
     def ended(self, result: Result) -> Status:
         """Keep as many as are worth a visit; all of them if the ontology named them."""
         if not isinstance(result, Scored):
             return self.failed(result)
-        ranked = self.situation.not_visited(self.advisor.ranked(result))
+        ranked = self.situation.search.not_visited(self.advisor.ranked(result))
         if not ranked:
             return self.fail("the language model ranked only places that were looked at")
-        if not self.situation.default_locations:
+        if not self.situation.search.default_locations:
             ranked = ranked[: self.context.parameters.top_k]
-        self.situation.candidates = ranked
+        self.situation.search.candidates = ranked
         return self.succeed(", ".join(map(str, ranked)))
 
 
 class Chat(ModelAction):
-    """Asks the model to write, and keeps the reply."""
+    """Asks the model to write, and keeps the reply.
+
+    Writes consultation.reply.
+    """
 
     @abstractmethod
     def request(self) -> ChatRequest:
@@ -219,14 +236,14 @@ class Chat(ModelAction):
         if not isinstance(result, Replied):
             return self.failed(result)
         self.advisor.remember(result.request, result.text)
-        self.situation.consultation.reply = result.text
+        self.situation.search.consultation.reply = result.text
         return self.succeed(result.text)
 
     @property
     def thing(self) -> str:
         """Name of the object that is looked for."""
-        assert self.situation.object
-        return self.situation.object
+        assert self.situation.request.object
+        return self.situation.request.object
 
 
 class Inquire(Chat):
@@ -234,7 +251,7 @@ class Inquire(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for the likely places."""
-        return self.advisor.inquiry(self.thing, self.situation.default_locations)
+        return self.advisor.inquiry(self.thing, self.situation.search.default_locations)
 
 
 class Summarize(Chat):
@@ -242,7 +259,7 @@ class Summarize(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for the same in the right form."""
-        return self.advisor.summarize(self.thing, self.situation.consultation.reply)
+        return self.advisor.summarize(self.thing, self.situation.search.consultation.reply)
 
 
 class Again(Chat):
@@ -250,40 +267,52 @@ class Again(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for places from the list."""
-        return self.advisor.again(self.thing, self.situation.default_locations)
+        return self.advisor.again(self.thing, self.situation.search.default_locations)
 
 
 class AskFurniture(Chat):
-    """`furniture`: a room was named; which furniture in it?"""
+    """`furniture`: a room was named; which furniture in it?
+
+    Reads consultation.room.
+    """
 
     def request(self) -> ChatRequest:
         """Ask for the room at hand."""
-        room = self.situation.consultation.room
-        return self.advisor.furniture(self.thing, room, self.situation.default_locations)
+        room = self.situation.search.consultation.room
+        return self.advisor.furniture(self.thing, room, self.situation.search.default_locations)
 
 
 class ReadReply(Step):
-    """Preprocessing: the names in the reply, if it keeps to the output format."""
+    """Preprocessing: the names in the reply, if it keeps to the output format.
+
+    Reads consultation.reply; writes consultation.names.
+    """
 
     def update(self) -> Status:
         """Read it."""
         assert self.context.advisor
-        names = self.context.advisor.read(self.situation.consultation.reply)
+        names = self.context.advisor.read(self.situation.search.consultation.reply)
         if names is None:
             return self.fail("the language model's reply is not in the output format")
-        self.situation.consultation.names = names
+        self.situation.search.consultation.names = names
         return self.succeed(", ".join(names))
 
 
 class VerifyNames(Step):
-    """Existence check: unknown names are dropped, rooms are set aside to be expanded."""
+    """Existence check: unknown names are dropped, rooms are set aside to be expanded.
+
+    Reads consultation.names; writes consultation.furniture and consultation.rooms.
+    """
 
     takes_rooms = True
 
     def update(self) -> Status:
         """Hold the names against the ontology."""
         assert self.context.advisor
-        consultation, among = self.situation.consultation, self.situation.default_locations
+        consultation, among = (
+            self.situation.search.consultation,
+            self.situation.search.default_locations,
+        )
         verdict = self.context.advisor.verify(consultation.names, among)
         new = [name for name in verdict.furniture if name not in consultation.furniture]
         consultation.furniture.extend(new)
@@ -304,15 +333,18 @@ class VerifyFurniture(VerifyNames):
 
 
 class AdoptFurniture(Step):
-    """What passed, and was not looked at yet, becomes the list of candidates."""
+    """What passed, and was not looked at yet, becomes the list of candidates.
+
+    Reads consultation.furniture; writes search.candidates.
+    """
 
     source = Source.LLM
 
     def update(self) -> Status:
         """Keep the model's order."""
-        furniture = self.situation.consultation.furniture
-        new = self.situation.not_visited(candidates_from(furniture, Source.LLM))
+        furniture = self.situation.search.consultation.furniture
+        new = self.situation.search.not_visited(candidates_from(furniture, Source.LLM))
         if not new:
             return self.fail("the language model named only places that were looked at")
-        self.situation.candidates = new
+        self.situation.search.candidates = new
         return self.succeed(", ".join(candidate.place for candidate in new))

@@ -35,7 +35,7 @@ def mission(context: MissionContext) -> Behaviour:
             Check(
                 "about a thing to look for",
                 context,
-                lambda: not situation.asks_to(CommandKind.PUT_DOWN),
+                lambda: not situation.request.asks_to(CommandKind.PUT_DOWN),
             ),
             resolve_object(context),
             *eyes_for_it(context),
@@ -62,7 +62,7 @@ def come_back(context: MissionContext) -> Behaviour:
         context.situation,
         sequence(
             "come back",
-            Check("is away", context, lambda: context.situation.away),
+            Check("is away", context, lambda: context.situation.dialogue.away),
             DriveBack("drive", context, "person"),
         ),
     )
@@ -73,5 +73,5 @@ class Conclude(Step):
 
     def update(self) -> Status:
         """Done."""
-        self.situation.status = MissionStatus.DONE
+        self.situation.ending.status = MissionStatus.DONE
         return Status.SUCCESS

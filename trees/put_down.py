@@ -15,7 +15,7 @@ NEAR = 3
 
 
 def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behaviour:
-    """A full hand -> `situation.put_at`: the places of `first`, then near ones, then asked for."""
+    """A full hand -> `hand.put_at`: the places of `first`, then near ones, then asked for."""
     situation = context.situation
 
     def near() -> Iterator[str]:
@@ -23,17 +23,17 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
         yield from context.near_person[:NEAR]
 
     def choose(place: str) -> None:
-        situation.surface = place
+        situation.hand.surface = place
 
     return fallback(
         name,
         FirstOf("near the person", near, choose, go_and_put(context)),
         sequence(
             "where the person says",
-            Check("still in my hand", context, lambda: situation.in_hand is not None),
-            Check("person may help", context, lambda: not situation.no_help),
+            Check("still in my hand", context, lambda: situation.hand.in_hand is not None),
+            Check("person may help", context, lambda: not situation.dialogue.no_help),
             AskWhereToPut("ask where to put it", context),
-            FirstOf("there", lambda: situation.surfaces, choose, go_and_put(context)),
+            FirstOf("there", lambda: situation.hand.surfaces, choose, go_and_put(context)),
         ),
         NotPutDown("no room", context),
     )
@@ -43,18 +43,21 @@ def go_and_put(context: MissionContext) -> Behaviour:
     """Take it to the surface at hand, and put it down there."""
     return sequence(
         "go and put",
-        Check("still in my hand", context, lambda: context.situation.in_hand is not None),
+        Check("still in my hand", context, lambda: context.situation.hand.in_hand is not None),
         DriveToSurface("drive", context),
         PutDownThere("put down", context),
     )
 
 
 class NotPutDown(Step):
-    """Says where there was no room, and why the person could not help; always fails."""
+    """Says where there was no room, and why the person could not help; always fails.
+
+    Reads hand.unplaced and dialogue.no_help.
+    """
 
     def update(self) -> Status:
         """What is in the hand no more has its own reason."""
-        tried, silence = self.situation.not_put_down, self.situation.no_help
-        if self.situation.in_hand is None or not tried:
-            return self.fail(self.situation.reason)
+        tried, silence = self.situation.hand.not_put_down, self.situation.dialogue.no_help
+        if self.situation.hand.in_hand is None or not tried:
+            return self.fail(self.why_before())
         return self.fail(f"{tried}, and {silence}" if silence else tried)

@@ -135,6 +135,7 @@ def build_mission(
     return Executive(
         build(context),
         situation,
+        pending=context.pending,
         inbox=parts.inbox,
         clock=parts.clock,
         robot=parts.robot,

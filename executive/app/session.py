@@ -21,7 +21,7 @@ from executive.interfaces import LanguageModel, User
 from executive.language.control import control
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
-from executive.situation import Situation
+from executive.situation import Ending, Situation
 from executive.text import one_line, too_long, writable
 from executive.types import Answered, Halt, MissionStatus, Outcome
 from executive.user import NOTHING_TO_STOP, Console
@@ -134,11 +134,11 @@ class Session:
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recording else None
         self.folder = folder
-        situation = Situation(words=words, in_hand=self._in_hand, restless=self._restless)
+        situation = Situation.at_start(words, in_hand=self._in_hand, restless=self._restless)
         try:
             self._carry_out_safely(situation, folder, started)
         finally:
-            self._in_hand, self._restless = situation.in_hand, situation.restless
+            self._in_hand, self._restless = situation.hand.in_hand, situation.ending.restless
             outcome = situation.outcome(
                 mission_time_s=self._mission_time(),
                 wall_time_s=time.monotonic() - began,
@@ -168,7 +168,7 @@ class Session:
             self._begin(folder, started)
             self._carry_out(situation)
         except BaseException as error:
-            if not situation.is_over:
+            if not situation.ending.is_over:
                 self._break_off(situation, error)
             if not isinstance(error, Exception):
                 raise
@@ -179,12 +179,12 @@ class Session:
         recorder = GuardedRecorder(self.recorder)
         broke = Broke(f"internal error: {in_words(error)}")
         end = broke if isinstance(error, Exception) else StopRequested(who_interrupts(error))
-        for event in (Started(situation.words), end):
+        for event in (Started(situation.request.words), end):
             situation.fold(event)
             recorder.record(EventTaken(event))
         GuardedRobot(self.parts.robot, self.inbox, recorder).start(Halt())
         self.inbox.drop_all()
-        situation.stay_restless()
+        situation.ending.stay_restless()
 
     def _mission_time(self) -> float:
         """The mission time (s); 0 if the clock cannot tell."""
@@ -213,8 +213,8 @@ class Session:
     def _carry_out(self, situation: Situation) -> None:
         """Have the tree decide, from the words on."""
         executive = build_mission(self.parts, situation)
-        self.inbox.post(Started(situation.words))
-        if control(situation.words):
+        self.inbox.post(Started(situation.request.words))
+        if control(situation.request.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             user = GuardedUser(self.parts.user, self.inbox, self.recorder)
             user.tell(NOTHING_TO_STOP)
@@ -253,5 +253,5 @@ class Session:
 
 def refused(why: str) -> Outcome:
     """The outcome of words that are not read."""
-    situation = Situation(status=MissionStatus.NOT_UNDERSTOOD, reason=why)
+    situation = Situation(ending=Ending(MissionStatus.NOT_UNDERSTOOD, why))
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)

@@ -141,7 +141,7 @@ class Judge:
 def _situation(run: Run) -> Situation:
     """What was known of the robot before the recorded mission."""
     restless = run.metadata.get("restless") == str(True)
-    return Situation(in_hand=run.metadata.get("in_hand") or None, restless=restless)
+    return Situation.at_start(in_hand=run.metadata.get("in_hand") or None, restless=restless)
 
 
 def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]:

@@ -156,8 +156,8 @@ def test_what_a_behaviour_did_before_it_raised_counts_for_nothing(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def halfway(self: SeeTarget, result: object) -> Any:
-        self.situation.inquiries = 17
-        self.situation.looks.reached("the moon")
+        self.situation.dialogue.inquiries = 17
+        self.situation.search.looks.reached("the moon")
         raise ValueError("oops")
 
     monkeypatch.setattr(SeeTarget, "ended", halfway)
