@@ -27,7 +27,6 @@ from executive.types import (
     Replied,
     Result,
     Scored,
-    Source,
 )
 
 
@@ -290,6 +289,6 @@ def table(place: str) -> str:
     return "the delivery table" if place == DELIVERY else f"the {place}"
 
 
-def candidates_from(places: Iterable[str], source: Source) -> tuple[Candidate, ...]:
+def candidates_from(places: Iterable[str], source: str) -> tuple[Candidate, ...]:
     """Candidates without probabilities, in the given order."""
     return tuple(Candidate(place, source) for place in places)

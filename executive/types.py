@@ -36,7 +36,7 @@ SEARCHING = (CommandKind.FIND, CommandKind.TAKE, CommandKind.BRING)
 
 
 class Source(StrEnum):
-    """Who an answer came from."""
+    """Who an answer came from; a knowledge source of one's own has a name of its own besides."""
 
     ONTOLOGY = "ontology"
     LLM = "llm"
@@ -64,10 +64,13 @@ class Command:
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A place where the thing may be, who says so, and how likely (None where nobody said)."""
+    """A place where the thing may be, who says so, and how likely (None where nobody said).
+
+    `source` is one of `Source`, or the name of a `PlaceSource`.
+    """
 
     place: str
-    source: Source
+    source: str
     probability: float | None = None
 
     def __str__(self) -> str:
@@ -85,7 +88,7 @@ class Outcome:
     object: str | None
     status: MissionStatus
     reason: str
-    source: Source | None
+    source: str | None
     location: str | None
     inquiries: int
     visited: tuple[str, ...]

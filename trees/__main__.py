@@ -60,7 +60,7 @@ def build(knowledge: str, elicit: str) -> Behaviour:
             perception=nobody,
             user=nobody,
             model=llm,
-            advisor=llm,
+            advice=llm,
             parameters=Parameters(elicit=elicit),
         )
     )

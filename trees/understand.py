@@ -4,9 +4,9 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.types import Command, MissionStatus, Question, QuestionKind, Replied, Result, Scored
+from executive.types import MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
-from trees.location import ModelAction
+from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import Step, fallback, sequence
 from trees.person import AskYesNo
 
@@ -53,41 +53,6 @@ class HasKnownName(Step):
             return self.fail("no known thing is named")
         self.situation.guess = " and ".join(names)
         return self.succeed(self.situation.guess)
-
-
-class RankKinds(ModelAction):
-    """Has the kinds of command scored; what to do it with is what the words name."""
-
-    def start(self) -> int:
-        """Ask for the scores."""
-        return self.model.rank(self.advisor.command_ranking(self.situation.words))
-
-    def ended(self, result: Result) -> Status:
-        """Keep the likeliest."""
-        if not isinstance(result, Scored):
-            return self.failed(result)
-        kind, words = self.advisor.command_ranked(result), self.situation.words
-        self.situation.command = Command(kind, self.situation.guess, words)
-        return self.succeed(f"{kind} {self.situation.guess}")
-
-
-class WriteCommand(ModelAction):
-    """Has the model write kind and object, of which only what exists is taken."""
-
-    def start(self) -> int:
-        """Ask."""
-        return self.model.chat(self.advisor.command_inquiry(self.situation.words))
-
-    def ended(self, result: Result) -> Status:
-        """Read and verify the reply."""
-        if not isinstance(result, Replied):
-            return self.failed(result)
-        read = self.advisor.command_read(result.text)
-        if read is None:
-            return self.fail("the language model named no command with a known thing")
-        kind, name = read
-        self.situation.command = Command(kind, name, self.situation.words)
-        return self.succeed(f"{kind} {name}")
 
 
 class ConfirmCommand(AskYesNo):

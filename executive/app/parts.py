@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from executive.config import Settings
 from executive.events import Inbox
 from executive.guards import GuardedPerception, GuardedRecorder, GuardedRobot, GuardedUser
-from executive.interfaces import Advisor, Clock, LanguageModel, Perception, Recorder, Robot, User
+from executive.interfaces import Advice, Clock, LanguageModel, Perception, Recorder, Robot, User
 from executive.language.grammar import EnglishInterpreter
 from executive.situation import Situation
 from executive.types import DELIVERY, Vector3
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.advisor import advise
 from kb.advice.prompts import Prompts
 from kb.facts import FactStore
 from kb.ontology.ontology import Ontology
@@ -37,16 +37,16 @@ class Grounds:
     facts: FactStore
 
 
-Advise = Callable[[Grounds], Advisor | None]
+Advise = Callable[[Grounds], Advice | None]
 """Makes the adviser of a mission; None without a model."""
 
 
-def build_advisor(grounds: Grounds) -> Advisor | None:
+def build_advisor(grounds: Grounds) -> Advice | None:
     """Who puts questions to the model, which begins to prepare for them; None without a model."""
     if grounds.model is None:
         return None
     settings = grounds.settings
-    advisor = PlaceAdvisor(
+    advice = advise(
         grounds.knowledge,
         grounds.model,
         remembers=settings.remembers,
@@ -54,14 +54,15 @@ def build_advisor(grounds: Grounds) -> Advisor | None:
         prompts=grounds.prompts,
         facts=grounds.facts,
     )
-    ask = advisor.ranking if settings.elicitation == "rank" else advisor.inquiry
+    ranks = settings.elicitation == "rank"
+    ask = advice.ranker.ranking if ranks else advice.lister.inquiry
     grounds.model.prepare(ask(ANYTHING, ()))
-    return advisor
+    return advice
 
 
 def build_context(
     grounds: Grounds,
-    advisor: Advisor | None,
+    advice: Advice | None,
     situation: Situation,
     *,
     inbox: Inbox,
@@ -85,7 +86,7 @@ def build_context(
         perception=GuardedPerception(perception, inbox, recorder),
         user=GuardedUser(user, inbox, recorder),
         model=grounds.model,
-        advisor=advisor,
+        advice=advice,
         parameters=parameters(grounds.settings),
         facts=grounds.facts,
         place_at=place_at(grounds),

@@ -111,7 +111,7 @@ class Session:
         self.facts = FactStore(settings.memory, learns=settings.learn)
         guarded = GuardedModel(self.model, self.inbox, self.recorder) if self.model else None
         self.grounds = Grounds(settings, self.home, self.knowledge, guarded, prompts, self.facts)
-        self.advisor = advise(self.grounds)
+        self.advice = advise(self.grounds)
         self.injector = build_injector(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
             settings, self.home, self.inbox, self.recorder, self.knowledge, gui, self.injector
@@ -234,7 +234,7 @@ class Session:
         """Have the tree decide, from the words on."""
         context = build_context(
             self.grounds,
-            self.advisor,
+            self.advice,
             situation,
             inbox=self.inbox,
             clock=self.clock,

@@ -24,7 +24,7 @@ from executive.campaign.routes import routes_in
 from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
-from executive.interfaces import Advisor
+from executive.interfaces import Advice
 from executive.types import ChatRequest, Message, Outcome
 
 
@@ -125,13 +125,13 @@ class _Rest:
         self.recall(entry)
         return entry
 
-    def _advise(self, grounds: Grounds) -> Advisor | None:
+    def _advise(self, grounds: Grounds) -> Advice | None:
         """The policy's, told the dialogue so far, which it keeps if the system has a memory."""
-        advisor = self._policy.advisor(grounds)
-        if advisor:
+        advice = self._policy.advisor(grounds)
+        if advice:
             for said, reply in self._dialogue:
-                advisor.remember(ChatRequest("recalled", (Message("user", said),)), reply)
-        return advisor
+                advice.lister.remember(ChatRequest("recalled", (Message("user", said),)), reply)
+        return advice
 
     def close(self) -> None:
         if self._model:

@@ -18,7 +18,7 @@ from executive.app.session import build_model
 from executive.campaign.routes import routes_of
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
-from executive.interfaces import Advisor, LanguageModel
+from executive.interfaces import Advice, LanguageModel
 from executive.types import (
     ChatRequest,
     Failed,
@@ -28,7 +28,10 @@ from executive.types import (
     Usage,
     Verdict,
 )
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.advisor import advise
+from kb.advice.lister import Lister
+from kb.advice.ranker import Ranker
+from kb.advice.reader import Reader
 from kb.advice.verification import Reply
 from kb.ontology.names import unique
 from kb.ontology.ontology import Ontology
@@ -103,12 +106,12 @@ class Indifferent:
         """Nothing to free."""
 
 
-class Ordered(PlaceAdvisor):
+class Ordered(Ranker):
     """Names the places in a given order, for a model to which they are all alike."""
 
-    def __init__(self, grounds: Grounds, model: LanguageModel, order: Order) -> None:
+    def __init__(self, grounds: Grounds, order: Order) -> None:
         """Order the places of the mission's home."""
-        super().__init__(grounds.knowledge, model, remembers=False)
+        super().__init__(grounds.knowledge)
         self._order = order
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
@@ -184,8 +187,11 @@ def baseline(description: str, rule: Callable[[Grounds], Order]) -> Policy:
     def model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         return None if settings.knowledge == KnowledgeSystem.OKB else Indifferent(inbox)
 
-    def advisor(grounds: Grounds) -> Advisor | None:
-        return Ordered(grounds, grounds.model, rule(grounds)) if grounds.model else None
+    def advisor(grounds: Grounds) -> Advice | None:
+        if grounds.model is None:
+            return None
+        usual = advise(grounds.knowledge, grounds.model, remembers=False)
+        return replace(usual, ranker=Ordered(grounds, rule(grounds)))
 
     return Policy(description, {"llm": "none", "elicit": "rank"}, model, advisor)
 
@@ -244,7 +250,7 @@ def no_home(request: ChatRequest) -> ChatRequest:
     return replace(any_names(request), messages=(Message("system", WITHOUT_A_HOME), *told))
 
 
-class Unverified(PlaceAdvisor):
+class Unverified(Lister):
     """Takes every name for a place."""
 
     def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
@@ -264,18 +270,20 @@ def reworded(
     return model
 
 
-def unverified(grounds: Grounds) -> Advisor | None:
+def unverified(grounds: Grounds) -> Advice | None:
     """Makes an adviser without the existence check."""
     if grounds.model is None:
         return None
     settings = grounds.settings
-    return Unverified(
+    lister = Unverified(
         grounds.knowledge,
         grounds.model,
         remembers=settings.remembers,
         top=settings.top,
         prompts=grounds.prompts,
     )
+    reader = Reader(grounds.knowledge, prompts=grounds.prompts)
+    return Advice(lister, Ranker(grounds.knowledge, prompts=grounds.prompts), reader)
 
 
 WRITES, HELD = {"elicit": "generate", "grammar": False}, {"elicit": "generate", "grammar": True}

@@ -16,7 +16,7 @@ from executive.records import Record, Tick, Verified
 from executive.situation import Situation
 from executive.types import Goal, Outcome
 from executive.user import Oracle, Scripted
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.advisor import advise
 from kb.llm.scripted import Scripted as ScriptedModel
 from kb.ontology.ontology import Ontology
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
@@ -149,7 +149,7 @@ def run_mission(
         perception=CameraPerception(camera, recogniser, inbox, notebook),
         user=user,
         model=thinker,
-        advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,
+        advice=advise(knowledge, thinker, remembers=remembers) if thinker else None,
         parameters=Parameters(elicit=elicit, **(parameters or {})),
         facts=facts or NoFacts(),
         near_person=near_person(home),

@@ -25,7 +25,6 @@ from executive.types import (
     RankRequest,
     Replied,
     Scored,
-    Source,
     Usage,
 )
 from logs.recording.schema import MESSAGES, STATUS
@@ -299,7 +298,7 @@ def outcome_from_message(message: Any) -> Outcome:
     def optional(name: str) -> str | None:
         return getattr(message, name) if message.HasField(name) else None
 
-    kind, source = optional("kind"), optional("source")
+    kind = optional("kind")
     return Outcome(
         command=message.command,
         kind=CommandKind(kind) if kind else None,
@@ -307,15 +306,13 @@ def outcome_from_message(message: Any) -> Outcome:
         object=optional("object"),
         status=MissionStatus(message.status),
         reason=message.reason,
-        source=Source(source) if source else None,
+        source=optional("source"),
         location=optional("location"),
         inquiries=whole(message.inquiries),
         visited=tuple(message.visited),
         llm_calls=whole(message.llm_calls),
         candidates=tuple(
-            Candidate(
-                c.place, Source(c.source), c.probability if c.HasField("probability") else None
-            )
+            Candidate(c.place, c.source, c.probability if c.HasField("probability") else None)
             for c in message.candidates
         ),
         mission_time_s=finite(message.mission_time_s),
