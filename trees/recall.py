@@ -1,20 +1,15 @@
 """Who knows where it is without looking: the robot's memory, and the sources that a person adds."""
 
-import logging
 from dataclasses import dataclass
 
 from py_trees.common import Status
 
-from executive.guards import in_words, traceback_of
 from executive.interfaces import Facts, PlaceSource
-from executive.records import Note
 from executive.situation import candidates_from
 from executive.types import DELIVERY, Candidate, Source
 from trees.context import MissionContext
 from trees.nodes import Step
 from trees.person import SAYS
-
-log = logging.getLogger(__name__)
 
 
 class Recall(Step):
@@ -24,12 +19,14 @@ class Recall(Step):
         """Ask this source."""
         super().__init__(name, context)
         self.knows = source
+        self.source = source.name
 
     def update(self) -> Status:
         """Recall it."""
         assert self.situation.object
-        places = [place for place in self._places_of(self.situation.object) if self._is_here(place)]
-        new = self.worth_a_visit(candidates_from(places, self.knows.name))
+        places = dict.fromkeys(self.knows.places_of(self.situation.object))
+        here = filter(self._is_here, places)
+        new = self.worth_a_visit(candidates_from(here, self.knows.name))
         if not new:
             return self.fail(self.unknown(self.situation.object))
         self.situation.candidates = new
@@ -42,15 +39,6 @@ class Recall(Step):
     def unknown(self, thing: str) -> str:
         """That the source does not help, as a clause."""
         return f"the {self.knows.name} names no place to look for the {thing}"
-
-    def _places_of(self, thing: str) -> tuple[str, ...]:
-        """What it says; nothing, if it raises, for a source may be anybody's code."""
-        try:
-            return tuple(dict.fromkeys(map(str, self.knows.places_of(thing))))
-        except Exception as error:
-            log.warning("the %s does not answer: %s", self.knows.name, in_words(error))
-            self.context.recorder.record(Note("error", traceback_of(error)))
-            return ()
 
     def _is_here(self, place: str) -> bool:
         return place == DELIVERY or self.context.knowledge.has_place(place)

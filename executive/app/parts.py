@@ -7,7 +7,16 @@ from dataclasses import dataclass
 from executive.config import Settings
 from executive.events import Inbox
 from executive.guards import GuardedPerception, GuardedRecorder, GuardedRobot, GuardedUser
-from executive.interfaces import Advice, Clock, LanguageModel, Perception, Recorder, Robot, User
+from executive.interfaces import (
+    Advice,
+    Clock,
+    LanguageModel,
+    Perception,
+    PlaceSource,
+    Recorder,
+    Robot,
+    User,
+)
 from executive.language.grammar import EnglishInterpreter
 from executive.situation import Situation
 from executive.types import DELIVERY, Vector3
@@ -35,6 +44,7 @@ class Grounds:
     model: LanguageModel | None
     prompts: Prompts
     facts: FactStore
+    sources: tuple[PlaceSource, ...] = ()
 
 
 Advise = Callable[[Grounds], Advice | None]
@@ -89,6 +99,7 @@ def build_context(
         advice=advice,
         parameters=parameters(grounds.settings),
         facts=grounds.facts,
+        sources=grounds.sources,
         place_at=place_at(grounds),
         near_person=near_person(grounds.home),
     )

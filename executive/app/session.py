@@ -16,16 +16,18 @@ from typing import TextIO
 
 from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_context
 from executive.app.run_folder import new_folder, to_json, write
+from executive.app.sources import written
 from executive.clock import SimulatedClock
 from executive.config import Settings
 from executive.errors import InputError
 from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
-from executive.guards import GuardedModel, GuardedRecorder, GuardedRobot, in_words
+from executive.guards import GuardedModel, GuardedRecorder, GuardedRobot, GuardedSource, in_words
 from executive.interfaces import (
     Camera,
     Detector,
     Knowledge,
     LanguageModel,
+    PlaceSource,
     Recorder,
     Robot,
     SimulatedHome,
@@ -77,6 +79,7 @@ class Session:
         out: TextIO | None = None,
         recorded: bool = True,
         sinks: Sequence[Sink] = (),
+        sources: Sequence[PlaceSource] = (),
         policy: str = OURS,
         advise: Advise = build_advisor,
     ) -> None:
@@ -84,6 +87,7 @@ class Session:
 
         The robot's words go to `out` (default: standard error). Missions that are not `recorded`
         leave no folder; `sinks` are told everything in either case, and closed after each mission.
+        `sources` know where things are, and are asked in this order, after the robot's own memory.
         `advise` makes the adviser; `policy` is what its recordings call it.
 
         Raises:
@@ -110,7 +114,15 @@ class Session:
             log.warning("%s", warning)
         self.facts = FactStore(settings.memory, learns=settings.learn)
         guarded = GuardedModel(self.model, self.inbox, self.recorder) if self.model else None
-        self.grounds = Grounds(settings, self.home, self.knowledge, guarded, prompts, self.facts)
+        self.grounds = Grounds(
+            settings,
+            self.home,
+            self.knowledge,
+            guarded,
+            prompts,
+            self.facts,
+            tuple(GuardedSource(source, self.recorder) for source in sources),
+        )
         self.advice = advise(self.grounds)
         self.injector = build_injector(settings, self.home, self.recorder, lambda: self.clock.now())
         self.world, self.robot, camera, detector = build_simulation(
@@ -302,6 +314,8 @@ class Session:
             **self.knowledge.files(),
             "facts.json": json.dumps(self.facts.beliefs()).encode(),
         }
+        if sources := self.grounds.sources:
+            attachments["sources.json"] = written(sources, self.knowledge.objects())
         metadata = {
             "requests_before": str(self.inbox.last),
             "in_hand": self._in_hand or "",

@@ -18,6 +18,7 @@ from typing import TypeVar
 from pydantic import TypeAdapter, ValidationError
 
 from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_context
+from executive.app.sources import read
 from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
@@ -202,6 +203,7 @@ def _grounds(run: Run, absent: Absent) -> Grounds:
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
         facts=FactStore.believing(_beliefs(run), learns=settings.learn),
+        sources=read(str(run.path), run.attachments.get("sources.json", b"[]")),
     )
 
 

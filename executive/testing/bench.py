@@ -8,7 +8,7 @@ from typing import Any
 from executive.app.parts import near_person
 from executive.clock import SimulatedClock
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Detector, Facts, User
+from executive.interfaces import Detector, Facts, PlaceSource, User
 from executive.language.grammar import EnglishInterpreter
 from executive.loop import Executive
 from executive.perception.pipeline import CameraPerception
@@ -100,6 +100,7 @@ def run_mission(
     first: Iterable[Event] = (),
     notebook: Notebook | None = None,
     facts: Facts | None = None,
+    sources: Iterable[PlaceSource] = (),
     detector: Callable[[FakeWorld], Detector] = FakeDetector,
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
@@ -152,6 +153,7 @@ def run_mission(
         advice=advise(knowledge, thinker, remembers=remembers) if thinker else None,
         parameters=Parameters(elicit=elicit, **(parameters or {})),
         facts=facts or NoFacts(),
+        sources=tuple(sources),
         near_person=near_person(home),
     )
     executive = Executive(
