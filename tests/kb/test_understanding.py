@@ -17,7 +17,7 @@ READER = Reader(ontology(True))
 def test_the_model_can_choose_among_the_kinds_and_the_known_objects_only() -> None:
     request = READER.inquiry("Come with the hammer!")
     assert request.schema
-    assert request.schema["properties"]["kind"]["enum"] == ["find", "take", "bring"]
+    assert request.schema["properties"]["kind"]["enum"] == list(SEARCHING)
     assert request.schema["properties"]["object"]["enum"] == list(ontology(True).objects())
     assert "Come with the hammer!" in request.messages[-1].content
 
