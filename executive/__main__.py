@@ -34,7 +34,7 @@ from executive.shell import (
     on_stop_signals,
 )
 from executive.terminal import Terminal
-from executive.text import printable, too_long
+from executive.text import counted, printable, too_long
 from executive.types import MissionStatus, Outcome
 from executive.usage import Parser
 from executive.user import STOPPING, Console
@@ -119,7 +119,8 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
             f"{outcome.status}: {printable(outcome.reason)}\n"
             f"  {outcome.mission_time_s:.1f} s of mission, {outcome.wall_time_s:.1f} s of yours; "
             f"visited {printable(visited)}; "
-            f"asked you {outcome.inquiries}, the model {outcome.llm_calls} times",
+            f"{counted(outcome.inquiries, 'question')} asked, "
+            f"{counted(outcome.llm_calls, 'call')} of the model",
             flush=True,
         )
         if outcome.run_dir:

@@ -3,6 +3,7 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.records import Activity
 from trees.context import MissionContext
 from trees.deeds.deed import meaning
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
@@ -55,6 +56,7 @@ def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
                 DriveToCandidate("return", context),
                 look_over(context),
                 PickUp("pick", context),
+                activity=Activity.SEARCHING,
             ),
         ),
     )

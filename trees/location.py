@@ -88,6 +88,8 @@ def existence_check(context: MissionContext) -> Behaviour:
 class OntologyKnowsPlace(Step):
     """Succeeds if the ontology has exactly one default location for the object, still unvisited."""
 
+    source = Source.ONTOLOGY
+
     def update(self) -> Status:
         """Look it up; several are kept to narrow down what the model may say."""
         assert self.situation.object
@@ -153,6 +155,8 @@ class VerifyFurniture(VerifyNames):
 
 class AdoptFurniture(Step):
     """What passed, and was not looked at yet, becomes the list of candidates."""
+
+    source = Source.LLM
 
     def update(self) -> Status:
         """Keep the model's order."""

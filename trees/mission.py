@@ -16,7 +16,7 @@ from trees.context import MissionContext
 from trees.deeds.deed import Conclude, meaning
 from trees.grasp import grasp
 from trees.hand import hand_is_free
-from trees.nodes import Check, Optionally, fallback, sequence
+from trees.nodes import Check, Optionally, fallback, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.robot import DriveBack
@@ -29,7 +29,7 @@ def mission(context: MissionContext) -> Behaviour:
     situation = context.situation
     return fallback(
         "mission",
-        sequence(
+        stages(
             "serve",
             understand(context),
             Check("about a thing to look for", context, lambda: meaning(situation).searches),

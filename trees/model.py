@@ -5,7 +5,8 @@ from abc import abstractmethod
 from py_trees.common import Status
 
 from executive.interfaces import Advice, LanguageModel
-from executive.types import ChatRequest, Command, Replied, Result, Scored
+from executive.records import Activity
+from executive.types import ChatRequest, Command, Replied, Result, Scored, Source
 from trees.context import MissionContext
 from trees.nodes import Action, why_of
 from trees.person import tell
@@ -13,6 +14,9 @@ from trees.person import tell
 
 class ModelAction(Action):
     """One call of the language model."""
+
+    source = Source.LLM
+    activity = Activity.THINKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Give the model as long as the parameters allow."""

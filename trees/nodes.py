@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from py_trees.behaviour import Behaviour
-from py_trees.common import Status
+from py_trees.common import BlackBoxLevel, Status
 from py_trees.composites import Selector, Sequence
 from py_trees.decorators import Decorator, FailureIsSuccess
 
@@ -24,9 +24,18 @@ UNSAID = "it did not work, and nothing said why"
 """The reason of what fails without one."""
 
 
-def sequence(name: str, *children: Behaviour) -> Sequence:
-    """All children in order, until one fails."""
-    return Sequence(name, memory=True, children=list(children))
+def sequence(name: str, *children: Behaviour, activity: str = "") -> Sequence:
+    """All children in order, until one fails; `activity` is what the robot does meanwhile."""
+    node = Sequence(name, memory=True, children=list(children))
+    vars(node)["activity"] = activity
+    return node
+
+
+def stages(name: str, *children: Behaviour) -> Sequence:
+    """A sequence whose children are parts of the mission, each with a lane in the viewer."""
+    for child in children:
+        child.blackbox_level = BlackBoxLevel.BIG_PICTURE
+    return sequence(name, *children)
 
 
 def fallback(name: str, *children: Behaviour) -> Selector:
@@ -35,7 +44,14 @@ def fallback(name: str, *children: Behaviour) -> Selector:
 
 
 class Step(Behaviour):
-    """Decides at once, from what is known: a condition, or a change of the situation."""
+    """Decides at once, from what is known: a condition, or a change of the situation.
+
+    What it means for whoever reads the log is declared here, by a class or by one of its instances,
+    and never guessed from a name: see `executive.records.NodeShape`.
+    """
+
+    source: str = ""
+    activity: str = ""
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Keep the context at hand."""

@@ -7,6 +7,7 @@ knowledge (paper, section "Integrated use of ontological knowledge base and LLM"
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.types import Source
 from trees.context import MissionContext
 from trees.nodes import Check, Step, fallback, sequence
 from trees.person import AskDoYouMean, AskWhichObject
@@ -42,6 +43,8 @@ def known_object(context: MissionContext) -> Behaviour:
 
 class OntologyKnowsObject(Step):
     """Succeeds if the words name exactly one known object."""
+
+    source = Source.ONTOLOGY
 
     def update(self) -> Status:
         """Look the words up."""

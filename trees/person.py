@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from py_trees.common import Status
 
-from executive.records import Utterance
+from executive.records import Activity, Utterance
 from executive.situation import candidates_from, table
 from executive.text import printable, too_long
 from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
@@ -25,6 +25,9 @@ SAYS: Mapping[str, str] = {
 
 class Ask(Action):
     """Puts a question, and puts it again while the answer makes no sense."""
+
+    source = Source.USER
+    activity = Activity.ASKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Wait for each answer as long as the parameters allow."""

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from py_trees.common import Status
 
+from executive.records import Activity
 from executive.situation import table
 from executive.types import (
     SOMETHING,
@@ -120,6 +121,7 @@ class RobotAction(BodyAction):
 class DriveToCandidate(RobotAction):
     """Goes to the place where the thing may be."""
 
+    activity = Activity.DRIVING
     searches = True
 
     def goal(self) -> Goal:
@@ -143,6 +145,8 @@ class Visit(DriveToCandidate):
 class DriveBack(RobotAction):
     """Goes to where things are asked for or delivered: `person` or `delivery`."""
 
+    activity = Activity.DRIVING
+
     def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
         super().__init__(name, context)
@@ -161,6 +165,7 @@ class DriveBack(RobotAction):
 class LookAtCandidate(RobotAction):
     """Points the head at the next part of the place."""
 
+    activity = Activity.LOOKING
     searches = True
 
     def goal(self) -> Goal:
@@ -173,6 +178,7 @@ class LookAtCandidate(RobotAction):
 class LookCloser(RobotAction):
     """Brings what may be the thing to the middle of the picture."""
 
+    activity = Activity.LOOKING
     searches = True
 
     def goal(self) -> Goal:
@@ -186,6 +192,8 @@ class LookCloser(RobotAction):
 class LookForLost(RobotAction):
     """Points the head at where the thing may have fallen."""
 
+    activity = Activity.LOOKING
+
     def goal(self) -> Goal:
         """Look at the next part of the spot."""
         return LookAt(self.situation.spot, self.situation.view)
@@ -193,6 +201,8 @@ class LookForLost(RobotAction):
 
 class PickUp(RobotAction):
     """Grasps the thing where it was seen, and lifts it; what the fingers feel decides."""
+
+    activity = Activity.HANDLING
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Reach for it."""
@@ -245,6 +255,8 @@ class PickUp(RobotAction):
 class PutDownAt(RobotAction):
     """Puts the held thing down."""
 
+    activity = Activity.HANDLING
+
     def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
         super().__init__(name, context)
@@ -285,6 +297,8 @@ class PutDownThere(PutDownAt):
 class DriveToSurface(RobotAction):
     """Goes to the furniture where the held thing may be put down."""
 
+    activity = Activity.DRIVING
+
     def goal(self) -> Goal:
         """Drive there; the person is not there."""
         self.situation.away = True
@@ -293,6 +307,8 @@ class DriveToSurface(RobotAction):
 
 class SeeTarget(BodyAction):
     """Takes a picture and succeeds if the thing is in it, surely and wholly."""
+
+    activity = Activity.LOOKING
 
     def __init__(self, name: str, context: MissionContext, closer: bool = False) -> None:
         """`closer`, a part of the thing is enough."""

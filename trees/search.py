@@ -3,6 +3,7 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.records import Activity
 from executive.types import Candidate
 from trees.context import MissionContext
 from trees.location import resolve_location
@@ -47,7 +48,12 @@ def visit_candidates(context: MissionContext) -> Behaviour:
         "visit",
         lambda: context.situation.candidates,
         choose,
-        sequence("go and look", Visit("drive", context), look_over(context)),
+        sequence(
+            "go and look",
+            Visit("drive", context),
+            look_over(context),
+            activity=Activity.SEARCHING,
+        ),
     )
 
 

@@ -33,6 +33,8 @@ def let_the_model_read(context: MissionContext) -> Behaviour:
 class ReadCommand(Step):
     """Words -> command, by the grammar of commands."""
 
+    source = "person"
+
     def update(self) -> Status:
         """Read the words."""
         self.context.recorder.record(Utterance("person", self.situation.words))

@@ -29,6 +29,7 @@ from executive.types import (
 )
 from logs.recording.schema import MESSAGES, STATUS
 from logs.recording.sound import MOST, MOST_DEEP, check_situation, finite, json_value, whole
+from logs.recording.undeclared import told_from_names
 
 MOST_BEHAVIOURS = 2000
 _PARAMETERS = ("temperature", "top_p", "top_k", "seed", "max_tokens")
@@ -51,6 +52,9 @@ def tree_to_message(tree: TreeShape) -> Any:
             name=node.name,
             class_name=node.class_name,
             type=node.kind,
+            source=node.source,
+            activity=node.activity,
+            stage=node.stage,
         )
     return message
 
@@ -70,12 +74,15 @@ def tree_from_message(message: Any) -> TreeShape:
         levels[b.own_id] = levels[b.parent_id] + 1
         if levels[b.own_id] > MOST_DEEP:
             raise ValueError(f"a tree of more than {MOST_DEEP} levels")
-    return TreeShape(
-        tuple(
-            NodeShape(b.own_id, b.parent_id, b.name, b.type, b.class_name)
-            for b in message.behaviours
-        )
+    return TreeShape(tuple(map(_node_from, message.behaviours)))
+
+
+def _node_from(b: Any) -> NodeShape:
+    """What a recording from before behaviours declared it does not say, their names did."""
+    node = NodeShape(
+        b.own_id, b.parent_id, b.name, b.type, b.class_name, b.source, b.activity, b.stage
     )
+    return node if b.HasField("source") else told_from_names(node)
 
 
 def tick_to_message(tick: Tick) -> Any:

@@ -35,6 +35,9 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "name": "string",
         "class_name": "string",
         "type": "string",
+        "source": "optional string",
+        "activity": "optional string",
+        "stage": "optional bool",
     },
     "BehaviourTree": {**_STAMPED, "behaviours": "repeated Behaviour"},
     "BehaviourState": {
