@@ -39,4 +39,5 @@ class SayHowFar(Step):
     def update(self) -> Status:
         """The verb knows what is worth telling."""
         assert self.situation.command
-        return self.fail(deed_of(self.situation.command.kind).how_far(self.situation))
+        deed, why = deed_of(self.situation.command.kind), self.situation.reason
+        return self.fail(deed.how_far(self.situation, why))

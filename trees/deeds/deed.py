@@ -35,9 +35,9 @@ class Deed(ABC):
             whereabouts: the furniture that the thing is on in the end, `HAND`, or nothing.
         """
 
-    def how_far(self, situation: Situation) -> str:
-        """What came of it although not all was done, and why not, as a clause."""
-        return situation.reason
+    def how_far(self, situation: Situation, why: str) -> str:
+        """What came of it although not all was done, which `why` tells; as a clause, too."""
+        return why
 
 
 class Conclude(Step):

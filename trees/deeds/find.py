@@ -32,8 +32,8 @@ class Find(Deed):
         """The robot went to the furniture that it names, and the thing is there."""
         return whereabouts == outcome.location and whereabouts in outcome.visited
 
-    def how_far(self, situation: Situation) -> str:
+    def how_far(self, situation: Situation, why: str) -> str:
         """Who asks where a thing is wants to know it, even if the robot cannot come back."""
         if not situation.found:
-            return situation.reason
-        return f"the {situation.object} is at {situation.found.place}, but {situation.reason}"
+            return why
+        return f"the {situation.object} is at {situation.found.place}, but {why}"

@@ -31,8 +31,8 @@ class Take(Deed):
         """It is in the hand."""
         return whereabouts == HAND
 
-    def how_far(self, situation: Situation) -> str:
+    def how_far(self, situation: Situation, why: str) -> str:
         """It may have fallen since."""
         if situation.has_it:
-            return situation.reason
+            return why
         return f"the {situation.object} is not in my hand any more"
