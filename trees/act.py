@@ -19,7 +19,9 @@ def act(context: MissionContext) -> Behaviour:
         *(way for deed in with_it for way in deed.ways(context)),
         sequence(
             "have it",
-            Check("had it before", context, lambda: situation.has_it and not situation.found),
+            Check(
+                "had it before", context, lambda: situation.has_it and not situation.search.found
+            ),
             Check("not asked to bring", context, lambda: not meaning(situation).carries),
             Report("report", context, "I hold the {object}."),
         ),
@@ -38,6 +40,6 @@ class SayHowFar(Step):
 
     def update(self) -> Status:
         """The verb knows what is worth telling."""
-        assert self.situation.command
-        deed, why = deed_of(self.situation.command.kind), self.situation.reason
+        assert self.situation.request.command
+        deed, why = deed_of(self.situation.request.command.kind), self.why_before()
         return self.fail(deed.how_far(self.situation, why))

@@ -1,7 +1,7 @@
 """Whom the behaviours work with, and by which parameters."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from executive.interfaces import (
     Advice,
@@ -16,6 +16,7 @@ from executive.interfaces import (
     Robot,
     User,
 )
+from executive.pending import Pending
 from executive.situation import Situation
 from executive.types import Vector3
 
@@ -76,7 +77,8 @@ class MissionContext:
     `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
     The `sources` know where things are without looking; they are asked in this order, after memory.
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
-    the delivery table has no room.
+    the delivery table has no room. `pending` is what the behaviours wait for: the loop that ticks
+    them has to be given the same.
     """
 
     situation: Situation
@@ -94,3 +96,4 @@ class MissionContext:
     sources: tuple[PlaceSource, ...] = ()
     place_at: Callable[[Vector3], str | None] = lambda point: None
     near_person: tuple[str, ...] = ()
+    pending: Pending = field(default_factory=Pending)

@@ -16,7 +16,7 @@ def grasp(context: MissionContext) -> Behaviour:
     situation = context.situation
 
     def may_stay() -> bool:
-        asked, found = meaning(situation), situation.found
+        asked, found = meaning(situation), situation.search.found
         is_there = asked.carries and found is not None and found.place == asked.ends_at
         return is_there or not asked.grasps
 
@@ -27,7 +27,7 @@ def grasp(context: MissionContext) -> Behaviour:
         get_hold(context),
         sequence(
             "search again",
-            Check("it is gone", context, lambda: situation.gone),
+            Check("it is gone", context, lambda: situation.search.gone),
             ForgetSighting("begin anew", context),
             search(context),
             get_hold(context, Check("in my hand", context, lambda: situation.has_it)),
@@ -52,7 +52,7 @@ def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
             lambda _: None,
             sequence(
                 "another approach",
-                Check("it was there", context, lambda: not situation.gone),
+                Check("it was there", context, lambda: not situation.search.gone),
                 DriveToCandidate("return", context),
                 look_over(context),
                 PickUp("pick", context),
@@ -67,6 +67,6 @@ class ForgetSighting(Step):
 
     def update(self) -> Status:
         """Begin the search anew."""
-        self.situation.detection = self.situation.found = None
-        self.situation.gone = False
+        self.situation.search.detection = self.situation.search.found = None
+        self.situation.search.gone = False
         return Status.SUCCESS

@@ -30,8 +30,8 @@ class HandIsFree(Step):
 
     def update(self) -> Status:
         """Fail if another thing than the one that is asked for is in it."""
-        held = self.situation.in_hand
-        if held in (None, self.situation.object) or not meaning(self.situation).grasps:
+        held = self.situation.hand.in_hand
+        if held in (None, self.situation.request.object) or not meaning(self.situation).grasps:
             return Status.SUCCESS
         return self.fail(full_hand(held))
 
@@ -41,9 +41,9 @@ class HandStaysFull(Step):
 
     def update(self) -> Status:
         """There was no room for what it holds, or it may not be put down."""
-        held, why = self.situation.in_hand, self.situation.reason
+        held, why = self.situation.hand.in_hand, self.why_before()
         if held is None:
             return self.fail(why)
-        if self.situation.unplaced:
+        if self.situation.hand.unplaced:
             return self.fail(f"{why}; I still hold {the(held)}")
         return self.fail(full_hand(held))

@@ -17,7 +17,7 @@ from trees.person import AskWhere
 
 
 def resolve_location(context: MissionContext) -> Behaviour:
-    """An object -> `situation.candidates`, likeliest first, with who said so."""
+    """An object -> `situation.search.candidates`, likeliest first, with who said so."""
     sources: list[Behaviour] = [OntologyKnowsPlace("ontology knows one place", context)]
     if context.model is not None:
         elicit = rank_places if context.parameters.elicit == "rank" else generate_places
@@ -61,14 +61,14 @@ def existence_check(context: MissionContext) -> Behaviour:
     thought = context.situation
 
     def choose(room: str) -> None:
-        thought.consultation.room = room
+        thought.search.consultation.room = room
 
     return sequence(
         "existence check",
         VerifyNames("names exist", context),
         EachOf(
             "each room",
-            lambda: tuple(thought.consultation.rooms),
+            lambda: tuple(thought.search.consultation.rooms),
             choose,
             Optionally(
                 "if it helps",
@@ -81,7 +81,7 @@ def existence_check(context: MissionContext) -> Behaviour:
                 ),
             ),
         ),
-        Check("something is left", context, lambda: bool(thought.consultation.furniture)),
+        Check("something is left", context, lambda: bool(thought.search.consultation.furniture)),
     )
 
 
@@ -92,14 +92,14 @@ class OntologyKnowsPlace(Step):
 
     def update(self) -> Status:
         """Look it up; several are kept to narrow down what the model may say."""
-        assert self.situation.object
-        usual = self.context.knowledge.usual_places(self.situation.object)
-        if len(usual) == 1 and usual[0] in self.situation.looks.visited:
+        assert self.situation.request.object
+        usual = self.context.knowledge.usual_places(self.situation.request.object)
+        if len(usual) == 1 and usual[0] in self.situation.search.looks.visited:
             return self.fail(f"{usual[0]} is its place, but it is not there")
         if len(usual) == 1:
-            self.situation.candidates = candidates_from(usual, Source.ONTOLOGY)
+            self.situation.search.candidates = candidates_from(usual, Source.ONTOLOGY)
             return self.succeed(usual[0])
-        self.situation.default_locations = usual
+        self.situation.search.default_locations = usual
         return self.fail(f"the ontology has {len(usual) or 'no'} places for it")
 
 
@@ -108,7 +108,7 @@ class BeginConsultation(Step):
 
     def update(self) -> Status:
         """Begin with nothing."""
-        self.situation.consultation = Consultation()
+        self.situation.search.consultation = Consultation()
         return Status.SUCCESS
 
 
@@ -118,10 +118,10 @@ class ReadReply(Step):
     def update(self) -> Status:
         """Read it."""
         assert self.context.advice
-        names = self.context.advice.lister.read(self.situation.consultation.reply)
+        names = self.context.advice.lister.read(self.situation.search.consultation.reply)
         if names is None:
             return self.fail("the language model's reply is not in the output format")
-        self.situation.consultation.names = names
+        self.situation.search.consultation.names = names
         return self.succeed(", ".join(names))
 
 
@@ -133,7 +133,10 @@ class VerifyNames(Step):
     def update(self) -> Status:
         """Hold the names against the ontology."""
         assert self.context.advice
-        consultation, among = self.situation.consultation, self.situation.default_locations
+        consultation, among = (
+            self.situation.search.consultation,
+            self.situation.search.default_locations,
+        )
         verdict = self.context.advice.lister.verify(consultation.names, among)
         new = [name for name in verdict.furniture if name not in consultation.furniture]
         consultation.furniture.extend(new)
@@ -160,9 +163,9 @@ class AdoptFurniture(Step):
 
     def update(self) -> Status:
         """Keep the model's order."""
-        furniture = self.situation.consultation.furniture
-        new = self.situation.not_visited(candidates_from(furniture, Source.LLM))
+        furniture = self.situation.search.consultation.furniture
+        new = self.situation.search.not_visited(candidates_from(furniture, Source.LLM))
         if not new:
             return self.fail("the language model named only places that were looked at")
-        self.situation.candidates = new
+        self.situation.search.candidates = new
         return self.succeed(", ".join(candidate.place for candidate in new))

@@ -52,7 +52,7 @@ def come_back(context: MissionContext) -> Behaviour:
         context.situation,
         sequence(
             "come back",
-            Check("is away", context, lambda: context.situation.away),
+            Check("is away", context, lambda: context.situation.dialogue.away),
             DriveBack("drive", context, PERSON),
         ),
     )

@@ -35,7 +35,7 @@ class ModelAction(Action):
     def terminate(self, new_status: Status) -> None:
         """Count the time spent thinking."""
         if self._began is not None:
-            self.situation.thinking_time_s += self.context.clock.now() - self._began
+            self.situation.model.thinking_time_s += self.context.clock.now() - self._began
             self._began = None
         super().terminate(new_status)
 
@@ -56,8 +56,8 @@ class ModelAction(Action):
 
     def _warn(self, why: str) -> None:
         """Once a mission."""
-        if not self.situation.model_failure:
-            self.situation.model_failure = why
+        if not self.situation.model.failure:
+            self.situation.model.failure = why
             tell(self.context, f"My language model does not answer: {why}.")
 
 
@@ -66,21 +66,23 @@ class RankPlaces(ModelAction):
 
     def start(self) -> int:
         """Ask for the scores."""
-        assert self.situation.object
+        assert self.situation.request.object
         return self.model.rank(
-            self.advice.ranker.ranking(self.situation.object, self.situation.default_locations)
+            self.advice.ranker.ranking(
+                self.situation.request.object, self.situation.search.default_locations
+            )
         )
 
     def ended(self, result: Result) -> Status:
         """Keep as many as are worth a visit; all of them if the ontology named them."""
         if not isinstance(result, Scored):
             return self.failed(result)
-        ranked = self.situation.not_visited(self.advice.ranker.ranked(result))
+        ranked = self.situation.search.not_visited(self.advice.ranker.ranked(result))
         if not ranked:
             return self.fail("the language model ranked only places that were looked at")
-        if not self.situation.default_locations:
+        if not self.situation.search.default_locations:
             ranked = ranked[: self.context.parameters.top_k]
-        self.situation.candidates = ranked
+        self.situation.search.candidates = ranked
         return self.succeed(", ".join(map(str, ranked)))
 
 
@@ -100,14 +102,14 @@ class Chat(ModelAction):
         if not isinstance(result, Replied):
             return self.failed(result)
         self.advice.lister.remember(result.request, result.text)
-        self.situation.consultation.reply = result.text
+        self.situation.search.consultation.reply = result.text
         return self.succeed(result.text)
 
     @property
     def thing(self) -> str:
         """Name of the object that is looked for."""
-        assert self.situation.object
-        return self.situation.object
+        assert self.situation.request.object
+        return self.situation.request.object
 
 
 class Inquire(Chat):
@@ -115,7 +117,7 @@ class Inquire(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for the likely places."""
-        return self.advice.lister.inquiry(self.thing, self.situation.default_locations)
+        return self.advice.lister.inquiry(self.thing, self.situation.search.default_locations)
 
 
 class Summarize(Chat):
@@ -123,7 +125,7 @@ class Summarize(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for the same in the right form."""
-        return self.advice.lister.summarize(self.thing, self.situation.consultation.reply)
+        return self.advice.lister.summarize(self.thing, self.situation.search.consultation.reply)
 
 
 class Again(Chat):
@@ -131,7 +133,7 @@ class Again(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for places from the list."""
-        return self.advice.lister.again(self.thing, self.situation.default_locations)
+        return self.advice.lister.again(self.thing, self.situation.search.default_locations)
 
 
 class AskFurniture(Chat):
@@ -139,8 +141,10 @@ class AskFurniture(Chat):
 
     def request(self) -> ChatRequest:
         """Ask for the room at hand."""
-        room = self.situation.consultation.room
-        return self.advice.lister.furniture(self.thing, room, self.situation.default_locations)
+        room = self.situation.search.consultation.room
+        return self.advice.lister.furniture(
+            self.thing, room, self.situation.search.default_locations
+        )
 
 
 class RankKinds(ModelAction):
@@ -148,15 +152,15 @@ class RankKinds(ModelAction):
 
     def start(self) -> int:
         """Ask for the scores."""
-        return self.model.rank(self.advice.reader.ranking(self.situation.words))
+        return self.model.rank(self.advice.reader.ranking(self.situation.request.words))
 
     def ended(self, result: Result) -> Status:
         """Keep the likeliest."""
         if not isinstance(result, Scored):
             return self.failed(result)
-        kind, words = self.advice.reader.ranked(result), self.situation.words
-        self.situation.command = Command(kind, self.situation.guess, words)
-        return self.succeed(f"{kind} {self.situation.guess}")
+        kind, words = self.advice.reader.ranked(result), self.situation.request.words
+        self.situation.request.command = Command(kind, self.situation.request.guess, words)
+        return self.succeed(f"{kind} {self.situation.request.guess}")
 
 
 class WriteCommand(ModelAction):
@@ -164,7 +168,7 @@ class WriteCommand(ModelAction):
 
     def start(self) -> int:
         """Ask."""
-        return self.model.chat(self.advice.reader.inquiry(self.situation.words))
+        return self.model.chat(self.advice.reader.inquiry(self.situation.request.words))
 
     def ended(self, result: Result) -> Status:
         """Read and verify the reply."""
@@ -174,5 +178,5 @@ class WriteCommand(ModelAction):
         if read is None:
             return self.fail("the language model named no command with a known thing")
         kind, name = read
-        self.situation.command = Command(kind, name, self.situation.words)
+        self.situation.request.command = Command(kind, name, self.situation.request.words)
         return self.succeed(f"{kind} {name}")

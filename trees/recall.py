@@ -23,18 +23,18 @@ class Recall(Step):
 
     def update(self) -> Status:
         """Recall it."""
-        assert self.situation.object
-        places = dict.fromkeys(self.knows.places_of(self.situation.object))
+        assert self.situation.request.object
+        places = dict.fromkeys(self.knows.places_of(self.situation.request.object))
         here = filter(self._is_here, places)
         new = self.worth_a_visit(candidates_from(here, self.knows.name))
         if not new:
-            return self.fail(self.unknown(self.situation.object))
-        self.situation.candidates = new
+            return self.fail(self.unknown(self.situation.request.object))
+        self.situation.search.candidates = new
         return self.succeed(", ".join(candidate.place for candidate in new))
 
     def worth_a_visit(self, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
         """Those where it was not looked for."""
-        return self.situation.not_visited(candidates)
+        return self.situation.search.not_visited(candidates)
 
     def unknown(self, thing: str) -> str:
         """That the source does not help, as a clause."""

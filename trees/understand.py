@@ -12,7 +12,7 @@ from trees.person import AskYesNo
 
 
 def understand(context: MissionContext) -> Behaviour:
-    """Words -> `situation.command`."""
+    """Words -> `situation.request.command`."""
     readers: list[Behaviour] = [ReadCommand("grammar reads it", context)]
     if context.model is not None:
         readers.append(let_the_model_read(context))
@@ -37,11 +37,11 @@ class ReadCommand(Step):
 
     def update(self) -> Status:
         """Read the words."""
-        self.context.recorder.record(Utterance("person", self.situation.words))
-        command = self.context.interpreter.command(self.situation.words)
+        self.context.recorder.record(Utterance("person", self.situation.request.words))
+        command = self.context.interpreter.command(self.situation.request.words)
         if command is None:
             return self.fail("this is no command that the grammar knows")
-        self.situation.command = command
+        self.situation.request.command = command
         return self.succeed(f"{command.kind} {command.target}")
 
 
@@ -50,11 +50,11 @@ class HasKnownName(Step):
 
     def update(self) -> Status:
         """Look for the names; a model that writes may still choose another."""
-        names = self.context.knowledge.names_in(self.situation.words)
+        names = self.context.knowledge.names_in(self.situation.request.words)
         if not names:
             return self.fail("no known thing is named")
-        self.situation.guess = " and ".join(names)
-        return self.succeed(self.situation.guess)
+        self.situation.request.guess = " and ".join(names)
+        return self.succeed(self.situation.request.guess)
 
 
 class ConfirmCommand(AskYesNo):
@@ -62,8 +62,8 @@ class ConfirmCommand(AskYesNo):
 
     def question(self) -> Question:
         """Say what would be done."""
-        assert self.situation.command
-        kind, target = self.situation.command.kind, self.situation.command.target
+        assert self.situation.request.command
+        kind, target = self.situation.request.command.kind, self.situation.request.command.target
         knowledge = self.context.knowledge
         objects = [o for name in knowledge.names_in(target) for o in knowledge.objects_named(name)]
         text = f"Do you mean: {kind} {target}?"
@@ -74,7 +74,7 @@ class ConfirmCommand(AskYesNo):
 
     def unresolved(self) -> str:
         """It is not known what was asked for."""
-        return f"I am not sure what '{self.situation.words}' asks for"
+        return f"I am not sure what '{self.situation.request.words}' asks for"
 
 
 class NotUnderstood(Step):
@@ -82,9 +82,9 @@ class NotUnderstood(Step):
 
     def update(self) -> Status:
         """Say what can be said."""
-        self.situation.command = None
-        self.situation.status = MissionStatus.NOT_UNDERSTOOD
-        words = self.situation.words
+        self.situation.request.command = None
+        self.situation.ending.status = MissionStatus.NOT_UNDERSTOOD
+        words = self.situation.request.words
         said = f"'{words}'" if words.strip() else "what you said"
         return self.fail(
             f"I do not understand {said}; "

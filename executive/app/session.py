@@ -37,7 +37,7 @@ from executive.language.control import control
 from executive.loop import Executive, who_interrupts
 from executive.perception.pipeline import CameraPerception
 from executive.records import EventTaken, Finished
-from executive.situation import Situation
+from executive.situation import Ending, Situation
 from executive.text import one_line, too_long, writable
 from executive.types import Answered, Halt, MissionStatus, Outcome
 from executive.user import NOTHING_TO_STOP, Console, Nobody, Oracle
@@ -166,11 +166,11 @@ class Session:
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recorded else None
         self.folder = folder
-        situation = Situation(words=words, in_hand=self._in_hand, restless=self._restless)
+        situation = Situation.at_start(words, in_hand=self._in_hand, restless=self._restless)
         try:
             self._carry_out_safely(situation, folder, started)
         finally:
-            self._in_hand, self._restless = situation.in_hand, situation.restless
+            self._in_hand, self._restless = situation.hand.in_hand, situation.ending.restless
             outcome = situation.outcome(
                 mission_time_s=self._mission_time(),
                 wall_time_s=time.monotonic() - began,
@@ -200,7 +200,7 @@ class Session:
             self._begin(folder, started)
             self._carry_out(situation)
         except BaseException as error:
-            if not situation.is_over:
+            if not situation.ending.is_over:
                 self._break_off(situation, error)
             if not isinstance(error, Exception):
                 raise
@@ -211,12 +211,12 @@ class Session:
         recorder = GuardedRecorder(self.recorder)
         broke = Broke(f"internal error: {in_words(error)}")
         end = broke if isinstance(error, Exception) else StopRequested(who_interrupts(error))
-        for event in (Started(situation.words), end):
+        for event in (Started(situation.request.words), end):
             situation.fold(event)
             recorder.record(EventTaken(event))
         GuardedRobot(self.robot, self.inbox, recorder).start(Halt())
         self.inbox.drop_all()
-        situation.stay_restless()
+        situation.ending.stay_restless()
 
     def _mission_time(self) -> float:
         """The mission time (s); 0 if the clock cannot tell."""
@@ -258,13 +258,14 @@ class Session:
         executive = Executive(
             MissionTree(mission(context)),
             situation,
+            pending=context.pending,
             inbox=self.inbox,
             clock=self.clock,
             robot=self.robot,
             recorder=self.recorder,
         )
-        self.inbox.post(Started(situation.words))
-        if control(situation.words):
+        self.inbox.post(Started(situation.request.words))
+        if control(situation.request.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             context.user.tell(NOTHING_TO_STOP)
         try:
@@ -346,7 +347,7 @@ def files_used(settings: Settings) -> dict[str, bytes]:
 
 def refused(why: str) -> Outcome:
     """The outcome of words that are not read."""
-    situation = Situation(status=MissionStatus.NOT_UNDERSTOOD, reason=why)
+    situation = Situation(ending=Ending(MissionStatus.NOT_UNDERSTOOD, why))
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
 
 

@@ -113,7 +113,13 @@ def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree)
         user=absent,
     )
     executive = Executive(
-        build(context), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
+        build(context),
+        situation,
+        pending=context.pending,
+        inbox=inbox,
+        clock=clock,
+        robot=absent,
+        recorder=judge,
     )
     clock.wait(None)
     executive.run()
@@ -178,7 +184,7 @@ class Judge:
 def _situation(run: Run) -> Situation:
     """What was known of the robot before the recorded mission."""
     restless = run.metadata.get("restless") == str(True)
-    return Situation(in_hand=run.metadata.get("in_hand") or None, restless=restless)
+    return Situation.at_start(in_hand=run.metadata.get("in_hand") or None, restless=restless)
 
 
 def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]:

@@ -104,7 +104,7 @@ class Absent:
     @property
     def holding(self) -> bool | None:
         """What they felt before: what they felt anew is among the recorded events."""
-        return self._situation.felt
+        return self._situation.hand.felt
 
     def start(self, goal: Goal) -> int:
         """Pursue nothing."""

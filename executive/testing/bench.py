@@ -159,6 +159,7 @@ def run_mission(
     executive = Executive(
         MissionTree(mission(context)),
         situation,
+        pending=context.pending,
         inbox=inbox,
         clock=clock,
         robot=robot,

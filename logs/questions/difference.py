@@ -13,7 +13,7 @@ from logs.recording.reader import At, Run
 
 OF_THE_RUN = ("mission_time_s", "thinking_time_s", "wall_time_s", "run_dir")
 """What an outcome says about this one run, whatever was decided."""
-MEASURED = ("deadlines", "sighting", "unreached", "reason")
+MEASURED = ("deadlines", "sighting", "doubtful", "unreached", "unplaced", "model_failure", "reason")
 """What a situation holds of measured times and places: no two runs share them to a digit."""
 ENDED = "has ended"
 

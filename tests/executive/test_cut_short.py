@@ -156,8 +156,8 @@ def test_what_a_behaviour_did_before_it_raised_counts_for_nothing(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def halfway(self: SeeTarget, result: object) -> Any:
-        self.situation.inquiries = 17
-        self.situation.looks.reached("the moon")
+        self.situation.dialogue.inquiries = 17
+        self.situation.search.looks.reached("the moon")
         raise ValueError("oops")
 
     monkeypatch.setattr(SeeTarget, "ended", halfway)
@@ -219,7 +219,14 @@ def test_a_world_that_cannot_be_drawn_costs_no_mission(
 
 # --- all of it, at random ---
 
-CALLS = ["robot.start", "robot.cancel", "robot.views", "eyes.see", "eyes.cancel", "user.ask"]
+CALLS = [
+    "robot.start",
+    "robot.cancel",
+    "robot.views",
+    "perception.see",
+    "perception.cancel",
+    "user.ask",
+]
 CALLS += ["user.tell", "user.cancel", "world.advance", "world.describe", "knowledge.usual_places"]
 WORDS = ["Bring an apple", "Take a power_drill", "Find the mug", "Bring the hammer", "Nonsense"]
 

@@ -11,7 +11,7 @@ from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import HandFelt, Inbox, StopRequested
 from executive.replay.replaying import replay
-from executive.situation import Situation
+from executive.situation import Hand
 from executive.types import SOMETHING, Failed, Goal, MissionStatus, Outcome, Pick, PutDown, Result
 from logs.recording.reader import Run
 from sim.fake import FakeWorld
@@ -144,9 +144,9 @@ def test_what_someone_put_into_the_hand_is_something(house: House) -> None:
 def test_what_is_felt_is_what_was_held_or_else_reached_for(
     before: str | None, reached_for: str, holding: bool, after: str | None
 ) -> None:
-    situation = Situation(in_hand=before, reached_for=reached_for)
-    situation.fold(HandFelt(holding))
-    assert situation.in_hand == after
+    hand = Hand(in_hand=before, reached_for=reached_for)
+    hand.feel(holding)
+    assert hand.in_hand == after
 
 
 def test_a_robot_that_cannot_feel_is_believed(house: House) -> None:

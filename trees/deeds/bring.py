@@ -25,7 +25,7 @@ class Bring(Deed):
         yield sequence(
             "is there already",
             asked_to(context, self.kind),
-            Check("at the delivery place", context, lambda: situation.is_delivered),
+            Check("at the delivery place", context, lambda: situation.search.is_delivered),
             Report("report", context, "The {object} is here already, on the delivery table."),
         )
         yield sequence("bring", asked_to(context, self.kind), deliver(context), say_where(context))
@@ -41,7 +41,7 @@ def say_where(context: MissionContext) -> Behaviour:
         "say so",
         sequence(
             "elsewhere",
-            Check("on other furniture", context, lambda: context.situation.put_at != DELIVERY),
+            Check("on other furniture", context, lambda: context.situation.hand.put_at != DELIVERY),
             Report(
                 "report",
                 context,
@@ -93,11 +93,11 @@ def pick_up_again(context: MissionContext, *spots: str) -> Behaviour:
         return ((spot, view) for spot in spots for view in range(context.robot.views(spot)))
 
     def choose(look: tuple[str, int]) -> None:
-        situation.spot, situation.view = look
+        situation.hand.spot, situation.search.view = look
 
     return sequence(
         "pick it up again",
-        Check("it fell", context, lambda: bool(situation.lost)),
+        Check("it fell", context, lambda: bool(situation.hand.lost)),
         FirstOf(
             "look around",
             views,
@@ -113,10 +113,14 @@ class SayItFell(Step):
 
     def update(self) -> Status:
         """Put the clauses together, if there are two."""
-        held, lost, why = self.situation.in_hand, self.situation.lost, self.situation.reason
+        held, lost, why = (
+            self.situation.hand.in_hand,
+            self.situation.hand.lost,
+            self.why_before(),
+        )
         if lost and lost != why:
             return self.fail(f"{lost}, and {why}")
         if held:
             return self.fail(f"{why}; I still hold {the(held)}")
-        gone = f"the {self.situation.object} is not in my hand any more"
+        gone = f"the {self.situation.request.object} is not in my hand any more"
         return self.fail(why if lost else f"{why}; {gone}")

@@ -21,7 +21,7 @@ class Deed(ABC):
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
         """The subtrees that do it, the best first; each begins with `asked_to`.
 
-        The thing was found by then, if the verb searches (`situation.found`; None if it was in the
+        The thing was found by then, if the verb searches (`situation.search.found`; None if it was in the
         hand all along), and is in the hand, if the verb grasps. One that succeeds has said so; if
         the verb does not search, it ends with `Conclude`, too.
         """
@@ -45,21 +45,21 @@ class Conclude(Step):
 
     def update(self) -> Status:
         """Done."""
-        self.situation.status = MissionStatus.DONE
+        self.situation.ending.status = MissionStatus.DONE
         return Status.SUCCESS
 
 
 def asked_to(context: MissionContext, kind: CommandKind) -> Check:
     """Whether this kind of deed was asked for."""
-    return Check(f"asked to {kind}", context, lambda: context.situation.asks_to(kind))
+    return Check(f"asked to {kind}", context, lambda: context.situation.request.asks_to(kind))
 
 
 def found_at_a_place(context: MissionContext) -> Check:
     """Whether it was found, and not in the hand all along."""
-    return Check("found at a place", context, lambda: context.situation.found is not None)
+    return Check("found at a place", context, lambda: context.situation.search.found is not None)
 
 
 def meaning(situation: Situation) -> Meaning:
     """What the verb means that was asked for."""
-    assert situation.command
-    return situation.command.kind.means
+    assert situation.request.command
+    return situation.request.command.kind.means

@@ -34,6 +34,6 @@ class Find(Deed):
 
     def how_far(self, situation: Situation, why: str) -> str:
         """Who asks where a thing is wants to know it, even if the robot cannot come back."""
-        if not situation.found:
+        if not situation.search.found:
             return why
-        return f"the {situation.object} is at {situation.found.place}, but {why}"
+        return f"the {situation.request.object} is at {situation.search.found.place}, but {why}"

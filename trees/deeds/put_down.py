@@ -51,7 +51,7 @@ def empty_hand(context: MissionContext) -> Behaviour:
 
 
 def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behaviour:
-    """A full hand -> `situation.put_at`: the places of `first`, then near ones, then asked for."""
+    """A full hand -> `situation.hand.put_at`: the places of `first`, then near ones, then asked for."""
     situation = context.situation
 
     def near() -> Iterator[str]:
@@ -59,17 +59,17 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
         yield from context.near_person[:NEAR]
 
     def choose(place: str) -> None:
-        situation.surface = place
+        situation.hand.surface = place
 
     return fallback(
         name,
         FirstOf("near the person", near, choose, go_and_put(context)),
         sequence(
             "where the person says",
-            Check("still in my hand", context, lambda: situation.in_hand is not None),
-            Check("person may help", context, lambda: not situation.no_help),
+            Check("still in my hand", context, lambda: situation.hand.in_hand is not None),
+            Check("person may help", context, lambda: not situation.dialogue.no_help),
             AskWhereToPut("ask where to put it", context),
-            FirstOf("there", lambda: situation.surfaces, choose, go_and_put(context)),
+            FirstOf("there", lambda: situation.hand.surfaces, choose, go_and_put(context)),
         ),
         NotPutDown("no room", context),
     )
@@ -79,7 +79,7 @@ def go_and_put(context: MissionContext) -> Behaviour:
     """Take it to the surface at hand, and put it down there."""
     return sequence(
         "go and put",
-        Check("still in my hand", context, lambda: context.situation.in_hand is not None),
+        Check("still in my hand", context, lambda: context.situation.hand.in_hand is not None),
         DriveToSurface("drive", context),
         PutDownThere("put down", context),
     )
@@ -90,9 +90,9 @@ class NotPutDown(Step):
 
     def update(self) -> Status:
         """What is in the hand no more has its own reason."""
-        tried, silence = self.situation.not_put_down, self.situation.no_help
-        if self.situation.in_hand is None or not tried:
-            return self.fail(self.situation.reason)
+        tried, silence = self.situation.hand.not_put_down, self.situation.dialogue.no_help
+        if self.situation.hand.in_hand is None or not tried:
+            return self.fail(self.why_before())
         return self.fail(f"{tried}, and {silence}" if silence else tried)
 
 
@@ -101,14 +101,14 @@ class HoldsWhatIsMeant(Step):
 
     def update(self) -> Status:
         """Nobody need say the name of what is held; if they do, it has to be that."""
-        assert self.situation.command
-        held, target = self.situation.in_hand, self.situation.command.target
+        assert self.situation.request.command
+        held, target = self.situation.hand.in_hand, self.situation.request.command.target
         if held is None:
             return self.fail("my hand is empty")
         named = self.context.knowledge.objects_named(target)
         if target != HELD and held not in (SOMETHING, *named):
             return self.fail(f"my hand holds {the(held)}, not the {target}")
-        self.situation.object = held
+        self.situation.request.object = held
         return self.succeed(held)
 
 
@@ -117,11 +117,11 @@ class StillHolds(Step):
 
     def update(self) -> Status:
         """What fell is no longer held; nor is what was let go of before it went wrong."""
-        held, why = self.situation.in_hand, self.situation.reason
+        held, why = self.situation.hand.in_hand, self.why_before()
         if held:
             return self.fail(f"{why}; I still hold {the(held)}")
-        if self.situation.lost:
+        if self.situation.hand.lost:
             return self.fail(why)
         return self.fail(
-            f"{why}; {the(self.situation.object or SOMETHING)} is not in my hand any more"
+            f"{why}; {the(self.situation.request.object or SOMETHING)} is not in my hand any more"
         )

@@ -35,4 +35,4 @@ class Take(Deed):
         """It may have fallen since."""
         if situation.has_it:
             return why
-        return f"the {situation.object} is not in my hand any more"
+        return f"the {situation.request.object} is not in my hand any more"

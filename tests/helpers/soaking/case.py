@@ -268,8 +268,8 @@ class Soak:
         self._chaos.rate, self._person.helpful = 0.0, 1.0
         self._chaos._stops_at.clear()
         self._inbox.take_all()
-        if self._session.mishaps:
-            self._session.mishaps._chances.clear()
+        if self._session.injector:
+            self._session.injector._chances.clear()
         if self._settings.action_timeout_s < 60:
             return
         world = self._session.world
