@@ -62,7 +62,7 @@ def build(knowledge: str, elicit: str) -> Behaviour:
         user=nobody,
         knowledge=nobody,
         model=llm,
-        advisor=llm,
+        advice=llm,
         parameters=Parameters(elicit=elicit),
     )
     return mission(build_context(parts, Situation()))

@@ -4,8 +4,8 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.types import CommandKind
 from trees.context import MissionContext
+from trees.deeds.deed import meaning
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.robot import DriveToCandidate, PickUp
 from trees.search import look_over, search
@@ -16,8 +16,9 @@ def grasp(context: MissionContext) -> Behaviour:
     situation = context.situation
 
     def may_stay() -> bool:
-        delivered = situation.request.asks_to(CommandKind.BRING) and situation.search.is_delivered
-        return delivered or situation.request.asks_to(CommandKind.FIND)
+        asked, found = meaning(situation), situation.search.found
+        is_there = asked.carries and found is not None and found.place == asked.ends_at
+        return is_there or not asked.grasps
 
     return fallback(
         "grasp",

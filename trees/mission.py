@@ -9,14 +9,14 @@ confirmed     hand is free    place; else LLM, verified if gone, search    table
 """
 
 from py_trees.behaviour import Behaviour
-from py_trees.common import Status
 
-from executive.types import CommandKind, MissionStatus
-from trees.act import act, asked_to
+from executive.types import PERSON
+from trees.act import act, without_a_search
 from trees.context import MissionContext
+from trees.deeds.deed import Conclude, meaning
 from trees.grasp import grasp
-from trees.hand import empty_hand, hand_is_free
-from trees.nodes import Check, Optionally, Step, fallback, sequence, stages
+from trees.hand import hand_is_free
+from trees.nodes import Check, Optionally, fallback, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.robot import DriveBack
@@ -32,11 +32,7 @@ def mission(context: MissionContext) -> Behaviour:
         stages(
             "serve",
             understand(context),
-            Check(
-                "about a thing to look for",
-                context,
-                lambda: not situation.request.asks_to(CommandKind.PUT_DOWN),
-            ),
+            Check("about a thing to look for", context, lambda: meaning(situation).searches),
             resolve_object(context),
             *eyes_for_it(context),
             hand_is_free(context),
@@ -45,13 +41,8 @@ def mission(context: MissionContext) -> Behaviour:
             act(context),
             Conclude("done", context),
         ),
-        stages(
-            "put down",
-            asked_to(context, CommandKind.PUT_DOWN),
-            empty_hand(context),
-            Conclude("done", context),
-        ),
-        stages("give up", come_back(context), Apologise("apologise", context)),
+        *without_a_search(context),
+        sequence("give up", come_back(context), Apologise("apologise", context)),
     )
 
 
@@ -63,15 +54,6 @@ def come_back(context: MissionContext) -> Behaviour:
         sequence(
             "come back",
             Check("is away", context, lambda: context.situation.dialogue.away),
-            DriveBack("drive", context, "person"),
+            DriveBack("drive", context, PERSON),
         ),
     )
-
-
-class Conclude(Step):
-    """Marks the mission as done."""
-
-    def update(self) -> Status:
-        """Done."""
-        self.situation.ending.status = MissionStatus.DONE
-        return Status.SUCCESS

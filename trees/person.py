@@ -2,6 +2,7 @@
 
 import re
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import replace
 
 from py_trees.common import Status
@@ -12,6 +13,14 @@ from executive.text import printable, too_long
 from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
+
+SAYS: Mapping[str, str] = {
+    Source.ONTOLOGY: "that is its place",
+    Source.LLM: "the language model's guess",
+    Source.USER: "as you said",
+    Source.MEMORY: "I remember it there",
+}
+"""How the person is told who names a place to look at; other sources say it themselves."""
 
 
 class Ask(Action):
@@ -284,15 +293,10 @@ class Announce(Step):
 
     def update(self) -> Status:
         """Say it."""
-        says = {
-            Source.ONTOLOGY: "that is its place",
-            Source.LLM: "the language model's guess",
-            Source.USER: "as you said",
-            Source.MEMORY: "I remember it there",
-        }
+        says = {**SAYS, **{source.name: source.says for source in self.context.sources}}
         candidates = self.situation.search.candidates
         places = ", then ".join(candidate.place for candidate in candidates)
-        why = says[candidates[0].source]
+        why = printable(says.get(candidates[0].source, f"so says the {candidates[0].source}"))
         tell(self.context, f"I look for the {self.situation.request.object} at {places}: {why}.")
         return self.succeed(places)
 

@@ -6,9 +6,10 @@ from py_trees.common import Status
 from executive.records import Activity
 from executive.types import Candidate
 from trees.context import MissionContext
-from trees.location import MemoryKnowsPlaces, resolve_location
+from trees.location import resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Announce, AskWhere
+from trees.recall import MemoryKnowsPlaces, Recall
 from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
 
 
@@ -23,6 +24,10 @@ def search(context: MissionContext) -> Behaviour:
         "search",
         Check("in my hand", context, lambda: situation.hand.in_hand == situation.request.object),
         look("look where it was", MemoryKnowsPlaces("memory knows it", context)),
+        *(
+            look(f"look where the {source.name} says", Recall("it knows a place", context, source))
+            for source in context.sources
+        ),
         look("look where it may be", resolve_location(context)),
         look(
             "look where the person says",

@@ -4,9 +4,9 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.types import Command, MissionStatus, Question, QuestionKind, Replied, Result, Scored
+from executive.types import MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
-from trees.location import ModelAction
+from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import Step, fallback, sequence
 from trees.person import AskYesNo
 
@@ -46,10 +46,7 @@ class ReadCommand(Step):
 
 
 class HasKnownName(Step):
-    """Succeeds if a known thing is named, so that there is something to do it with.
-
-    Reads request.words; writes request.guess.
-    """
+    """Succeeds if a known thing is named, so that there is something to do it with."""
 
     def update(self) -> Status:
         """Look for the names; a model that writes may still choose another."""
@@ -58,47 +55,6 @@ class HasKnownName(Step):
             return self.fail("no known thing is named")
         self.situation.request.guess = " and ".join(names)
         return self.succeed(self.situation.request.guess)
-
-
-class RankKinds(ModelAction):
-    """Has the kinds of command scored; what to do it with is what the words name.
-
-    Reads request.guess; writes request.command.
-    """
-
-    def start(self) -> int:
-        """Ask for the scores."""
-        return self.model.rank(self.advisor.command_ranking(self.situation.request.words))
-
-    def ended(self, result: Result) -> Status:
-        """Keep the likeliest."""
-        if not isinstance(result, Scored):
-            return self.failed(result)
-        kind, words = self.advisor.command_ranked(result), self.situation.request.words
-        self.situation.request.command = Command(kind, self.situation.request.guess, words)
-        return self.succeed(f"{kind} {self.situation.request.guess}")
-
-
-class WriteCommand(ModelAction):
-    """Has the model write kind and object, of which only what exists is taken.
-
-    Reads request.words; writes request.command.
-    """
-
-    def start(self) -> int:
-        """Ask."""
-        return self.model.chat(self.advisor.command_inquiry(self.situation.request.words))
-
-    def ended(self, result: Result) -> Status:
-        """Read and verify the reply."""
-        if not isinstance(result, Replied):
-            return self.failed(result)
-        read = self.advisor.command_read(result.text)
-        if read is None:
-            return self.fail("the language model named no command with a known thing")
-        kind, name = read
-        self.situation.request.command = Command(kind, name, self.situation.request.words)
-        return self.succeed(f"{kind} {name}")
 
 
 class ConfirmCommand(AskYesNo):
@@ -122,10 +78,7 @@ class ConfirmCommand(AskYesNo):
 
 
 class NotUnderstood(Step):
-    """What nobody can read is the person's to say again; always fails.
-
-    Clears request.command; writes ending.status.
-    """
+    """What nobody can read is the person's to say again; always fails."""
 
     def update(self) -> Status:
         """Say what can be said."""

@@ -9,16 +9,15 @@ from contextlib import ExitStack
 from typing import TextIO
 
 from executive.app.embodiment import Embodiment, Setup
-from executive.app.parts import Parts, build_advisor, parameters_of
+from executive.app.parts import Parts, build_advice, parameters_of
 from executive.app.worlds import embody
 from executive.config import Settings
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.guards import GuardedModel, in_words
-from executive.interfaces import LanguageModel, Recorder, SimulatedHome, User
+from executive.interfaces import Advice, LanguageModel, Recorder, SimulatedHome, User
 from executive.types import ChatRequest, RankRequest
 from executive.user import Console, Nobody, Oracle
-from kb.advice.advisor import PlaceAdvisor
 from kb.advice.prompts import Prompts
 from kb.facts import FactStore
 from kb.llm.open import model_for_missions
@@ -56,11 +55,11 @@ def build_parts(
     knowledge = read_ontology(settings, home)
     facts = FactStore(settings.memory, learns=settings.learn)
     opened.callback(facts.close)
-    advisor = None
+    advice = None
     if model:
         guarded = GuardedModel(model, inbox, recorder)
-        advisor = build_advisor(settings, knowledge, guarded, prompts, facts)
-        guarded.prepare(anything(settings, advisor))
+        advice = build_advice(settings, knowledge, guarded, prompts, facts)
+        guarded.prepare(anything(settings, advice))
     embodiment = embody(Setup(settings, home, inbox, recorder, knowledge, gui))
     opened.callback(close_safely, embodiment)
     if embodiment.blind_to:
@@ -76,7 +75,7 @@ def build_parts(
         user=user or build_user(settings, inbox, embodiment.truth, out),
         knowledge=knowledge,
         model=model,
-        advisor=advisor,
+        advice=advice,
         prompts=prompts,
         facts=facts,
         in_map=embodiment.in_map,
@@ -106,10 +105,11 @@ def blindness(names: Sequence[str]) -> str:
     return f"the detector does not know {', '.join(names)}, and would not see it: {right}"
 
 
-def anything(settings: Settings, advisor: PlaceAdvisor) -> ChatRequest | RankRequest:
+def anything(settings: Settings, advice: Advice) -> ChatRequest | RankRequest:
     """What the model prepares for: a question about any thing."""
-    ask = advisor.ranking if settings.elicitation == "rank" else advisor.inquiry
-    return ask(ANYTHING, ())
+    if settings.elicitation == "rank":
+        return advice.ranker.ranking(ANYTHING, ())
+    return advice.lister.inquiry(ANYTHING, ())
 
 
 def close_safely(embodiment: Embodiment) -> None:

@@ -11,15 +11,17 @@ from executive.guards import (
     GuardedPerception,
     GuardedRecorder,
     GuardedRobot,
+    GuardedSource,
     GuardedUser,
 )
 from executive.interfaces import (
-    Advisor,
+    Advice,
     Clock,
     Facts,
     Interpreter,
     LanguageModel,
     Perception,
+    PlaceSource,
     Recorder,
     Robot,
     Tree,
@@ -29,7 +31,7 @@ from executive.language.grammar import EnglishInterpreter
 from executive.loop import Executive
 from executive.situation import Situation
 from executive.types import DELIVERY, Vector3
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.advisor import advise
 from kb.advice.prompts import Prompts
 from kb.ontology.ontology import Ontology
 from sim.home.home import Furniture, Home
@@ -68,9 +70,10 @@ class Parts:
     user: User
     knowledge: Ontology
     model: LanguageModel | None = None
-    advisor: Advisor | None = None
+    advice: Advice | None = None
     prompts: Prompts | None = None
     facts: Facts = NoFacts()
+    sources: tuple[PlaceSource, ...] = ()
     interpreter: Interpreter = EnglishInterpreter()
     in_map: bool = False
     blind_to: tuple[str, ...] = ()
@@ -90,21 +93,21 @@ def as_they_are(parts: Parts) -> Parts:
 def advised(parts: Parts) -> Parts:
     """With our adviser, who puts questions to the model; with none if there is no model."""
     if parts.model is None:
-        return replace(parts, advisor=None)
+        return replace(parts, advice=None)
     model = guarded_model(parts, parts.model)
-    advisor = build_advisor(parts.settings, parts.knowledge, model, parts.prompts, parts.facts)
-    return replace(parts, advisor=advisor)
+    advice = build_advice(parts.settings, parts.knowledge, model, parts.prompts, parts.facts)
+    return replace(parts, advice=advice)
 
 
-def build_advisor(
+def build_advice(
     settings: Settings,
     knowledge: Ontology,
     model: LanguageModel,
     prompts: Prompts | None,
     facts: Facts,
-) -> PlaceAdvisor:
+) -> Advice:
     """Our adviser, as the settings have it."""
-    return PlaceAdvisor(
+    return advise(
         knowledge,
         model,
         remembers=settings.remembers,
@@ -156,9 +159,10 @@ def build_context(parts: Parts, situation: Situation) -> MissionContext:
         perception=GuardedPerception(parts.perception, inbox, recorder),
         user=GuardedUser(parts.user, inbox, recorder),
         model=guarded_model(parts, parts.model) if parts.model else None,
-        advisor=parts.advisor,
+        advice=parts.advice,
         parameters=parts.parameters,
         facts=parts.facts,
+        sources=tuple(GuardedSource(source, recorder) for source in parts.sources),
         place_at=place_at(parts),
         near_person=near_person(parts.home),
         blind_to=parts.blind_to,

@@ -5,6 +5,7 @@ import sys
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
@@ -17,7 +18,7 @@ from executive.app.run_folder import new_folder, to_json, write
 from executive.config import Settings
 from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
 from executive.guards import GuardedRecorder, GuardedRobot, GuardedUser, in_words
-from executive.interfaces import LanguageModel, User
+from executive.interfaces import LanguageModel, PlaceSource, User
 from executive.language.control import control
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
@@ -49,6 +50,7 @@ class Session:
         out: TextIO | None = None,
         recorded: bool = True,
         sinks: Sequence[Sink] = (),
+        sources: Sequence[PlaceSource] = (),
         policy: str = OURS,
         change: Change = as_they_are,
     ) -> None:
@@ -56,6 +58,7 @@ class Session:
 
         The robot's words go to `out` (default: standard error). Missions that are not `recorded`
         leave no folder; `sinks` are told everything in either case, and closed after each mission.
+        `sources` know where things are, and are asked in this order, after the robot's own memory.
         `change` puts in other parts; recordings call it by the name of the `policy`.
 
         Raises:
@@ -76,7 +79,7 @@ class Session:
                 out=out or sys.stderr,
                 gui=gui,
             )
-            self.parts = change(parts)
+            self.parts = change(replace(parts, sources=tuple(sources)))
             """Whom missions are run with."""
             self._recording = None
             if recorded:

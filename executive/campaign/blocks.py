@@ -131,10 +131,10 @@ class _Rest:
         It keeps that if the system has a memory.
         """
         chosen = self._policy(parts)
-        if chosen.advisor:
+        if chosen.advice:
             for said, reply in self._dialogue:
                 request = ChatRequest("recalled", (Message("user", said),))
-                chosen.advisor.remember(request, reply)
+                chosen.advice.lister.remember(request, reply)
         return chosen
 
     def close(self) -> None:

@@ -17,7 +17,7 @@ from executive.app.parts import Change, Parts, advised, as_they_are, guarded_mod
 from executive.campaign.routes import routes_of
 from executive.config import KnowledgeSystem
 from executive.events import Inbox
-from executive.interfaces import LanguageModel
+from executive.interfaces import Advice, LanguageModel
 from executive.types import (
     ChatRequest,
     Failed,
@@ -27,7 +27,10 @@ from executive.types import (
     Usage,
     Verdict,
 )
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.advisor import advise
+from kb.advice.lister import Lister
+from kb.advice.ranker import Ranker
+from kb.advice.reader import Reader
 from kb.advice.verification import Reply
 from kb.ontology.names import unique
 from kb.ontology.ontology import Ontology
@@ -104,12 +107,12 @@ class Indifferent:
         """Nothing to free."""
 
 
-class Ordered(PlaceAdvisor):
+class Ordered(Ranker):
     """Names the places in a given order, for a model to which they are all alike."""
 
-    def __init__(self, parts: Parts, model: LanguageModel, order: Order) -> None:
+    def __init__(self, parts: Parts, order: Order) -> None:
         """Order the places of the mission's home."""
-        super().__init__(parts.knowledge, model, remembers=False)
+        super().__init__(parts.knowledge)
         self._order = order
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
@@ -187,7 +190,9 @@ def baseline(description: str, rule: Callable[[Parts], Order]) -> Policy:
         if parts.settings.knowledge == KnowledgeSystem.OKB:
             return parts
         model = Indifferent(parts.inbox)
-        return replace(parts, model=model, advisor=Ordered(parts, model, rule(parts)))
+        usual = advise(parts.knowledge, model, remembers=False)
+        advice = replace(usual, ranker=Ordered(parts, rule(parts)))
+        return replace(parts, model=model, advice=advice)
 
     return Policy(description, {"llm": "none", "elicit": "rank"}, change)
 
@@ -246,7 +251,7 @@ def no_home(request: ChatRequest) -> ChatRequest:
     return replace(any_names(request), messages=(Message("system", WITHOUT_A_HOME), *told))
 
 
-class Unverified(PlaceAdvisor):
+class Unverified(Lister):
     """Takes every name for a place."""
 
     def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
@@ -269,14 +274,16 @@ def unverified(parts: Parts) -> Parts:
     if parts.model is None:
         return parts
     settings = parts.settings
-    advisor = Unverified(
+    lister = Unverified(
         parts.knowledge,
         guarded_model(parts, parts.model),
         remembers=settings.remembers,
         top=settings.top,
         prompts=parts.prompts,
     )
-    return replace(parts, advisor=advisor)
+    reader = Reader(parts.knowledge, prompts=parts.prompts)
+    advice = Advice(lister, Ranker(parts.knowledge, prompts=parts.prompts), reader)
+    return replace(parts, advice=advice)
 
 
 WRITES, HELD = {"elicit": "generate", "grammar": False}, {"elicit": "generate", "grammar": True}

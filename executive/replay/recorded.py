@@ -10,6 +10,7 @@ from typing import TypeVar
 from pydantic import TypeAdapter, ValidationError
 
 from executive.app.parts import OURS, Change, Parts, advised, as_they_are, parameters_of
+from executive.app.sources import read
 from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
@@ -54,6 +55,7 @@ def recorded_parts(run: Run, inbox: Inbox, absent: Absent, clock: Clock, judge: 
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
         facts=FactStore.believing(_beliefs(run), learns=settings.learn),
+        sources=read(str(run.path), run.attachments.get("sources.json", b"[]")),
         in_map=body.in_map,
         blind_to=body.blind_to,
         parameters=parameters_of(settings),

@@ -6,7 +6,7 @@ from typing import Any
 
 from executive.situation.looks import Looks
 from executive.situation.snapshot import PART, logged_as
-from executive.types import DELIVERY, Candidate, Detection, Source
+from executive.types import DELIVERY, Candidate, Detection
 
 
 @dataclass
@@ -74,6 +74,6 @@ class Search:
         return "; ".join(self.looks.clauses(thing or "thing"))
 
 
-def candidates_from(places: Iterable[str], source: Source) -> tuple[Candidate, ...]:
+def candidates_from(places: Iterable[str], source: str) -> tuple[Candidate, ...]:
     """Candidates without probabilities, in the given order."""
     return tuple(Candidate(place, source) for place in places)

@@ -18,7 +18,7 @@ from executive.app.parts import (
 from executive.app.simulation import fake
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Detector, Facts, Tree, User
+from executive.interfaces import Detector, Facts, PlaceSource, Tree, User
 from executive.perception.pipeline import CameraPerception
 from executive.records import Record, Tick, Verified
 from executive.situation import Situation
@@ -109,6 +109,7 @@ def run_mission(
     first: Iterable[Event] = (),
     notebook: Notebook | None = None,
     facts: Facts | None = None,
+    sources: Iterable[PlaceSource] = (),
     detector: Callable[[FakeWorld], Detector] | None = None,
     change: Change = as_they_are,
     build: Callable[[MissionContext], Tree] = mission_tree,
@@ -168,6 +169,7 @@ def run_mission(
         knowledge=knowledge,
         model=thinker,
         facts=facts or NoFacts(),
+        sources=tuple(sources),
         in_map=body.in_map,
         parameters=replace(parameters_of(settings), **(parameters or {})),
     )

@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from executive.text import writable
-from executive.types import Verdict
+from executive.types import Place, Verdict
 from kb.advice.lenient import Bare, values
 from kb.ontology.names import PlaceNames, unique
 
@@ -132,6 +132,11 @@ def _name(part: object) -> list[str] | None:
         lower = {key.strip().lower(): value for key, value in part.items()}
         part = next((lower[key] for key in NAME_KEYS if key in lower), None)
     return [part] if isinstance(part, str) else None
+
+
+def allowed(places: Sequence[Place], among: Sequence[str]) -> tuple[Place, ...]:
+    """The places that may be named: those of `among`; all, if that is empty."""
+    return tuple(place for place in places if not among or place.name in among)
 
 
 def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -> Verdict:

@@ -19,7 +19,6 @@ from executive.types import (
     RankRequest,
     Replied,
     Scored,
-    Source,
     Usage,
 )
 from logs.recording.schema import STATUS
@@ -283,7 +282,7 @@ def finished_from_message(message: Any) -> Finished:
     def optional(name: str) -> str | None:
         return getattr(message, name) if message.HasField(name) else None
 
-    kind, source = optional("kind"), optional("source")
+    kind = optional("kind")
     outcome = Outcome(
         command=message.command,
         kind=CommandKind(kind) if kind else None,
@@ -291,15 +290,13 @@ def finished_from_message(message: Any) -> Finished:
         object=optional("object"),
         status=MissionStatus(message.status),
         reason=message.reason,
-        source=Source(source) if source else None,
+        source=optional("source"),
         location=optional("location"),
         inquiries=whole(message.inquiries),
         visited=tuple(message.visited),
         llm_calls=whole(message.llm_calls),
         candidates=tuple(
-            Candidate(
-                c.place, Source(c.source), c.probability if c.HasField("probability") else None
-            )
+            Candidate(c.place, c.source, c.probability if c.HasField("probability") else None)
             for c in message.candidates
         ),
         mission_time_s=finite(message.mission_time_s),

@@ -16,11 +16,11 @@ from pydantic_core import ErrorDetails
 from executive.errors import InputError
 from executive.files import decoded, read_bytes
 from executive.toml_file import MOST_BYTES, parse_toml
-from executive.types import DELIVERY, Place, Pose, Thing, Vector3
+from executive.types import DELIVERY, PERSON, Place, Pose, Thing, Vector3
 from sim.home.arrangement import Spot, Standing, arrange
 from sim.home.floorplan import Door, Length, Room, Wall, walls
 from sim.home.furniture import Furniture, PlanarPose, PoseInDegrees, Surface
-from sim.home.naming import PERSON, usable
+from sim.home.naming import usable
 from sim.home.own import Entry, OwnObject, is_declaration
 from sim.home.validation import home_flaws, mesh_flaws, object_flaws, spot_flaws
 from sim.objects.objects import ObjectModel, load_objects

@@ -6,13 +6,12 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 from executive.language.control import control
-from executive.types import DELIVERY, FLOOR
+from executive.types import DELIVERY, FLOOR, HAND, PERSON
 
 LONGEST = 64
 """Characters of a name."""
-PERSON = "person"
 TAKEN = frozenset(
-    {PERSON, DELIVERY, FLOOR, "hand", "gripper", "robot", "map", "base_link", "world", "home"}
+    {PERSON, DELIVERY, FLOOR, HAND, "gripper", "robot", "map", "base_link", "world", "home"}
     | {"camera", "everywhere", "nowhere", "nothing", "none", "here", "there", "yes", "no", "stop"}
     | {"quit", "exit", "unknown"}
 )

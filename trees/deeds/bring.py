@@ -1,16 +1,60 @@
-"""Carry the thing to the delivery table and put it down: there, or on the nearest furniture."""
+"""Bring a thing: carry it to the delivery table and put it down, there or on other furniture."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import DELIVERY, FLOOR
+from executive.types import DELIVERY, FLOOR, CommandKind, Outcome
 from trees.context import MissionContext
+from trees.deeds.deed import Deed, asked_to, found_at_a_place
+from trees.deeds.put_down import put_down_somewhere
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import the
-from trees.put_down import put_down_somewhere
+from trees.person import Report, the
 from trees.robot import DriveBack, LookForLost, PickUp, PutDownAt, SeeLost
+
+
+class Bring(Deed):
+    """As in "Bring me the mug"."""
+
+    kind = CommandKind.BRING
+
+    def ways(self, context: MissionContext) -> Iterable[Behaviour]:
+        """It may be on the delivery table already."""
+        situation = context.situation
+        yield sequence(
+            "is there already",
+            asked_to(context, self.kind),
+            Check("at the delivery place", context, lambda: situation.search.is_delivered),
+            Report("report", context, "The {object} is here already, on the delivery table."),
+        )
+        yield sequence("bring", asked_to(context, self.kind), deliver(context), say_where(context))
+
+    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+        """It is on the delivery table."""
+        return whereabouts == DELIVERY
+
+
+def say_where(context: MissionContext) -> Behaviour:
+    """Tell where it is now, if that is not the delivery table, else where it was."""
+    return fallback(
+        "say so",
+        sequence(
+            "elsewhere",
+            Check("on other furniture", context, lambda: context.situation.hand.put_at != DELIVERY),
+            Report(
+                "report",
+                context,
+                "I put the {object} on {surface}; I could not put it on the delivery table: {why}.",
+            ),
+        ),
+        sequence(
+            "from there",
+            found_at_a_place(context),
+            Report("report", context, "Here is the {object} from {place}."),
+        ),
+        Report("report", context, "Here is the {object}."),
+    )
 
 
 def deliver(context: MissionContext) -> Behaviour:
