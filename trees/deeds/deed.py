@@ -21,9 +21,9 @@ class Deed(ABC):
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
         """The subtrees that do it, the best first; each begins with `asked_to`.
 
-        The thing was found by then, if the verb searches (`situation.found`; None if it was in the
-        hand all along), and is in the hand, if the verb grasps. One that succeeds has said so; if
-        the verb does not search, it ends with `Conclude`, too.
+        If the verb searches, the thing was found by then, or was in the hand all along; if it
+        grasps, the thing is in the hand. A way that succeeds has said so; if the verb does not
+        search, it ends with `Conclude`, too.
         """
 
     @abstractmethod

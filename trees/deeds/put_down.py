@@ -51,7 +51,7 @@ def empty_hand(context: MissionContext) -> Behaviour:
 
 
 def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behaviour:
-    """A full hand -> `situation.put_at`: the places of `first`, then near ones, then asked for."""
+    """A full hand -> `put_at`: the places of `first`, then near ones, then asked for."""
     situation = context.situation
 
     def near() -> Iterator[str]:
