@@ -12,7 +12,9 @@ This file is the library's table of contents. Nothing is imported before its nam
 
     run missions         Session, Settings, load_settings, KnowledgeSystem
     what came of it      Outcome, MissionStatus, Source
-    to be implemented    Robot, Camera, Detector, Perception, LanguageModel, User, Clock, Sink
+    to be implemented    Robot, Camera, Detector, Perception, LanguageModel, User, PlaceSource,
+                         Clock, Sink
+    a robot of one's own Setup, Embodiment
     how slow things end  Inbox, StopRequested
     what a robot is told Goal: DriveTo, LookAt, Pick, PutDown, Halt; DELIVERY, FLOOR
     what may come back   Result: Succeeded, Failed, Saw, Replied, Scored, Answered
@@ -30,6 +32,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from executive.app.embodiment import Embodiment, Setup
     from executive.app.session import Session
     from executive.config import KnowledgeSystem, Settings, load_settings
     from executive.errors import ExecutiveError, InputError, ModelError
@@ -40,6 +43,7 @@ if TYPE_CHECKING:
         Detector,
         LanguageModel,
         Perception,
+        PlaceSource,
         Recorder,
         Robot,
         User,
@@ -90,6 +94,7 @@ __all__ = [
     "Detection",
     "Detector",
     "DriveTo",
+    "Embodiment",
     "ExecutiveError",
     "Failed",
     "Frame",
@@ -107,6 +112,7 @@ __all__ = [
     "Outcome",
     "Perception",
     "Pick",
+    "PlaceSource",
     "Pose",
     "PutDown",
     "Question",
@@ -120,6 +126,7 @@ __all__ = [
     "Scored",
     "Session",
     "Settings",
+    "Setup",
     "Sink",
     "Source",
     "StopRequested",
@@ -131,6 +138,7 @@ __all__ = [
 
 _ELSEWHERE = {
     "CameraPerception": "executive.perception.pipeline",
+    "Embodiment": "executive.app.embodiment",
     "ExecutiveError": "executive.errors",
     "Inbox": "executive.events",
     "InputError": "executive.errors",
@@ -138,6 +146,7 @@ _ELSEWHERE = {
     "ModelError": "executive.errors",
     "Session": "executive.app.session",
     "Settings": "executive.config",
+    "Setup": "executive.app.embodiment",
     "Sink": "logs.recorder",
     "StopRequested": "executive.events",
     "load_settings": "executive.config",
@@ -148,6 +157,7 @@ _ELSEWHERE = {
             "Detector",
             "LanguageModel",
             "Perception",
+            "PlaceSource",
             "Recorder",
             "Robot",
             "User",

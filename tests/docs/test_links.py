@@ -17,10 +17,6 @@ FILE = re.compile(rf"(?<![\w/.-])(?:{PACKAGES}|tests|docs)/[\w/.-]*\w/?")
 MODULE = re.compile(rf"\b(?:python -m|from|import) ((?:{PACKAGES})(?:\.\w+)*)\b")
 NAME = re.compile(rf"`((?:{PACKAGES})(?:\.\w+)+)")
 TO_BE_WRITTEN = {
-    "docs/examples/own_source.py",
-    "docs/examples/own_verb.md",
-    "executive/language/verbs.py",
-    "trees/deeds",
     "trees/deeds/show.py",
 }
 """What a page has its reader write."""

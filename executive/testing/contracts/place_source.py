@@ -3,24 +3,11 @@
 Provide a fixture `source_bench` that yields a `SourceBench`.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import pytest
 
-
-class PlaceSource(Protocol):
-    """Something that knows where things are."""
-
-    @property
-    def name(self) -> str:
-        """Who says so, in a word."""
-        ...
-
-    def places_of(self, name: str) -> Sequence[str]:
-        """Where the object may be, the likeliest first."""
-        ...
+from executive.interfaces import PlaceSource
 
 
 @dataclass
@@ -37,6 +24,11 @@ class PlaceSourceContract:
 
     def test_its_name_is_a_word(self, source_bench: SourceBench) -> None:
         assert source_bench.source.name.isidentifier()
+
+    def test_it_is_told_of_in_a_clause(self, source_bench: SourceBench) -> None:
+        says = source_bench.source.says
+        assert says.strip() == says != ""
+        assert not says.endswith(".")
 
     def test_it_says_where_a_thing_is_and_says_it_again(self, source_bench: SourceBench) -> None:
         for _ in range(2):
