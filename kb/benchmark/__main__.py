@@ -24,6 +24,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.geometry import Floats
 from executive.interfaces import LanguageModel
+from executive.language.phrases import words_of
 from executive.shell import DONE, entry_point
 from executive.usage import Parser
 from kb.advice.prompts import Prompts
@@ -36,7 +37,6 @@ from kb.llm.key import Key
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.precedents import log_expected, shares, usual
 from kb.llm.server.server import Server
-from kb.ontology.names import words_of
 
 DATA = ("survey", "survey-rest", "placements", "placements-new")
 CHANCE = "chance"

@@ -7,11 +7,11 @@ from itertools import islice
 from rdflib import RDFS, BNode, Literal, URIRef
 from rdflib.term import Identifier
 
-from executive.language.control import control
+from executive.language.naming import heard_as
+from executive.language.phrases import Words, words_of
 from executive.text import printable
 from kb.ontology.dangling import dangling
 from kb.ontology.graph import STANDARDS, Graph
-from kb.ontology.names import Words, words_of
 from kb.ontology.owl import ending
 
 ROOTS = ("Object", "Furniture", "Room", "Person")
@@ -104,9 +104,8 @@ def _taken(graph: Graph, things: Iterable[Identifier]) -> Iterator[str]:
             if words_of(name) in taken:
                 fault = f"{ending(thing)} is called {name!r}, as the robot calls something else"
                 yield f"{fault}: rename it"
-            elif control(name):
-                fault = f"{ending(thing)} is called {name!r}, which tells the robot to stop"
-                yield f"{fault}: rename it"
+            elif meaning := heard_as(name):
+                yield f"{ending(thing)} is called {name!r}, which {meaning}: rename it"
 
 
 def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:

@@ -13,10 +13,11 @@ from rdflib import OWL as OWL_
 from rdflib import RDF, RDFS
 
 from executive.errors import InputError
+from executive.language.phrases import stem, words_of
 from executive.testing.bench import four_rooms, ontology
 from executive.types import Place
 from kb.__main__ import main
-from kb.ontology.names import PlaceNames, stem, words_of
+from kb.ontology.names import PlaceNames
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
 from sim.home.home import home_text
 

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.events import Inbox
+from executive.language.phrases import spoken
 from executive.testing.bench import four_rooms, ontology
 from executive.types import Place, RankRequest, Scored, Source, Usage
 from kb.advice.advisor import PlaceAdvisor
@@ -14,7 +15,6 @@ from kb.advice.prompts import Prompts
 from kb.advice.ranking import MOST_PRECEDENTS, Known, answer, rank_request, ranked
 from kb.facts import FactStore
 from kb.llm.scripted import Scripted
-from kb.ontology.names import spoken
 
 PLACES = four_rooms().places()
 
