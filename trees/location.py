@@ -15,7 +15,7 @@ from executive.situation import Consultation, candidates_from
 from executive.types import DELIVERY, ChatRequest, Replied, Result, Scored, Source
 from trees.context import MissionContext
 from trees.nodes import Action, Check, EachOf, Optionally, Step, fallback, sequence, why_of
-from trees.person import AskWhere, tell
+from trees.person import AskWhere, sentence, tell
 
 
 def resolve_location(context: MissionContext) -> Behaviour:
@@ -170,7 +170,7 @@ class ModelAction(Action):
         """Once a mission."""
         if not self.situation.model_failure:
             self.situation.model_failure = why
-            tell(self.context, f"My language model does not answer: {why}.")
+            tell(self.context, sentence(f"My language model does not answer: {why}"))
 
 
 class RankPlaces(ModelAction):

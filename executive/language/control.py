@@ -126,7 +126,7 @@ def _each(name: str) -> frozenset[str]:
     return frozenset(_FILE[name].split())
 
 
-_URGENT = frozenset(_FILE["urgent"])
+_URGENT: frozenset[str] = frozenset(_FILE["urgent"])
 _SQUEEZED = {
     _squeezed(word + ending): word for word in _URGENT for ending in ("", "e", "en", "ing")
 }

@@ -10,7 +10,7 @@ from rdflib.term import Identifier
 from executive.language.naming import heard_as
 from executive.language.phrases import Words, words_of
 from executive.text import printable
-from kb.ontology.dangling import dangling
+from kb.ontology.dangling import broken_lists, dangling
 from kb.ontology.graph import STANDARDS, Graph
 from kb.ontology.owl import ending
 
@@ -34,6 +34,7 @@ def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterato
     roots = {name: URIRef(namespace + name) for name in ROOTS}
     links = list(dangling(graph, strict=imports_met))
     yield from _some(dict.fromkeys(map(str, links)), "links to nothing")
+    yield from _some(broken_lists(graph), "broken lists")
     yield from _some(_cycles(graph), "circles")
     told = {link.subject for link in links}
     yield from _some(_outsiders(graph, list(roots.values()), told), "in no class")

@@ -242,7 +242,7 @@ def test_an_unknown_thing_has_no_class():
     [
         ("this is none", "more.owl: is no ontology: it begins with 'this is none'; save it as RDF"),
         ("<rdf:RDF>", "more.owl: is not XML: unbound prefix"),
-        ("<html></html>", "more.owl: begins with <html>; save it as RDF/XML or Turtle"),
+        ("<htm></htm>", "more.owl: begins with <htm>; save it as RDF/XML or Turtle"),
     ],
 )
 def test_a_broken_file_is_refused(tmp_path, content, fault):
