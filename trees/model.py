@@ -9,7 +9,7 @@ from executive.records import Activity
 from executive.types import ChatRequest, Command, Replied, Result, Scored, Source
 from trees.context import MissionContext
 from trees.nodes import Action, why_of
-from trees.person import tell
+from trees.person import sentence, tell
 
 
 class ModelAction(Action):
@@ -58,7 +58,7 @@ class ModelAction(Action):
         """Once a mission."""
         if not self.situation.model.failure:
             self.situation.model.failure = why
-            tell(self.context, f"My language model does not answer: {why}.")
+            tell(self.context, sentence(f"My language model does not answer: {why}"))
 
 
 class RankPlaces(ModelAction):

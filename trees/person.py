@@ -21,6 +21,7 @@ SAYS: Mapping[str, str] = {
     Source.MEMORY: "I remember it there",
 }
 """How the person is told who names a place to look at; other sources say it themselves."""
+NO_PLACE = "I know no such place. "
 
 
 class Ask(Action):
@@ -36,6 +37,7 @@ class Ask(Action):
         """Wait for each answer as long as the parameters allow."""
         super().__init__(name, context, context.parameters.answer_s)
         self._tries = 0
+        self._commanded = False
 
     @abstractmethod
     def question(self) -> Question:
@@ -49,19 +51,24 @@ class Ask(Action):
     def unresolved(self) -> str:
         """What stays unknown without an answer, as a clause."""
 
+    def busy(self) -> str:
+        """What goes on, for who gives a command instead of an answer, as a clause."""
+        return "I am still at what you asked for before"
+
     def declines(self, answer: str) -> bool:
         """Whether the answer is that there is none."""
         return self.context.interpreter.declines(answer)
 
     def initialise(self) -> None:
         """Ask for the first time."""
-        self._tries = 0
+        self._tries, self._commanded = 0, False
         super().initialise()
 
     def start(self) -> int:
         """Ask."""
         question = self.question()
-        question = replace(question, text=printable(question.text))
+        first = f"{self.busy()}; say stop to end that. " if self._commanded else ""
+        question = replace(question, text=printable(first + question.text))
         self._tries += 1
         self.situation.dialogue.inquiries += 1
         self.context.recorder.record(Utterance("robot", question.text))
@@ -77,6 +84,7 @@ class Ask(Action):
             return self._no_help("you could not tell me")
         if not unread and self.understood(result.text):
             return self.succeed(result.text)
+        self._commanded = self.context.interpreter.command(result.text) is not None
         if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
@@ -192,7 +200,12 @@ class AskWhichObject(Ask):
 
     def understood(self, answer: str) -> bool:
         """One object is enough; several narrow the next question down."""
+        command = self.context.interpreter.command(answer)
         named = self.context.knowledge.objects_named(answer)
+        if (
+            self.situation.request.options and command and not named
+        ):  # "Bring the banana", one of them
+            named = self.context.knowledge.objects_named(command.target)
         if self.situation.request.options:
             named = tuple(n for n in named if n in self.situation.request.options)
         if len(named) > 1:
@@ -225,8 +238,12 @@ class AskWhere(Ask):
             text = f"{so_far}. {text}"
         if self._tries:
             known = ", ".join(place.name for place in self.context.knowledge.places())
-            text = f"I know no such place. {text} I know: {known}."
+            text = f"{NO_PLACE * (not self._commanded)}{text} I know: {known}."
         return Question(QuestionKind.WHERE_IS, name, text)
+
+    def busy(self) -> str:
+        """It is looked for."""
+        return f"I am still looking for the {self.situation.request.object}"
 
     def understood(self, answer: str) -> bool:
         """Any places that exist become the candidates."""
@@ -255,8 +272,13 @@ class AskWhereToPut(Ask):
         text = f"{self.unresolved()}. Where shall I put {the(held)}?"
         if self._tries:
             known = ", ".join(place.name for place in self.context.knowledge.places())
-            text = f"I know no such place. Where shall I put {the(held)}? I know: {known}."
+            text = f"Where shall I put {the(held)}? I know: {known}."
+            text = NO_PLACE * (not self._commanded) + text
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
+
+    def busy(self) -> str:
+        """It is in the hand."""
+        return f"I am still holding {the(self.situation.hand.in_hand or '')}"
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
@@ -338,7 +360,7 @@ class Apologise(Step):
     def update(self) -> Status:
         """Say why the last thing failed that was tried."""
         self.situation.ending.tell(self.why_before())
-        tell(self.context, f"Sorry: {self.situation.ending.why}.")
+        tell(self.context, sentence(f"Sorry: {self.situation.ending.why}"))
         return self.succeed(self.situation.ending.why)
 
 
@@ -347,6 +369,11 @@ def tell(context: MissionContext, text: str) -> None:
     said = printable(text)
     context.recorder.record(Utterance("robot", said))
     context.user.tell(said)
+
+
+def sentence(text: str) -> str:
+    """The text with a full stop, unless it has an end."""
+    return text if text.endswith((".", "!", "?", "…")) else f"{text}."
 
 
 def full_hand(held: str) -> str:

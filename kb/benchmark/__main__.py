@@ -25,6 +25,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.geometry import Floats
 from executive.interfaces import LanguageModel
+from executive.language.phrases import words_of
 from executive.options import add_setting
 from executive.shell import DONE, entry_point
 from executive.usage import Parser
@@ -36,7 +37,6 @@ from kb.benchmark.questions import DataSet, Item, placements, survey
 from kb.benchmark.trials import Answer, Journal, descending, ranking, writing
 from kb.llm.open import open_model
 from kb.llm.precedents import log_expected, shares, usual
-from kb.ontology.names import words_of
 
 DATA = ("survey", "survey-rest", "placements", "placements-new")
 CHANCE = "chance"

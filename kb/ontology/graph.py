@@ -7,8 +7,9 @@ from rdflib import OWL, RDF, RDFS, SKOS, BNode, Literal, URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
+from executive.language.phrases import words_of
 from executive.text import printable
-from kb.ontology.names import unique, words_of
+from kb.ontology.names import unique
 from kb.ontology.owl import Triple, ending
 
 STANDARDS = "http://www.w3.org/"

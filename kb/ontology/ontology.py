@@ -8,12 +8,13 @@ from rdflib import RDF, URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
+from executive.language.phrases import MOST_WORDS, spoken, words_of
 from executive.text import printable
 from executive.types import Place, Thing
 from kb.ontology.graph import Graph
 from kb.ontology.home_file import home_file
 from kb.ontology.library import Library
-from kb.ontology.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
+from kb.ontology.names import PlaceNames, index_by_words, unique
 from kb.ontology.owl import OwlFile, ending, read
 from kb.ontology.table import Table
 from kb.ontology.things import put_thing

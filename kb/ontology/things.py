@@ -6,9 +6,9 @@ from rdflib import URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
+from executive.language.phrases import words_of
 from executive.text import printable
 from kb.ontology.graph import Graph
-from kb.ontology.names import words_of
 from kb.ontology.owl import ending
 from kb.ontology.validation import ROOTS
 

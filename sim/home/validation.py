@@ -9,7 +9,7 @@ from executive.types import DELIVERY
 from sim.home.arrangement import NoRoomError
 from sim.home.floorplan import wall_axis, wall_lines
 from sim.home.furniture import FORM_OF_KIND
-from sim.home.naming import LONGEST, RULE, alike, folded, is_taken, name_fault
+from sim.home.naming import LONGEST, RULE, alike, folded, name_fault, taken_fault
 from sim.home.overlaps import overlapping
 from sim.objects.objects import load_objects
 
@@ -74,15 +74,21 @@ def _room_flaws(home: "Home") -> Iterator[Flaw]:
             yield f"{who}: ({x:g}, {y:g}) is outside of all rooms", "give a point in a room"
 
 
-def _taken(what: str, names: Sequence[str]) -> Iterator[Flaw]:
-    """Names that mean something else already, or that more than one goes by."""
+def _taken(what: str, names: Sequence[str], rooms: Sequence[str] = ()) -> Iterator[Flaw]:
+    """Names that mean something else already, or that more than one goes by.
+
+    Args:
+        what: what has these names.
+        names: what each is called.
+        rooms: what the room of each is called, if it is in one.
+    """
     things = {folded(name) for name in load_objects()}
     for name in names:
-        if is_taken(name):
-            yield f"{what} {name!r}: this name has a meaning of its own", "give another name"
+        if fault := taken_fault(name):
+            yield f"{what} {name!r}: {fault[0]}", fault[1]
         elif folded(name) in things:
             yield f"{what} {name!r}: this is the name of an object", "give another name"
-    for same in alike(names):
+    for same in alike(names, rooms):
         right = "give each its own name"
         if len(set(same)) == 1:
             yield f"{what} {same[0]!r} is there twice", right
@@ -93,8 +99,14 @@ def _taken(what: str, names: Sequence[str]) -> Iterator[Flaw]:
 
 def _furniture_flaws(home: "Home") -> Iterator[Flaw]:
     rooms = {room.name for room in home.rooms}
-    spoken = {folded(name): name for name in rooms}
-    yield from _taken("furniture", [piece.name for piece in home.furniture])
+    spoken = {folded(room.kind): room.name for room in home.rooms}
+    spoken |= {folded(name): name for name in rooms}
+    kinds = {room.name: room.kind for room in home.rooms}
+    yield from _taken(
+        "furniture",
+        [piece.name for piece in home.furniture],
+        [f"{piece.room} {kinds.get(piece.room, '')}" for piece in home.furniture],
+    )
     if home.delivery.name != DELIVERY:
         yield f"the delivery table is named {home.delivery.name}", f"name it {DELIVERY}"
     for piece in (*home.furniture, home.delivery):

@@ -21,12 +21,12 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from executive.events import Ended, Inbox
+from executive.language.phrases import spoken
 from executive.types import ChatRequest, Replied
 from kb.advice.lister import Lister
 from kb.advice.verification import Reply
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.scripted import Scripted
-from kb.ontology.names import spoken
 from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
 

@@ -1,18 +1,22 @@
-"""A list of places keeps the contract of a source."""
+"""All that says where things are keeps the contract of a source."""
 
 import pytest
 
+from executive.app.sources import WrittenSource
 from executive.testing.contracts.place_source import PlaceSourceContract, SourceBench
+from kb.facts import FactStore
+from trees.recall import Memory
 
 
-class Shelves:
-    name = "shelves"
-
-    def places_of(self, name: str) -> tuple[str, ...]:
-        return ("cabinet_kitchen",) if name == "mug" else ()
-
-
-class TestShelves(PlaceSourceContract):
+class TestMemory(PlaceSourceContract):
     @pytest.fixture
     def source_bench(self) -> SourceBench:
-        return SourceBench(Shelves(), "mug", ("cabinet_kitchen",))
+        facts = FactStore.believing({"mug": ["desk", "sofa"]}, learns=True)
+        return SourceBench(Memory(facts), "mug", ("desk", "sofa"))
+
+
+class TestWhatARecordingKept(PlaceSourceContract):
+    @pytest.fixture
+    def source_bench(self) -> SourceBench:
+        source = WrittenSource("calendar", "your calendar says so", {"mug": ("desk",)})
+        return SourceBench(source, "mug", ("desk",))

@@ -13,10 +13,11 @@ from rdflib import OWL as OWL_
 from rdflib import RDF, RDFS
 
 from executive.errors import InputError
+from executive.language.phrases import stem, words_of
 from executive.testing.bench import four_rooms, ontology
 from executive.types import Place
 from kb.__main__ import main
-from kb.ontology.names import PlaceNames, stem, words_of
+from kb.ontology.names import PlaceNames
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
 from sim.home.home import home_text
 
@@ -241,7 +242,7 @@ def test_an_unknown_thing_has_no_class():
     [
         ("this is none", "more.owl: is no ontology: it begins with 'this is none'; save it as RDF"),
         ("<rdf:RDF>", "more.owl: is not XML: unbound prefix"),
-        ("<html></html>", "more.owl: begins with <html>; save it as RDF/XML or Turtle"),
+        ("<htm></htm>", "more.owl: begins with <htm>; save it as RDF/XML or Turtle"),
     ],
 )
 def test_a_broken_file_is_refused(tmp_path, content, fault):

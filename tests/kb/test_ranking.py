@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from executive.language.phrases import spoken
 from executive.testing.bench import four_rooms, ontology
 from executive.types import Place, RankRequest, Scored, Source, Usage
 from kb.advice.prompts import Prompts
 from kb.advice.ranker import Ranker
 from kb.advice.ranking import MOST_PRECEDENTS, Known, answer, rank_request, ranked
 from kb.facts import FactStore
-from kb.ontology.names import spoken
 
 PLACES = four_rooms().places()
 
