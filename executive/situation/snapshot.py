@@ -45,7 +45,7 @@ def _logged(kind: type) -> tuple[tuple[str, str, Callable[[Any], Any] | None], .
 
 
 def _plain(value: Any) -> Any:
-    """The value made of lists, dictionaries and what they can hold."""
+    """The value made of lists, dictionaries and what they can hold; strange things as they are."""
     if value is None or isinstance(value, str | int | float):
         return value
     if isinstance(value, list | tuple):
@@ -54,4 +54,4 @@ def _plain(value: Any) -> Any:
         return {name: _plain(item) for name, item in value.items()}
     if is_dataclass(value):
         return {field.name: _plain(getattr(value, field.name)) for field in fields(value)}
-    raise TypeError(f"{type(value).__name__} does not fit in a log line")
+    return value

@@ -110,7 +110,7 @@ def _facts(
 ) -> Iterator[Aspect]:
     """Values that differ, as JSON would keep them."""
     for name, value in one.items():
-        if name in left_out or name not in other:
+        if name in left_out or name not in other or value is other[name]:
             continue
         texts = [json.dumps(v, default=_plain) for v in (value, other[name])]
         if texts[0] != texts[1]:
