@@ -122,7 +122,7 @@ def test_the_replay_of_a_recording_that_carries_it_runs_nothing(guest, monkeypat
 
 
 def executive_replay_forgets() -> None:
-    from executive.replay.replaying import _ontology
+    from executive.replay.recorded import _ontology
 
     _ontology.cache_clear()
 
