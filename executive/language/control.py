@@ -29,10 +29,11 @@ def control(words: str) -> Control | None:
     Case, punctuation, accents, full-width letters and politeness do not count. These say stop (the
     words are in assets/control.toml):
 
-    - a line that begins with an order: "halt", "wait a moment", "don't move"; one in a script
-      without blanks may stand anywhere;
+    - a line, or a clause, that begins with an order: "halt", "Find the mug, no, wait"; one in a
+      script without blanks may stand anywhere;
     - an urgent word anywhere ("I want you to stop"), unless it belongs to a name ("Find the stop
-      sign"), is denied ("don't stop") or is asked about ("Why did you stop?");
+      sign"), is denied ("don't stop") or is asked about ("Why did you stop?"); at the end, and in
+      capitals, or said twice, it is none of these;
     - an urgent word with digits for letters ("st0p"), alone with two neighbours swapped or a letter
       left out ("stpo", "canel"), or letter by letter ("S T O P").
     """
@@ -42,11 +43,11 @@ def control(words: str) -> Control | None:
     if tuple(bare) in _QUITS:
         return Control.QUIT
     slip = len(bare) == 1 and bare[0] in _SLIPS
-    run_on = "".join(said)
-    shouted = run_on in _URGENT or any(order in run_on for order in _ANYWHERE)
-    if slip or shouted or _is_order(said) or any(map(_is_urgent, clauses)):
-        return Control.STOP
-    return None
+    run_on = "".join(said).replace("_", "")
+    spelled = run_on in _URGENT or any(order in run_on for order in _ANYWHERE)
+    shouted = _SHOUTED.search(words[-LONGEST:]) and not words.isupper()
+    ordered = any(map(_is_order, (said, *clauses))) or any(map(_is_urgent, clauses))
+    return Control.STOP if slip or spelled or shouted or ordered else None
 
 
 def _plain(words: str) -> str:
@@ -100,7 +101,7 @@ def _is_urgent(clause: list[str]) -> bool:
     if clause and clause[0] in _ASKED:
         return bool(_URGES & set(clause[1:4]) and _URGENT & set(clause))
     return any(
-        word in _URGENT and before not in _DENIALS and (not named or before in _TURNS)
+        word in _URGENT and before not in _DENIALS and (not named or before in _TURNS | _URGENT)
         for before, word in zip(["", *clause], clause, strict=False)
     )
 
@@ -110,7 +111,7 @@ _SIGNS = re.compile("[\U0001f6d1\u26d4\U0001f6ab\u270b\U0001f590\u23f9\u23f8]")
 _NO_APOSTROPHE = re.compile(r"\b(don|won|can|that|let)(t|s|ll)\b")
 _EAGER = re.compile(r"\b(?:can't|cannot|can not|can hardly) wait\b")
 """Who says so does not ask to wait."""
-_CLAUSE_ENDS = re.compile(r"[.,;:!?…。、‒–—―−~|()]|-(?=[-\s])|(?<=\s)-")
+_CLAUSE_ENDS = re.compile(r"[.,;:!?…。、‒–—―−~|()\[\]]|-(?=[-\s])|(?<=\s)[-/>*·•+=&]")
 _DISGUISED = re.compile(r"[a-z01345@$]+")
 _LETTERS = str.maketrans("01345@$", "oleasas")
 _WORD = re.compile(r"[^\W\d_]+(?:['_][^\W\d_]+)*")
@@ -127,8 +128,11 @@ def _each(name: str) -> frozenset[str]:
 
 
 _URGENT: frozenset[str] = frozenset(_FILE["urgent"])
+_SHOUTED = re.compile(rf"\b(?:{'|'.join(_URGENT).upper()})\W*\Z")
 _SQUEEZED = {
-    _squeezed(word + ending): word for word in _URGENT for ending in ("", "e", "en", "ing")
+    _squeezed(word + ending): word
+    for word in _URGENT
+    for ending in ("", "e", "en", "et", "t", "ing")
 }
 """In other languages, too: "stoppe", "halten"."""
 _SWAPPED = {

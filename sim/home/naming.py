@@ -4,7 +4,7 @@ import re
 import unicodedata
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from itertools import zip_longest
+from itertools import dropwhile, zip_longest
 
 from executive.language.naming import Fault, place_fault
 from executive.language.phrases import place_words, spoken
@@ -77,7 +77,8 @@ def alike(names: Sequence[str], rooms: Sequence[str] = ()) -> Iterator[tuple[str
 def usable(text: str) -> str:
     """The text with what no name may have left out; `home` if nothing remains."""
     kept = "".join(c if _is_of_words(c) or c in "_-" else "_" for c in text)
-    return kept[:LONGEST].strip("_-") or "home"
+    begun = dropwhile(lambda c: c in _BETWEEN or unicodedata.category(c)[0] == "M", kept)
+    return "".join(begun)[:LONGEST].rstrip("_-") or "home"
 
 
 def _is_of_words(character: str) -> bool:

@@ -25,6 +25,8 @@ MORE = (
     *("\x1b[Astop", "\x1b[200~stop\x1b[201~", "\x1bstop", "don’t move", "停止！", "Arrêtez !"),
     *("Find the mug - stop", "Find the mug \N{EN DASH} stop!", "Find the mug \N{EM DASH}halt"),
     *("Find the mug... stop", "Find the mug \u2026 stop", "Find the mug (stop)"),
+    *("Bring the apple STOP", "Bring the apple stop stop", "Find the mug / stop", "s_t_o_p"),
+    *("Find the mug, no, wait", "It's OK, that will do", "Find the mug [halt]", "不要动"),
     *("why aren't you stopping?", "Why are you not stopping", "why didn't you stop"),
     *("canel", "cancl", "abrt", "st0p", "5T0P!", "c4ncel", "stoppe", "Stoppen!", "aborting"),
     *("I changed my mind", "Actually, I've changed my mind", "I don't want it anymore"),
@@ -61,7 +63,8 @@ NEVER = (
     ),
     *("Don't bring me the apple", "Put that down", "the second", "any", "", "?", "..."),
     *("I can't wait, bring the apple", "I cannot wait to see the mug", "Bring the stop sign"),
-    *("no no", "no no no, the mug", "the t-shirt by the bus-stop", "topping", "shopping", "about"),
+    *("BRING ME THE DOOR STOP", "Bring the STOP sign", 'the "stop" sign'),
+    *("no no", "no no, the mug", "the t-shirt by the bus-stop", "topping", "shopping", "about"),
     *("shelf_4", "shelf 1a", "Bring the mug - the red one", "Find the stop-sign"),
 )
 

@@ -90,3 +90,10 @@ def test_a_thing_whose_name_stops_the_robot_is_a_fault(name: str, tmp_path: Path
     text = f':Thing a owl:Class ; rdfs:subClassOf h:Object ; rdfs:label "{name}" .'
     (fault,) = loaded(tmp_path, text).faults()
     assert fault == f"Thing is called {name!r}, which tells the robot to stop: rename it"
+
+
+@pytest.mark.parametrize("name", ["no idea", "I do not know"])
+def test_a_thing_whose_name_says_that_nobody_knows_is_a_fault(name: str, tmp_path: Path) -> None:
+    text = f':Thing a owl:Class ; rdfs:subClassOf h:Object ; rdfs:label "{name}" .'
+    (fault,) = loaded(tmp_path, text).faults()
+    assert fault == f"Thing is called {name!r}, which says that somebody does not know: rename it"

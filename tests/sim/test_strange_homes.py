@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import tomli_w
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from written_homes import FLAT
 
@@ -161,6 +161,7 @@ def test_a_home_is_named_after_its_file_whatever_that_is_called(tmp_path: Path) 
 
 
 @given(st.text(max_size=100))
+@example("\u0301_\u0301-a")
 def test_what_is_made_of_any_text_is_a_name(text: str) -> None:
     assert name_fault(usable(text)) is None
 
