@@ -18,7 +18,7 @@ from executive.app.run_folder import new_folder, to_json, write
 from executive.config import Settings
 from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
 from executive.guards import GuardedRecorder, GuardedRobot, GuardedUser, in_words
-from executive.interfaces import LanguageModel, PlaceSource, User
+from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
@@ -98,6 +98,16 @@ class Session:
 
         Of several, the first who was not the person: that one ends the session, too.
         """
+
+    @property
+    def robot(self) -> Robot:
+        """The robot, as its adapter made it."""
+        return self.parts.robot
+
+    @property
+    def world(self) -> SimulatedHome | None:
+        """The simulated world and its truth, unknown to the robot; None if the world is real."""
+        return self.embodiment.truth
 
     def __enter__(self) -> Self:
         """Nothing more to open."""

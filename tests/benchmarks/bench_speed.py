@@ -31,12 +31,12 @@ def tour(logged: bool, camera_hz: float, runs: Path) -> str:
     render, scan = sim.bullet.camera.render, Laser.scan
     watch.around(sim.bullet.camera, "render", "rendering")
     watch.around(Laser, "scan", "laser")
-    watch.around(session.embodiment.truth._client, "stepSimulation", "physics")
+    watch.around(session.world._client, "stepSimulation", "physics")
     watch.around(session.recorder, "record", "handing to the logs")
     started = datetime.now(UTC)
     logs = session._logs(new_folder(runs, started, "tour"), started) if logged else []
     session.recorder.open(logs, started)
-    session.embodiment.truth.describe()
+    session.world.describe()
     wall, cpu = time.perf_counter(), time.process_time()
     for place in TOUR:
         session.parts.robot.start(DriveTo(place))

@@ -224,7 +224,7 @@ OWNERS: dict[str, Callable[[Session], Any]] = {
     "robot": lambda session: session.parts.robot,
     "eyes": lambda session: session.parts.perception,
     "user": lambda session: session.parts.user,
-    "world": lambda session: session.embodiment.truth,
+    "world": lambda session: session.world,
     "knowledge": lambda session: session.parts.knowledge,
 }
 CALLS += ["user.tell", "user.cancel", "world.advance", "world.describe", "knowledge.usual_places"]

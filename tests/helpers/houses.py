@@ -37,8 +37,8 @@ class House:
 
     @property
     def world(self) -> FakeWorld:
-        assert isinstance(self.session.embodiment.truth, FakeWorld)
-        return self.session.embodiment.truth
+        assert isinstance(self.session.world, FakeWorld)
+        return self.session.world
 
     def stop_at(self, *kinds: type[Goal], by: str = "the person") -> None:
         def stop(goal: Goal) -> None:

@@ -45,8 +45,8 @@ def recorded(
         model=ScriptedModel(replies, inbox) if llm else None,
         out=io.StringIO(),
     )
-    assert isinstance(session.embodiment.truth, FakeWorld)
-    session.embodiment.truth.fault = fault
+    assert isinstance(session.world, FakeWorld)
+    session.world.fault = fault
     start = session.parts.robot.start
 
     def start_and_note(goal: Goal) -> int:

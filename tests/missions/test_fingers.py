@@ -34,8 +34,8 @@ class House:
             out=io.StringIO(),
             change=change,
         )
-        assert isinstance(self.session.embodiment.truth, FakeWorld)
-        self.world = self.session.embodiment.truth
+        assert isinstance(self.session.world, FakeWorld)
+        self.world = self.session.world
         self.changes: dict[type[Goal], Ending] = {}
         self._start = self.session.parts.robot.start
         self.session.parts.robot.start = self._changed  # type: ignore[method-assign]
@@ -186,7 +186,7 @@ def test_in_physics_what_is_believed_is_true(fault: tuple[str, ...], tmp_path: P
     )
     for words in ("Bring a mustard_bottle", "Take a pitcher_base"):
         session.run(words)
-        assert session._in_hand == session.embodiment.truth.held
+        assert session._in_hand == session.world.held
         assert session.folder
         assert replay(session.folder).parting is None
     session.close()

@@ -36,9 +36,9 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
         settings = load_settings(world="fake", llm="none", runs=tmp_path)
         session = Session(settings, inbox=inbox, user=Scripted(inbox, answers), out=io.StringIO())
         sessions.append(session)
-        assert isinstance(session.embodiment.truth, FakeWorld)
-        session.embodiment.truth.fault = lambda goal: fault(goal, full)
-        return session, session.embodiment.truth
+        assert isinstance(session.world, FakeWorld)
+        session.world.fault = lambda goal: fault(goal, full)
+        return session, session.world
 
     yield make
     for session in sessions:
@@ -103,11 +103,11 @@ def test_what_falls_on_the_way_to_other_furniture_is_said_to_have_fallen(tmp_pat
         world="fake", llm="none", user="none", runs=tmp_path, fault=("drop@32",)
     )
     session = Session(settings, out=io.StringIO(), recorded=False)
-    assert isinstance(session.embodiment.truth, FakeWorld)
-    session.embodiment.truth.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
+    assert isinstance(session.world, FakeWorld)
+    session.world.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
     outcome = session.run("Bring the hammer")
     session.close()
-    assert (outcome.status, session.embodiment.truth.held) == (MissionStatus.NOT_DONE, None)
+    assert (outcome.status, session.world.held) == (MissionStatus.NOT_DONE, None)
     assert outcome.reason.startswith("the hammer fell from my hand")
 
 

@@ -149,7 +149,7 @@ def test_the_log_does_not_say_of_an_unseen_place_that_the_thing_was_not_seen_the
 ) -> None:
     quiet = {"llm": "none", "user": "none", "runs": tmp_path}
     session = Session(load_settings(world="fake", **quiet), out=io.StringIO())
-    session.embodiment.truth.fault = always(LookAt, "my neck is stiff")  # type: ignore[attr-defined]
+    session.world.fault = always(LookAt, "my neck is stiff")  # type: ignore[attr-defined]
     session.run("Find a power_drill")
     session.close()
     assert session.folder

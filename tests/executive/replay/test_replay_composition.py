@@ -59,7 +59,7 @@ def with_true_positions(parts: Parts) -> Parts:
 def test_what_was_seen_on_furniture_behind_a_place_is_remembered_there(tmp_path: Path) -> None:
     settings = Settings(**OKB, place={"mug": "bed"}, runs=tmp_path)  # type: ignore[arg-type]
     session = Session(settings, out=io.StringIO(), change=with_true_positions)
-    world = session.embodiment.truth
+    world = session.world
     assert isinstance(world, FakeWorld)
 
     def someone_takes_it(goal: Goal) -> str | None:
@@ -106,7 +106,7 @@ def test_a_mission_without_verification_replays_without(tmp_path: Path) -> None:
 def test_a_robot_that_does_not_learn_does_not_in_the_replay(tmp_path: Path) -> None:
     settings = Settings(**OKB, learn=False, runs=tmp_path)  # type: ignore[arg-type]
     session = Session(settings, out=io.StringIO())
-    assert isinstance(session.embodiment.truth, FakeWorld)
+    assert isinstance(session.world, FakeWorld)
     to_fail: list[type] = [Pick, LookAt]
 
     def fault(goal: Goal) -> str | None:
@@ -116,7 +116,7 @@ def test_a_robot_that_does_not_learn_does_not_in_the_replay(tmp_path: Path) -> N
             return "it does not work"
         return None
 
-    session.embodiment.truth.fault = fault
+    session.world.fault = fault
     outcome = session.run("Take an apple")
     assert replay(Path(outcome.run_dir or "")).parting is None
 

@@ -182,7 +182,7 @@ class Soak:
 
     @property
     def _world(self) -> SimulatedHome:
-        world = self._session.embodiment.truth
+        world = self._session.world
         assert world
         return world
 
