@@ -1,5 +1,5 @@
 """Recorded missions run again."""
 
-from executive.replay.replaying import Replay, replay
+from executive.replay.replaying import Replay, replay, replay_text, replays_text
 
-__all__ = ["Replay", "replay"]
+__all__ = ["Replay", "replay", "replay_text", "replays_text"]
