@@ -12,9 +12,7 @@ from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
-from executive.app import Session
-from executive.config import load_settings
-from executive.types import Outcome
+from executive import Outcome, Session, load_settings
 
 
 @dataclass(frozen=True)
