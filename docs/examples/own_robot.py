@@ -1,6 +1,9 @@
 """A robot of one's own: an adapter for a driver that blocks, and what `--world` is given.
 
-    cd docs/examples
+    python docs/examples/own_robot.py
+
+or, as any robot, in the folder of its file:
+
     python -m executive --world own_robot:build --llm none --user none Bring the hammer
 
 `DriverRobot` is to be kept; docs/own-robot.md says what it has to heed, and why. The rest stands in
@@ -31,8 +34,10 @@ from executive import (
     Pick,
     PutDown,
     Saw,
+    Session,
     Setup,
     Succeeded,
+    load_settings,
 )
 from executive.clock import RealClock
 
@@ -183,3 +188,8 @@ def build(setup: Setup) -> Embodiment:
         in_map=False,  # these eyes do not tell where in `map` things are
         close=driver.close,
     )
+
+
+if __name__ == "__main__":
+    with Session(load_settings(world="own_robot:build", llm="none", user="none")) as session:
+        print(session.run("Bring the hammer").reason)

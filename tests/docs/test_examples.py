@@ -10,6 +10,7 @@ import pytest
 
 from executive import MissionStatus, Source
 from executive.replay import replay
+from logs.questions.why import why, why_text
 from logs.recording.reader import Run
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
@@ -63,6 +64,7 @@ def test_the_ontology_adds_a_name_a_place_and_a_taste(tmp_path: Path) -> None:
     hammer, fruit = find("Find the whacker", tmp_path), find("Find a fruit", tmp_path)
     assert (hammer.location, hammer.source) == ("desk", Source.ONTOLOGY)
     assert (fruit.object, fruit.inquiries) == ("pear", 0)
+    assert "which object: pear  [ontology]" in why_text(why(Run(Path(fruit.run_dir))))
 
 
 def test_the_detector_sees_what_has_a_tag_and_nothing_else() -> None:
