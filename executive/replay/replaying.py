@@ -58,7 +58,7 @@ class Replay:
 
     @property
     def lasted(self) -> bool:
-        """Whether it took mission time worth a speed: a stop before anything moved took none."""
+        """Whether mission time passed before its last tick: without, there is no speed to tell."""
         return self.recorded_s >= 0.1
 
 
@@ -183,7 +183,7 @@ def replay_text(replayed: Replay) -> str:
     notes = "".join(f"\n  note: {printable(note)}" for note in replayed.notes)
     same = f"{printable(replayed.run)}: {counted(replayed.ticks, 'tick')} as recorded"
     if replayed.parting is None and not replayed.lasted:
-        return f"{same}, at once{notes}"
+        return f"{same}{notes}"
     if replayed.parting is None:
         return (
             f"{same}, {replayed.recorded_s:.1f} s in "
