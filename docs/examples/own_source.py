@@ -38,8 +38,9 @@ class Calendar:
 
 def bring(words: str, calendar: Calendar, runs: Path | None = None) -> Outcome:
     """One mission in the instant world, by a robot that can look into this calendar."""
-    home = {"world": "fake", "place": {"hammer": "sofa"}}
-    settings = load_settings(**home, llm="none", user="oracle", runs=runs)
+    settings = load_settings(
+        world="fake", place={"hammer": "sofa"}, llm="none", user="oracle", runs=runs
+    )
     with Session(settings, sources=[calendar]) as session:
         return session.run(words)
 
