@@ -212,7 +212,7 @@ def _compare(options: argparse.Namespace) -> Answer:
 
 
 def _replay(options: argparse.Namespace) -> Answer:
-    from executive.replay.replaying import Replay, replay, replay_text, replays_text
+    from executive.replay import Replay, replay, replay_text, replays_text
 
     gc.freeze()  # what is imported stays; to look through it for garbage takes a tenth of a second
     answers = list(_each(options.runs, replay))

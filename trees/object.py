@@ -67,6 +67,8 @@ class PersonPrefersOne(Step):
     Reads request.options; writes request.object.
     """
 
+    source = Source.ONTOLOGY
+
     def update(self) -> Status:
         """Look for a favourite."""
         favourites = self.context.knowledge.preferred(self.situation.request.options)

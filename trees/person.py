@@ -287,7 +287,8 @@ class AskWhereToPut(Ask):
 
     def unresolved(self) -> str:
         """Say where it was tried."""
-        return self.situation.hand.not_put_down
+        hand = self.situation.hand
+        return hand.not_put_down or f"I could get to no place to put {the(hand.in_hand or '')}"
 
 
 class AskToPutDown(AskYesNo):

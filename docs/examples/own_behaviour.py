@@ -6,14 +6,16 @@ not wanted any more. What decides at once, from what is known, is a `Step`, and 
 
     python docs/examples/own_behaviour.py
 
-To keep it in the robot's own tree, put it into trees/mission.py, as `mission_and_home` does here.
+A Session is given the tree (`build=whole_tree`), and so is `replay` for what it recorded. To keep
+the behaviour in the robot's own tree, put it into trees/mission.py, as `mission_and_home` does.
 """
+
+from pathlib import Path
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive import DriveTo, Result, Succeeded
-from executive.testing.bench import Run, run_mission
+from executive import DriveTo, Outcome, Result, Session, Succeeded, load_settings
 from trees.context import MissionContext
 from trees.mission import mission
 from trees.nodes import Action, Optionally, sequence
@@ -58,12 +60,18 @@ def mission_and_home(context: MissionContext) -> Behaviour:
     return sequence("day", mission(context), Optionally("home", context.situation, home))
 
 
-def bring(words: str) -> Run:
-    """One mission of this tree in the instant world, on the bench that the tests use."""
-    return run_mission(words, build=lambda context: MissionTree(mission_and_home(context)))
+def whole_tree(context: MissionContext) -> MissionTree:
+    """What a Session is given to build the tree of each mission."""
+    return MissionTree(mission_and_home(context))
+
+
+def bring(words: str, runs: Path | None = None) -> Outcome:
+    """One mission of this tree in the instant world."""
+    settings = load_settings(world="fake", llm="none", user="oracle", runs=runs)
+    with Session(settings, build=whole_tree) as session:
+        return session.run(words)
 
 
 if __name__ == "__main__":
-    run = bring("Bring the mug")
-    print(run.outcome.reason)
-    print(f"now the robot is at {run.world.at}")
+    outcome = bring("Bring the mug")
+    print(f"{outcome.reason} It took {outcome.mission_time_s:.0f} s, with the way to the desk.")

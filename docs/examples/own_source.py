@@ -12,9 +12,7 @@ from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
-from executive.app import Session
-from executive.config import load_settings
-from executive.types import Outcome
+from executive import Outcome, Session, load_settings
 
 
 @dataclass(frozen=True)
@@ -40,8 +38,9 @@ class Calendar:
 
 def bring(words: str, calendar: Calendar, runs: Path | None = None) -> Outcome:
     """One mission in the instant world, by a robot that can look into this calendar."""
-    home = {"world": "fake", "place": {"hammer": "sofa"}}
-    settings = load_settings(**home, llm="none", user="oracle", runs=runs)
+    settings = load_settings(
+        world="fake", place={"hammer": "sofa"}, llm="none", user="oracle", runs=runs
+    )
     with Session(settings, sources=[calendar]) as session:
         return session.run(words)
 

@@ -125,14 +125,16 @@ def guarded_model(parts: Parts, model: LanguageModel) -> LanguageModel:
 # --- a mission ---
 
 
+Build = Callable[[MissionContext], Tree]
+"""Makes the tree of a mission."""
+
+
 def mission_tree(context: MissionContext) -> Tree:
     """The tree that missions are run with."""
     return MissionTree(mission(context))
 
 
-def build_mission(
-    parts: Parts, situation: Situation, build: Callable[[MissionContext], Tree] = mission_tree
-) -> Executive:
+def build_mission(parts: Parts, situation: Situation, build: Build = mission_tree) -> Executive:
     """One mission of these parts, ready to run; `build` makes the tree."""
     context = build_context(parts, situation)
     return Executive(

@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import Self, TextIO
 
 from executive.app.building import build_parts
-from executive.app.parts import OURS, Change, as_they_are, build_mission
+from executive.app.parts import OURS, Build, Change, as_they_are, build_mission, mission_tree
 from executive.app.recording import Recording, body_used, files_used
 from executive.app.run_folder import new_folder, to_json, write
 from executive.config import Settings
@@ -53,13 +53,15 @@ class Session:
         sources: Sequence[PlaceSource] = (),
         policy: str = OURS,
         change: Change = as_they_are,
+        build: Build = mission_tree,
     ) -> None:
         """Build everything; `user` and `model` replace what the settings name.
 
         The robot's words go to `out` (default: standard error). Missions that are not `recorded`
         leave no folder; `sinks` are told everything in either case, and closed after each mission.
         `sources` know where things are, and are asked in this order, after the robot's own memory.
-        `change` puts in other parts; recordings call it by the name of the `policy`.
+        `change` puts in other parts; recordings call it by the name of the `policy`. `build` makes
+        the tree of each mission. A replay of what such a session recorded is given both, too.
 
         Raises:
             ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
@@ -87,6 +89,7 @@ class Session:
                 self._recording = Recording(used, self.parts, policy, view)
             self._opened = opened.pop_all()
         self._sinks = tuple(sinks)
+        self._build = build
         self._in_hand: str | None = None
         self._restless = False
         self.ticks = 0
@@ -225,7 +228,7 @@ class Session:
 
     def _carry_out(self, situation: Situation) -> None:
         """Have the tree decide, from the words on."""
-        executive = build_mission(self.parts, situation)
+        executive = build_mission(self.parts, situation, self._build)
         self.inbox.post(Started(situation.request.words))
         if control(situation.request.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))

@@ -33,6 +33,8 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="policies:\n"
         + "".join(f"  {name:<17} {policy.description}\n" for name, policy in POLICIES.items())
+        + "  package.module:NAME\n"
+        + f"  {'':<17} one of your own: a function from parts to parts\n"
         + "\nexit: 0 all missions have ended, 1 some had no working model, 2 bad usage or input, "
         "130 stopped",
     )
@@ -71,7 +73,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--policy",
         action="append",
-        choices=list(POLICIES),
+        type=_policy,
         metavar="NAME",
         help="who says where to look; may be repeated (default: ours)",
     )
@@ -83,6 +85,15 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     return p
+
+
+def _policy(name: str) -> str:
+    if name not in POLICIES and ":" not in name:
+        ours = ", ".join(map(repr, POLICIES))
+        raise argparse.ArgumentTypeError(
+            f"invalid choice: {name!r} (choose from {ours}, or package.module:NAME)"
+        )
+    return name
 
 
 def _count(text: str) -> int:

@@ -19,7 +19,7 @@ from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.campaign.journal import CRASHED, Entry, Key, Row
 from executive.campaign.observer import Observed
-from executive.campaign.policies import POLICIES
+from executive.campaign.policies import policy_named
 from executive.campaign.routes import routes_in
 from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.config import KnowledgeSystem, Settings
@@ -52,7 +52,7 @@ class Block:
     @property
     def settings_used(self) -> Settings:
         """The settings with those of the policy."""
-        return self.settings.model_copy(update=dict(POLICIES[self.policy].settings))
+        return self.settings.model_copy(update=dict(policy_named(self.policy).settings))
 
 
 def label_of(name_or_file: str) -> str:
@@ -94,7 +94,7 @@ class _Rest:
         self._recorded = block.recorded
         self._settings = block.settings_used
         self._policy_name = block.policy
-        self._policy = POLICIES[block.policy]
+        self._policy = policy_named(block.policy)
         self._inbox = Inbox()
         self._model = model_for_missions(self._settings, self._inbox)
         self._dialogue: list[tuple[str, str]] = []

@@ -13,6 +13,7 @@ from itertools import chain
 from types import MappingProxyType
 from typing import Any
 
+from executive.app.own import Named
 from executive.app.parts import Change, Parts, advised, as_they_are, guarded_model
 from executive.campaign.routes import routes_of
 from executive.config import KnowledgeSystem
@@ -183,18 +184,25 @@ def true_first(parts: Parts) -> Order:
     return order
 
 
+def ordered(parts: Parts, rule: Callable[[Parts], Order]) -> Parts:
+    """The parts with an adviser that goes by a rule instead of a language model.
+
+    The settings have to ask for a ranking. okb has no adviser, and stays as it is.
+    """
+    if parts.settings.knowledge == KnowledgeSystem.OKB:
+        return parts
+    model = Indifferent(parts.inbox)
+    usual = advise(parts.knowledge, model, remembers=False)
+    advice = replace(usual, ranker=Ordered(parts, rule(parts)))
+    return replace(parts, model=model, advice=advice)
+
+
+BY_RANK = {"llm": "none", "elicit": "rank"}
+
+
 def baseline(description: str, rule: Callable[[Parts], Order]) -> Policy:
     """A policy that goes by a rule instead of a language model."""
-
-    def change(parts: Parts) -> Parts:
-        if parts.settings.knowledge == KnowledgeSystem.OKB:
-            return parts
-        model = Indifferent(parts.inbox)
-        usual = advise(parts.knowledge, model, remembers=False)
-        advice = replace(usual, ranker=Ordered(parts, rule(parts)))
-        return replace(parts, model=model, advice=advice)
-
-    return Policy(description, {"llm": "none", "elicit": "rank"}, change)
+    return Policy(description, BY_RANK, lambda parts: ordered(parts, rule))
 
 
 # --- ablations: a language model that writes, less a part of what is built around it ---
@@ -316,3 +324,21 @@ POLICIES: Mapping[str, Policy] = MappingProxyType(
     }
 )
 """By name."""
+
+RIGHT = (
+    "name a Policy, or a function that takes Parts and returns Parts (docs/examples/own_policy.py)"
+)
+
+
+def policy_named(name: str) -> Policy:
+    """One of ours, or one of somebody's own by `package.module:name`.
+
+    Raises:
+        InputError: if one of somebody's own cannot be imported; in a mission, if it fails.
+    """
+    if name in POLICIES:
+        return POLICIES[name]
+    named = Named("--policy", name, RIGHT)
+    own = named.imported()
+    settings = own.settings if isinstance(own, Policy) else {}
+    return Policy("of somebody's own", settings, lambda parts: named.called(own, parts, Parts))

@@ -31,8 +31,17 @@ _BELIEFS = TypeAdapter(dict[str, list[str]])
 _home = cache(recorded_home)
 
 
-def recorded_parts(run: Run, inbox: Inbox, absent: Absent, clock: Clock, judge: Recorder) -> Parts:
+def recorded_parts(
+    run: Run,
+    inbox: Inbox,
+    absent: Absent,
+    clock: Clock,
+    judge: Recorder,
+    change: Change | None = None,
+) -> Parts:
     """What the recorded mission was made of, and stand-ins for all that acts or answers.
+
+    Its policy is looked up by name, unless `change` is given.
 
     Raises:
         InputError: if the recording lacks one of them.
@@ -60,7 +69,7 @@ def recorded_parts(run: Run, inbox: Inbox, absent: Absent, clock: Clock, judge: 
         blind_to=body.blind_to,
         parameters=parameters_of(settings),
     )
-    changed = _policy(run)(advised(parts))
+    changed = (change or _policy(run))(advised(parts))
     model = absent if changed.model else None
     return replace(changed, robot=absent, perception=absent, user=absent, model=model)
 
@@ -72,7 +81,10 @@ def _knowledge(run: Run, settings: Settings, home: Home) -> Ontology:
 
 
 def _policy(run: Run) -> Change:
-    """The way in which the parts of the recorded mission were chosen."""
+    """The way in which the parts of the recorded mission were chosen.
+
+    One of somebody's own is not imported, whatever its name: a recording runs no code.
+    """
     name = run.metadata.get("policy", OURS)
     if name == OURS:
         return as_they_are
@@ -81,7 +93,8 @@ def _policy(run: Run) -> Change:
     )
 
     if name not in POLICIES:
-        raise InputError(str(run.path), f"was made with the policy {name!r}, unknown here")
+        what = f"was made with the policy {name!r}, unknown here"
+        raise InputError(str(run.path), what, "in Python, give it: replay(folder, change=...)")
     return POLICIES[name]
 
 

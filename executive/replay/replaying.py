@@ -7,20 +7,19 @@ is a regression test:
     assert replay(Path("runs/20260101T120000Z-find-an-apple")).parting is None
 """
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 
-from executive.app.parts import build_mission, mission_tree
+from executive.app.parts import Build, Change, build_mission, mission_tree
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import Tree
 from executive.records import Record, Tick, TreeShape
 from executive.replay.recorded import kept, recorded_parts
 from executive.replay.stand_ins import Absent, RecordedTime
 from executive.situation import Situation
-from executive.text import printable
+from executive.text import counted, printable
 from logs.questions.difference import (
     ENDED,
     Aspect,
@@ -30,7 +29,6 @@ from logs.questions.difference import (
     tick_aspects,
 )
 from logs.recording.reader import Run
-from trees.context import MissionContext
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,13 +56,19 @@ class Replay:
         """How many times as fast as it was recorded."""
         return self.recorded_s / self.took_s
 
+    @property
+    def lasted(self) -> bool:
+        """Whether mission time passed before its last tick: without, there is no speed to tell."""
+        return self.recorded_s >= 0.1
 
-def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree) -> Replay:
+
+def replay(folder: Path, build: Build = mission_tree, change: Change | None = None) -> Replay:
     """Feed a recorded mission to a fresh tree.
 
     Args:
         folder: the run's folder, or its mcap file.
         build: makes the tree.
+        change: puts other parts in; None: as the policy does that the recording names.
 
     Raises:
         InputError: if the recording cannot be read, or lacks what the tree is built from.
@@ -76,7 +80,7 @@ def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree)
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox, situation)
     absent.rests = "policy" not in run.metadata
-    parts = recorded_parts(run, inbox, absent, clock, judge)
+    parts = recorded_parts(run, inbox, absent, clock, judge, change)
     executive = build_mission(parts, situation, build)
     clock.wait(None)
     executive.run()
@@ -177,16 +181,18 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
 def replay_text(replayed: Replay) -> str:
     """That all was as recorded; or where it parts, and in what."""
     notes = "".join(f"\n  note: {printable(note)}" for note in replayed.notes)
-    run = printable(replayed.run)
+    same = f"{printable(replayed.run)}: {counted(replayed.ticks, 'tick')} as recorded"
+    if replayed.parting is None and not replayed.lasted:
+        return f"{same}{notes}"
     if replayed.parting is None:
         return (
-            f"{run}: {replayed.ticks} ticks as recorded, {replayed.recorded_s:.1f} s in "
+            f"{same}, {replayed.recorded_s:.1f} s in "
             f"{replayed.took_s:.3f} s ({replayed.speed:.0f} times as fast){notes}"
         )
     at = replayed.parting
     tick = "after the last tick" if at.tick is None else f"at tick {at.tick}"
     return (
-        f"{run}: {replayed.ticks} ticks as recorded; parts {tick}, {at.time_s:.3f} s"
+        f"{same}; parts {tick}, {at.time_s:.3f} s"
         f"{notes}\n{aspects_text(at.aspects, ('recorded', 'replayed'))}"
     )
 
@@ -196,8 +202,11 @@ def replays_text(replays: Sequence[Replay]) -> str:
     same = sum(replayed.parting is None for replayed in replays)
     recorded_s = sum(replayed.recorded_s for replayed in replays)
     took_s = sum(replayed.took_s for replayed in replays)
+    text = f"{same} of {counted(len(replays), 'mission')} as recorded"
+    speeds = [replayed.speed for replayed in replays if replayed.lasted]
+    if not speeds:
+        return text
     return (
-        f"{same} of {len(replays)} missions as recorded; {recorded_s:.0f} s in {took_s:.1f} s "
-        f"({recorded_s / took_s:.0f} times as fast, the slowest "
-        f"{min(replayed.speed for replayed in replays):.0f} times)"
+        f"{text}; {recorded_s:.0f} s in {took_s:.1f} s "
+        f"({recorded_s / took_s:.0f} times as fast, the slowest {min(speeds):.0f} times)"
     )

@@ -7,6 +7,7 @@ from typing import Any
 
 from executive.app.embodiment import Setup
 from executive.app.parts import (
+    Build,
     Change,
     Parts,
     advised,
@@ -18,7 +19,7 @@ from executive.app.parts import (
 from executive.app.simulation import fake
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Detector, Facts, PlaceSource, Tree, User
+from executive.interfaces import Detector, Facts, PlaceSource, User
 from executive.perception.pipeline import CameraPerception
 from executive.records import Record, Tick, Verified
 from executive.situation import Situation
@@ -28,7 +29,7 @@ from kb.llm.scripted import Scripted as ScriptedModel
 from kb.ontology.ontology import Ontology
 from sim.fake import FakeCamera, FakeWorld
 from sim.home.home import Home, load_home
-from trees.context import MissionContext, NoFacts
+from trees.context import NoFacts
 
 
 @cache
@@ -112,7 +113,7 @@ def run_mission(
     sources: Iterable[PlaceSource] = (),
     detector: Callable[[FakeWorld], Detector] | None = None,
     change: Change = as_they_are,
-    build: Callable[[MissionContext], Tree] = mission_tree,
+    build: Build = mission_tree,
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 

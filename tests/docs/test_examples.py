@@ -9,6 +9,9 @@ from typing import Any
 import pytest
 
 from executive import MissionStatus, Source
+from executive.replay import replay
+from logs.questions.why import why, why_text
+from logs.recording.reader import Run
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 FILES = sorted(f.name for f in EXAMPLES.iterdir() if f.is_file() and f.suffix != ".md")
@@ -24,22 +27,27 @@ def test_the_smallest_program_brings_the_thing(tmp_path: Path) -> None:
     assert Path(outcome.run_dir).parent == tmp_path
 
 
-def test_the_added_behaviour_takes_the_robot_home() -> None:
-    run = example("own_behaviour")["bring"]("Bring the mug")
-    assert (run.outcome.status, run.world.at) == (MissionStatus.DONE, "desk")
+def test_the_added_behaviour_takes_the_robot_home(tmp_path: Path) -> None:
+    own = example("own_behaviour")
+    outcome = own["bring"]("Bring the mug", tmp_path)
+    run = Path(outcome.run_dir)
+    *_, last = Run(run).ticks()
+    home = next(node for node in last.value.nodes if node.path.endswith("/go home"))
+    assert (outcome.status, home.status, home.message) == (MissionStatus.DONE, "SUCCESS", "desk")
+    assert replay(run, own["whole_tree"]).parting is None
+    assert "behaviour gone since: day" in replay(run).notes
 
 
 def test_the_added_behaviour_is_called_off_by_a_stop() -> None:
     from executive import DriveTo, Goal, Halt, Inbox, StopRequested
     from executive.testing.bench import run_mission
-    from trees.tree import MissionTree
 
     def stop(goal: Goal, inbox: Inbox) -> None:
         if goal == DriveTo("desk"):
             inbox.post(StopRequested("the test"))
 
-    tree = example("own_behaviour")["mission_and_home"]
-    run = run_mission("Bring the mug", during=stop, build=lambda c: MissionTree(tree(c)))
+    tree = example("own_behaviour")["whole_tree"]
+    run = run_mission("Bring the mug", during=stop, build=tree)
     assert run.goals[-2:] == [DriveTo("desk"), Halt()]
     assert run.world.at != "desk"
 
@@ -56,6 +64,7 @@ def test_the_ontology_adds_a_name_a_place_and_a_taste(tmp_path: Path) -> None:
     hammer, fruit = find("Find the whacker", tmp_path), find("Find a fruit", tmp_path)
     assert (hammer.location, hammer.source) == ("desk", Source.ONTOLOGY)
     assert (fruit.object, fruit.inquiries) == ("pear", 0)
+    assert "which object: pear  [ontology]" in why_text(why(Run(Path(fruit.run_dir))))
 
 
 def test_the_detector_sees_what_has_a_tag_and_nothing_else() -> None:

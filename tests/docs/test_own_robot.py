@@ -1,8 +1,11 @@
-"""The adapter in docs/own-robot.md keeps the robot's contract, with a driver that only waits."""
+"""The adapter of docs/own-robot.md keeps the robot's contract, and the file with it runs."""
 
 import io
+import runpy
+import sys
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,40 +17,27 @@ from executive.config import load_settings
 from executive.events import DeadlinePassed, Inbox
 from executive.replay import replay
 from executive.testing.contracts.robot import Bench, RobotContract
-from executive.types import FLOOR, DriveTo, Goal, Halt, LookAt
+from executive.types import Goal, Halt, MissionStatus, Outcome
 
-PAGE = Path(__file__).parents[2] / "docs" / "own-robot.md"
-PLACES = {"coffee_table", "desk", "person"}
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE, FILE = DOCS / "own-robot.md", DOCS / "examples" / "own_robot.py"
+EXAMPLE = runpy.run_path(str(FILE))
+
+
+def toy() -> Any:
+    """The driver of the example that stands in for hardware."""
+    return EXAMPLE["ToyDriver"](("coffee_table", "desk"))
+
+
+def test_the_page_shows_what_the_file_has() -> None:
+    adapter, _, _, build, _ = examples()
+    assert adapter in FILE.read_text()
+    assert build.rstrip() in FILE.read_text()
 
 
 def examples() -> list[str]:
     """The code on the page."""
     return [part.split("```")[0] for part in PAGE.read_text().split("```python\n")[1:]]
-
-
-def adapter() -> dict[str, Any]:
-    """What the first example of the page defines."""
-    names: dict[str, Any] = {"__name__": "own_robot"}
-    exec(examples()[0], names)
-    return names
-
-
-class WaitingDriver:
-    holding = False
-    at = "person"
-
-    def pursue(self, goal: Goal, called_off: threading.Event) -> str | None:
-        called_off.wait(0.02)
-        match goal:
-            case DriveTo(place) if place in PLACES:
-                self.at = place
-            case LookAt(place, 0) if place in (self.at, FLOOR):
-                pass
-            case Halt():
-                pass
-            case _:
-                return f"I cannot do that: {goal}"
-        return None
 
 
 class TestDriverRobot(RobotContract):
@@ -60,16 +50,18 @@ class TestDriverRobot(RobotContract):
             inbox.wait(min(at_most, 0.1))
             return time.monotonic() - began
 
-        return Bench(adapter()["DriverRobot"](WaitingDriver(), inbox), inbox, advance)
+        return Bench(EXAMPLE["DriverRobot"](toy(), inbox), inbox, advance)
 
 
 def test_a_driver_that_raises_fails_in_words():
-    class BrokenDriver(WaitingDriver):
+    class BrokenDriver:
+        holding = False
+
         def pursue(self, goal: Goal, called_off: threading.Event) -> str | None:
             raise OSError("no connection")
 
     inbox = Inbox()
-    robot = adapter()["DriverRobot"](BrokenDriver(), inbox)
+    robot = EXAMPLE["DriverRobot"](BrokenDriver(), inbox)
     request = robot.start(Halt())
     inbox.wait(5.0)
     (event,) = inbox.take_all()
@@ -87,24 +79,32 @@ def test_the_real_clock_waits_for_the_deadline_or_an_event():
     assert inbox.has_events
 
 
-YOURS = """
+@pytest.fixture
+def beside_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder with a copy of the example, in which the command is given."""
+    copy = tmp_path / "own_robot.py"
+    copy.write_text(FILE.read_text())
+    monkeypatch.syspath_prepend(tmp_path)
+    yield copy
+    sys.modules.pop("own_robot", None)
+
+
+def run(words: str, folder: Path) -> Outcome:
+    settings = load_settings(world="own_robot:build", user="none", llm="none", runs=folder)
+    with Session(settings, out=io.StringIO()) as session:
+        return session.run(words)
+
+
+def test_the_example_brings_a_thing_and_replays(beside_the_file: Path) -> None:
+    outcome = run("Bring the hammer", beside_the_file.parent / "runs")
+    assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ("shelf_lobby",))
+    assert replay(Path(outcome.run_dir or "")).parting is None
+
+
+CAMERA = """
+
 import numpy as np
-from executive.types import FLOOR, DriveTo, Frame, Goal, Halt, Intrinsics, LookAt, Pose
-
-class WaitingDriver:
-    holding, at, closed = False, "person", False
-
-    def pursue(self, goal, called_off):
-        called_off.wait(0.01)
-        return None
-
-    def close(self):
-        self.closed = True
-
-driver = WaitingDriver()
-
-def my_driver():
-    return driver
+from executive import CameraPerception, Frame, Intrinsics, Pose
 
 class MyCamera:
     number = 0
@@ -115,19 +115,18 @@ class MyCamera:
         lens = Intrinsics(width=160, height=120, fx=125.0, fy=125.0, cx=79.5, cy=59.5)
         depth = np.ones((120, 160), np.float32)
         return Frame(self.number, color, depth, lens, Pose((0, 0, 1.3), (1.0, 0.0, 0.0, 0.0)))
+
+closed = []
+ToyDriver.close = lambda self: closed.append(self)
 """
 
 
-def test_the_page_puts_the_adapter_into_a_mission(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "my_robot.py").write_text("\n".join((examples()[0], YOURS, examples()[-1])))
-    monkeypatch.syspath_prepend(tmp_path)
-    settings = load_settings(world="my_robot:build", user="none", llm="none", runs=tmp_path)
-    with Session(settings, out=io.StringIO()) as session:
-        outcome = session.run("Find the power_drill")
-    assert (outcome.status, outcome.visited) == ("not_done", ("shelf_lobby",))
+def test_a_camera_is_put_in_as_the_page_says(beside_the_file: Path) -> None:
+    toys, cameras = "perception = ToyEyes(driver, inbox)\n", examples()[-1]
+    text = beside_the_file.read_text().replace("in_map=False, ", "")
+    assert toys in text
+    beside_the_file.write_text(text.replace(toys, cameras) + CAMERA)
+    outcome = run("Find the hammer", beside_the_file.parent / "runs")
+    assert (outcome.status, outcome.visited) == (MissionStatus.NOT_DONE, ("shelf_lobby",))
     assert replay(Path(outcome.run_dir or "")).parting is None
-    import my_robot
-
-    assert my_robot.driver.closed
+    assert len(sys.modules["own_robot"].closed) == 1

@@ -87,6 +87,18 @@ def test_the_person_is_asked_where_to_put_it_if_all_that_is_near_is_full(serve: 
     assert second.text.startswith("I know no such place. Where shall I put the hammer? I know: ")
 
 
+def test_who_can_get_nowhere_says_so_when_it_asks_and_when_it_gives_up(serve: Serve) -> None:
+    session, world = serve([])
+    session.run("Take the hammer")
+    world.fault = lambda goal: "the door is shut" if isinstance(goal, DriveTo) else None
+    outcome = session.run("Put it down")
+    assert isinstance(session.parts.user, Scripted)
+    (question,) = session.parts.user.asked
+    nowhere = "I could get to no place to put the hammer"
+    assert question.text == f"{nowhere}. Where shall I put the hammer?"
+    assert outcome.reason.startswith(f"{nowhere}, and ")
+
+
 def test_what_finds_no_room_stays_in_the_hand_and_can_be_brought_later(serve: Serve) -> None:
     session, world = serve([], DELIVERY, *NEAR)
     outcome = session.run("Bring the hammer")

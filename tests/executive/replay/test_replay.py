@@ -16,7 +16,7 @@ from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
-from executive.replay.replaying import replay
+from executive.replay import replay, replay_text, replays_text
 from executive.types import CommandKind, DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
 from executive.user import Console
 from kb.ontology import ontology
@@ -201,6 +201,17 @@ def test_recordings_replay_from_the_command_line(
     assert main(["replay", str(tmp_path), "--json"]) == 0
     (answer,) = json.loads(capsys.readouterr().out)
     assert answer["parting"] is None
+
+
+def test_a_stop_before_anything_began_is_told_without_a_speed(tmp_path: Path) -> None:
+    at_once = replay(recorded(tmp_path / "one", "stop it", llm=False))
+    assert replay_text(at_once).endswith(": 0 ticks as recorded")
+    assert replays_text([at_once]) == "1 of 1 mission as recorded"
+    short = replay(recorded(tmp_path / "three", "Dance", llm=False))
+    assert replay_text(short).endswith(": 1 tick as recorded")
+    long = replay(recorded(tmp_path / "two", "Find a power_drill", llm=False))
+    fast = f"{long.speed:.0f} times"
+    assert replays_text([at_once, long]).endswith(f"the slowest {fast})")
 
 
 def test_one_recording_of_many_that_cannot_be_read_keeps_no_other_from_being_replayed(
