@@ -62,7 +62,7 @@ CLOSED_S = 1.0
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a mission, or one for each line that the person types; return the exit code."""
-    options = vars(parser().parse_args(arguments))
+    options = vars(parsed(arguments))
     said = options.pop("words")
     words = " ".join(said) if said else None
     as_json, verbose = options.pop("json"), options.pop("verbose")
@@ -184,6 +184,19 @@ def log_to_stderr(verbose: int) -> None:
     handler.setFormatter(_OneLine("%(levelname)s %(name)s: %(message)s"))
     level = [logging.WARNING, logging.INFO, logging.DEBUG][min(verbose, 2)]
     logging.basicConfig(level=level, handlers=[handler])
+
+
+def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """The options and all words, also those behind an option: `Bring --seed 3 a mug`.
+
+    `parse_intermixed_args` does not read `--` in Python 3.11.
+    """
+    p = parser()
+    options, rest = p.parse_known_args(arguments)
+    if any(word.startswith("-") for word in rest):
+        p.error(f"unrecognized arguments: {' '.join(rest)}")
+    options.words += rest
+    return options
 
 
 def parser() -> argparse.ArgumentParser:

@@ -1,4 +1,7 @@
-"""Our packages have common names: what other people call so may come before them on the path."""
+"""Our packages have common names: what other people call so may come before them on the path.
+
+A door of ours says so when it runs. A door that is itself shadowed is not run, and cannot.
+"""
 
 import os
 import sys
@@ -6,6 +9,8 @@ import sys
 BESIDE = os.path.dirname(os.path.dirname(__file__))
 """The folder that this package is in, and so are the others."""
 OTHERS = ("kb", "logs", "sim", "trees")
+COMMANDS = "robot-executive, or robot-executive-kb, -logs, -sim, -trees or -campaign"
+"""Those that do not import from the folder that they are run in."""
 
 
 def shadow() -> str:
@@ -15,7 +20,7 @@ def shadow() -> str:
         if found not in ("", os.path.join(BESIDE, package)):
             return (
                 f"{found} shadows the package {package} of robot-executive; "
-                "run robot-executive or robot-executive-logs, or start in another folder"
+                f"run {COMMANDS}, or start in another folder"
             )
     return ""
 

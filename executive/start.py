@@ -30,9 +30,29 @@ def robot_executive() -> None:
     _open("executive")
 
 
+def robot_executive_campaign() -> None:
+    """The command `robot-executive-campaign`, which is `python -m executive.campaign`."""
+    _open("executive.campaign")
+
+
+def robot_executive_kb() -> None:
+    """The command `robot-executive-kb`, which is `python -m kb`."""
+    _open("kb")
+
+
 def robot_executive_logs() -> None:
     """The command `robot-executive-logs`, which is `python -m logs`."""
     _open("logs")
+
+
+def robot_executive_sim() -> None:
+    """The command `robot-executive-sim`, which is `python -m sim`."""
+    _open("sim")
+
+
+def robot_executive_trees() -> None:
+    """The command `robot-executive-trees`, which is `python -m trees`."""
+    _open("trees")
 
 
 def _open(door: str) -> None:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from executive.errors import InputError
 from executive.shell import DONE, NOT_DONE, entry_point
-from executive.text import printable
+from executive.text import counted, printable
 from executive.usage import Parser
 from kb.facts import FactStore
 from kb.ontology.ontology import Ontology
@@ -95,13 +95,19 @@ def age(seconds: float) -> str:
     for unit, length in (("days", 86400), ("hours", 3600), ("minutes", 60)):
         if seconds >= 2 * length:
             return f"{seconds / length:.0f} {unit}"
-    return f"{max(0.0, seconds):.0f} seconds"
+    return counted(round(max(0.0, seconds)), "second")
 
 
 def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> Ontology:
     """What a mission with the same options would know."""
     home, own = load_home(given.home), [*given.kb, *files]
-    ontology = Ontology(home.places(), things=home.things(), defaults=given.defaults, files=own)
+    ontology = Ontology(
+        home.places(),
+        things=home.things(),
+        defaults=given.defaults,
+        files=own,
+        home=home.file,
+    )
     if given.command != "check":
         for warning in ontology.warnings():
             print(printable(f"warning: {warning}"), file=sys.stderr)

@@ -103,9 +103,8 @@ def _parser() -> argparse.ArgumentParser:
     tables.add_argument("--parquet", type=Path, required=True, metavar="DIR", help="where to")
     add("compare", _compare, "where two missions part", "one", "other")
     again = add("replay", _replay, "feed recorded events to a fresh tree: are its ticks the same?")
-    again.add_argument(
-        "runs", nargs="+", type=Path, metavar="RUN", help="a run's folder, or a folder of runs"
-    )
+    means = "a run's folder, or a folder of runs (default: the newest in runs/)"
+    again.add_argument("runs", nargs="*", type=Path, metavar="RUN", help=means)
     view = add_for_one("view", _view, "show the mission in the rerun viewer")
     view.add_argument("--web", action="store_true", help="in the browser, served to this machine")
     view.add_argument("--png", type=Path, metavar="FILE", help="instead, a picture of the viewer")
@@ -215,7 +214,7 @@ def _replay(options: argparse.Namespace) -> Answer:
     from executive.replay import Replay, replay, replay_text, replays_text
 
     gc.freeze()  # what is imported stays; to look through it for garbage takes a tenth of a second
-    answers = list(_each(options.runs, replay))
+    answers = list(_each(options.runs or [_chosen(())], replay))
     replays = [answer for answer in answers if isinstance(answer, Replay)]
     unread = [answer for answer in answers if not isinstance(answer, Replay)]
     lines = [*map(replay_text, replays)]

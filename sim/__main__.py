@@ -32,7 +32,7 @@ from sim.home.home import Home, load_home
 from sim.objects.objects import ObjectModel, load_objects
 from sim.objects.ycb import with_scans
 from sim.tools.catalogue import contact_sheet
-from sim.tools.checking import check_home
+from sim.tools.checking import check_home, notes_on
 from sim.tools.generation import generate_home
 
 WIDTH, HEIGHT = 1280, 1080
@@ -90,10 +90,11 @@ def _view(options: argparse.Namespace) -> int:
 
 def _check(options: argparse.Namespace) -> int:
     faults = [str(fault) for fault in check_home(options.home)]
+    notes = [f"note: {note}" for note in notes_on(options.home)]
     if options.json:
-        print(json.dumps(faults, indent=2, ensure_ascii=False))
+        print(json.dumps([*faults, *notes], indent=2, ensure_ascii=False))
     else:
-        print("\n".join(faults or [f"{printable(options.home)}: no faults"]))
+        print("\n".join([*notes, *(faults or [f"{printable(options.home)}: no faults"])]))
     return 1 if faults else 0
 
 

@@ -1,7 +1,8 @@
 """What a recording says, in Python: what was asked, said, thought and decided.
 
-    python docs/examples/read_a_recording.py runs/20261125T211315Z-bring-a-sugar-box
+    python docs/examples/read_a_recording.py [runs/20261125T211315Z-bring-a-sugar-box]
 
+Without a run it takes the newest of runs/; `python docs/examples/bring.py` makes one.
 `Run` gives back the very records that were made (`executive.records`), each with its time. Only
 what is asked for is decoded, so a long mission with pictures is read quickly.
 """
@@ -10,6 +11,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from executive import ExecutiveError
+from logs.recording.choice import newest
 from logs.recording.reader import Run
 
 
@@ -30,5 +33,8 @@ def story(folder: Path) -> Iterator[str]:
 
 
 if __name__ == "__main__":
-    for line in story(Path(sys.argv[1])):
-        print(line)
+    try:
+        for line in story(newest([Path(name) for name in sys.argv[1:]]).run):
+            print(line)
+    except ExecutiveError as error:
+        sys.exit(f"error: {error}")

@@ -93,6 +93,7 @@ def read_ontology(settings: Settings, home: Home) -> Ontology:
         defaults=settings.defaults,
         files=settings.kb,
         person=settings.person,
+        home=home.file,
     )
     for warning in knowledge.warnings():
         log.warning("%s", warning)

@@ -126,7 +126,7 @@ class _Rest:
         return entry
 
     def _choose(self, parts: Parts) -> Parts:
-        """As the policy does; its adviser is told the dialogue so far.
+        """As the policy does; its advice is told the dialogue so far.
 
         It keeps that if the system has a memory.
         """

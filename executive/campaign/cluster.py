@@ -127,18 +127,18 @@ def _result(future: Future[Entry], turns: _Turns) -> Entry:
 # --- in a worker process of the cluster ---
 
 _turn = threading.Lock()
-_household: Block | None = None
+_block: Block | None = None
 _so_far = 0
 _missions: Generator[Entry, None, None] | None = None
 
 
 def next_mission(block: Block, before: Sequence[Entry]) -> Entry:
     """Run the first mission of the block that is not in `before`; one at a time."""
-    global _household, _so_far, _missions
+    global _block, _so_far, _missions
     with _turn:
-        if _missions is None or (block, len(before)) != (_household, _so_far):
+        if _missions is None or (block, len(before)) != (_block, _so_far):
             if _missions:
                 _missions.close()
             _missions = blocks.run(block, before)
-        _household, _so_far = block, len(before) + 1
+        _block, _so_far = block, len(before) + 1
         return next(_missions)

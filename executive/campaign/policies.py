@@ -1,7 +1,7 @@
 """Who says where to look: the executive as it is, baselines to hold it against, and ablations.
 
 A policy changes settings, and puts other parts in the place of some: the language model, the
-adviser. The tree, the robot and the person are the same for all.
+advice. The tree, the robot and the person are the same for all.
 """
 
 import random
@@ -185,9 +185,9 @@ def true_first(parts: Parts) -> Order:
 
 
 def ordered(parts: Parts, rule: Callable[[Parts], Order]) -> Parts:
-    """The parts with an adviser that goes by a rule instead of a language model.
+    """The parts with advice that goes by a rule instead of a language model.
 
-    The settings have to ask for a ranking. okb has no adviser, and stays as it is.
+    The settings have to ask for a ranking. okb has no advice, and stays as it is.
     """
     if parts.settings.knowledge == KnowledgeSystem.OKB:
         return parts
@@ -278,7 +278,7 @@ def reworded(reword: Callable[[ChatRequest], ChatRequest]) -> Change:
 
 
 def unverified(parts: Parts) -> Parts:
-    """With an adviser that makes no existence check."""
+    """With advice that makes no existence check."""
     if parts.model is None:
         return parts
     settings = parts.settings

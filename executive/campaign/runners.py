@@ -1,6 +1,6 @@
 """Who runs the missions of a campaign: this process, a pool of them, or the workers of a cluster.
 
-An runner is given what is left to do, and appends each mission to the journal when it has ended.
+A runner is given what is left to do, and appends each mission to the journal when it has ended.
 """
 
 import multiprocessing

@@ -117,9 +117,11 @@ def run_mission(
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
-    `mishaps` are ordered as with `--fault`. `during` is called at the start of every goal of the
-    robot, and may post events; `first` are posted before the mission starts. `change` puts in other
-    parts, and `build` makes the tree.
+    Two things can go wrong: `fault` says of each goal of the robot why it fails, or None, and
+    `mishaps` are what `--fault` orders of the world, as in `moved=mug:desk@1`.
+
+    `during` is called at the start of every goal of the robot, and may post events; `first` are
+    posted before the mission starts. `change` puts in other parts, and `build` makes the tree.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
     settings = Settings(

@@ -61,6 +61,7 @@ class Ontology:
         defaults: bool = True,
         files: Sequence[Path | OwlFile] = (),
         person: str | None = None,
+        home: str = "",
     ) -> None:
         """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
 
@@ -73,6 +74,7 @@ class Ontology:
             files: a person's own OWL files, or what was read of them, which add to ours or
                 replace them.
             person: the name of who is at home, as the files have it.
+            home: the file that places and things are of, to be named when one of them is wrong.
 
         Raises:
             InputError: if a file is no ontology or is called like another; if what replaces
@@ -86,6 +88,7 @@ class Ontology:
         self._graph = Graph(t for file in self._library.files for t in file.triples)
         self._expect_vocabulary()
         self._graph.expect_bounded([_class(root) for root in ROOTS])
+        self._home = f"{printable(home)}: " if home else ""
         self._places = {place.name: place for place in places}
         self._order = {name: number for number, name in enumerate(self._places)}
         self._kinds = {
@@ -309,16 +312,20 @@ class Ontology:
         class_ = self._kinds[root].get(kind)
         if class_ is None:
             known = ", ".join(self._kinds[root])
-            fault = f"is a {printable(kind)!r}, which the ontology lacks"
-            raise InputError(printable(name), fault, f"known are {known}")
+            is_other = any(kind in kinds for kinds in self._kinds.values())
+            why = f"is no kind of {root.lower()}" if is_other else "the ontology lacks"
+            where = f"{self._home}{printable(name)}"
+            raise InputError(where, f"is a {printable(kind)!r}, which {why}", f"known are {known}")
         return class_
 
     def _add_things(self, things: Iterable[Thing]) -> dict[str, Identifier]:
         """Put the objects of the home in; what no file has, and the class right above it."""
         added = {}
         for thing in things:
-            kind = self._kind(f"object {thing.name}", thing.kind, "Object")
-            if put_thing(self._graph, thing.name, kind, URIRef(INDIVIDUALS + thing.name), CLASSES):
+            iri, where = URIRef(INDIVIDUALS + thing.name), f"object {thing.name}"
+            kind = self._kind(where, thing.kind, "Object")
+            where = f"{self._home}{printable(where)}"
+            if put_thing(self._graph, thing.name, kind, iri, CLASSES, where):
                 added[thing.name] = kind
         return added
 

@@ -7,13 +7,14 @@ from rdflib.term import Identifier
 
 from executive.errors import InputError
 from executive.language.phrases import words_of
-from executive.text import printable
 from kb.ontology.graph import Graph
 from kb.ontology.owl import ending
 from kb.ontology.validation import ROOTS
 
 
-def put_thing(graph: Graph, name: str, kind: Identifier, iri: URIRef, namespace: str) -> bool:
+def put_thing(
+    graph: Graph, name: str, kind: Identifier, iri: URIRef, namespace: str, where: str
+) -> bool:
     """Put an object right below its class; false if a file has it already, by this name.
 
     Args:
@@ -21,12 +22,12 @@ def put_thing(graph: Graph, name: str, kind: Identifier, iri: URIRef, namespace:
         name: of the object.
         kind: its class, which is below `Object`.
         iri: what the object becomes.
-        namespace: of the household's own classes; those without any below are objects.
+        namespace: of our own classes; those without any below are objects.
+        where: what to call it in messages.
 
     Raises:
         InputError: if something else is called so, or its class is an object itself.
     """
-    where = f"object {printable(name)}"
     objects = graph.leaves(URIRef(namespace + ROOTS[0]))
     if not words_of(name) or graph.is_declared(iri):
         raise InputError(where, "this is no name of a thing", "give another name")

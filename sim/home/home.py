@@ -64,6 +64,12 @@ class Home(BaseModel):
     """Where things are; those of one's own are declared there, too."""
     _folder: Path | None = PrivateAttr(None)
     """Where its meshes are; None: nowhere, and things look like their forms."""
+    _file: str = PrivateAttr("")
+
+    @property
+    def file(self) -> str:
+        """What its file is called in messages; empty if it was not read from one."""
+        return self._file
 
     @property
     def own(self) -> dict[str, OwnObject]:
@@ -237,7 +243,7 @@ def _inspect(
     except ValidationError as error:
         found = islice(error.errors(include_url=False), MOST_TOLD)
         return None, tuple(_input_error(where, data, fault) for fault in found)
-    home._folder = folder
+    home._folder, home._file = folder, where
     flaws = list(islice(home_flaws(home), MOST_TOLD)) or list(islice(mesh_flaws(home), MOST_TOLD))
     return home, tuple(InputError(where, *flaw) for flaw in flaws)
 

@@ -35,8 +35,30 @@ def check_home(name_or_path: str) -> tuple[InputError, ...]:
     home, faults = inspect_home(name_or_path)
     if home is None or faults:
         return faults
-    where = name_or_path if name_or_path.endswith(".toml") else f"{name_or_path}.toml"
-    return tuple(InputError(where, *fault) for fault in (*way_faults(home), *_reach_faults(home)))
+    return tuple(
+        InputError(home.file, *fault) for fault in (*way_faults(home), *_reach_faults(home))
+    )
+
+
+def notes_on(name_or_path: str) -> tuple[InputError, ...]:
+    """What is allowed and yet should be known: objects that can be found, not brought.
+
+    None of a file with faults, which may hide them.
+
+    Raises:
+        InputError: if there is no such home or it is not TOML.
+    """
+    home, faults = inspect_home(name_or_path)
+    if home is None or faults:
+        return ()
+    models = home.models()
+    reasons = ((name, why_not_taken(models[name])) for name in home.objects)
+    right = "make it smaller or lighter to have it brought"
+    return tuple(
+        InputError(home.file, f"{name}: it can be found, not brought: {why}", right)
+        for name, why in reasons
+        if why
+    )
 
 
 def way_faults(home: Home) -> Iterator[Flaw]:
@@ -70,9 +92,7 @@ def _reach_faults(home: Home) -> Iterator[Flaw]:
     world = PlanningWorld(_around_objects(home))
     models = home.models()
     for name, spot in home.objects.items():
-        if why := why_not_taken(models[name]):
-            yield f"{name}: it can be found, not brought: {why}", "make it smaller or lighter"
-        elif not _reaches(world, home, models[name]):
+        if not why_not_taken(models[name]) and not _reaches(world, home, models[name]):
             right = "put it nearer to the front of its furniture, or on another board"
             yield f"{name}: it is out of the arm's reach on {spot.furniture}", right
     world.close()

@@ -3,6 +3,7 @@
 import runpy
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -90,6 +91,29 @@ def test_the_recordings_replay_under_pytest() -> None:
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(file)]
     ran = subprocess.run(command, capture_output=True, text=True, cwd=EXAMPLES.parents[1])
     assert ran.returncode == 0, ran.stdout
+
+
+@pytest.fixture
+def reads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[], object]:
+    """Have the example read, without an argument, what is in runs/ of an own folder."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["read_a_recording.py"])
+    file = str(EXAMPLES / "read_a_recording.py")
+    return lambda: runpy.run_path(file, run_name="__main__")
+
+
+def test_without_a_name_the_newest_recording_is_told(
+    reads: Callable[[], object], capsys: pytest.CaptureFixture[str]
+) -> None:
+    for words in ("Find an apple", "Find the mug"):
+        example("bring")["bring"](words, Path("runs"))
+    reads()
+    assert "done: The mug is at " in capsys.readouterr().out
+
+
+def test_without_any_recording_it_is_said_in_a_sentence(reads: Callable[[], object]) -> None:
+    with pytest.raises(SystemExit, match="error: runs: there is no run; name a run's folder"):
+        reads()
 
 
 def test_a_recording_tells_its_story(tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ LINK = re.compile(r"\]\((?!\w+:)([^)\s]+)\)")
 FILE = re.compile(rf"(?<![\w/.-])(?:{PACKAGES}|tests|docs)/[\w/.-]*\w/?")
 MODULE = re.compile(rf"\b(?:python -m|from|import) ((?:{PACKAGES})(?:\.\w+)*)\b")
 NAME = re.compile(rf"`((?:{PACKAGES})(?:\.\w+)+)")
+PLACEHOLDER = re.compile(r"\b(?:FIXME|HOURS|MINUTES|SECONDS|TBA|TBD|TODO|XXX)\b")
 TO_BE_WRITTEN = {
     "trees/deeds/show.py",
 }
@@ -34,6 +35,11 @@ def anchors(page: Path) -> set[str]:
 
 def test_there_are_pages() -> None:
     assert {"README.md", "CONTRIBUTING.md", "docs/architecture.md"} <= set(map(str, PAGES))
+
+
+@pytest.mark.parametrize("page", [*PAGES, *EXAMPLES], ids=str)
+def test_nothing_is_left_to_be_filled_in(page: Path) -> None:
+    assert PLACEHOLDER.findall(text_of(page)) == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=str)

@@ -7,7 +7,7 @@ import pytest
 from pydantic import Field
 
 from executive import options
-from executive.__main__ import parser
+from executive.__main__ import parsed, parser
 from executive.config import Option, Settings
 from executive.options import add_settings, option_of
 
@@ -43,5 +43,19 @@ def test_every_option_of_a_setting_is_read_as_the_setting_is() -> None:
 
 
 def test_words_need_no_quotes() -> None:
-    assert parser().parse_args(["--seed", "1", "bring", "a", "mug"]).words == ["bring", "a", "mug"]
-    assert parser().parse_args([]).words == []
+    assert parsed(["--seed", "1", "bring", "a", "mug"]).words == ["bring", "a", "mug"]
+    assert parsed(["--", "-x"]).words == ["-x"]
+    assert parsed([]).words == []
+
+
+def test_options_may_stand_between_the_words() -> None:
+    given = parsed(["Bring", "--seed", "3", "a", "--json", "mug"])
+    assert (given.words, given.seed, given.json) == (["Bring", "a", "mug"], 3, True)
+
+
+def test_an_option_that_there_is_not_is_refused_among_words(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with pytest.raises(SystemExit):
+        parsed(["Bring", "--sead", "3", "a", "mug"])
+    assert "error: unrecognized arguments: --sead 3 a mug" in capsys.readouterr().err

@@ -11,6 +11,7 @@ from executive.types import Thing
 from kb.__main__ import main
 from kb.ontology.ontology import Ontology
 
+EXAMPLE = Path(__file__).parents[2] / "docs" / "examples" / "own_object.toml"
 PLACES = four_rooms().places()
 POT = """<owl:Class rdf:about="#Pot"><rdfs:label>pot</rdfs:label>
   <rdfs:subClassOf rdf:resource="http://robot-executive.org/household.owl#Kitchenware"/></owl:Class>"""
@@ -62,7 +63,7 @@ def test_what_a_persons_own_file_has_as_an_object_is_not_said_twice(pot: Path) -
             "Kitchnware",
             "object teapot: is a 'Kitchnware', which the ontology lacks; known",
         ),
-        ("teapot", "Desk", "is a 'Desk', which the ontology lacks"),
+        ("teapot", "Desk", "is a 'Desk', which is no kind of object; known are"),
         (
             "red_mug",
             "Mug",
@@ -80,13 +81,28 @@ def test_a_thing_that_cannot_be_is_refused(name: str, kind: str, sentence: str) 
     assert sentence in str(refused.value)
 
 
+@pytest.mark.parametrize(("name", "kind"), [("teapot", "Kitchnware"), ("cup", "Kitchenware")])
+def test_the_file_of_the_home_is_named_where_a_thing_cannot_be(name: str, kind: str) -> None:
+    with pytest.raises(InputError, match=rf"^homes/flat\.toml: object {name}: "):
+        Ontology(PLACES, things=[Thing(name, kind)], home="homes/flat.toml")
+
+
 def test_what_the_home_adds_to_the_ontology_is_kept_with_the_log(tmp_path: Path) -> None:
     (tmp_path / "flat.owl").write_bytes(knowing("red teapot", "Kitchenware").files()["home.owl"])
     known = Ontology(files=[tmp_path / "flat.owl"])
     assert known.classes_of("red teapot") == ("kitchenware",)
 
 
+def test_a_home_with_a_thing_of_no_kind_of_object_is_named_on_the_command_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "flat.toml"
+    file.write_text(EXAMPLE.read_text().replace('"Toy"', '"Desk"').replace("mesh =", "#"))
+    assert main(["show", "mug", "--home", str(file)]) == 2
+    said = f"error: {file}: object crate: is a 'Desk', which is no kind of object; known are"
+    assert capsys.readouterr().err.startswith(said)
+
+
 def test_show_knows_the_objects_of_a_home(capsys: pytest.CaptureFixture[str]) -> None:
-    example = Path(__file__).parents[2] / "docs" / "examples" / "own_object.toml"
-    assert main(["show", "teapot", "--home", str(example)]) == 0
+    assert main(["show", "teapot", "--home", str(EXAMPLE)]) == 0
     assert "is a         kitchenware" in capsys.readouterr().out

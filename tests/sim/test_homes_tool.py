@@ -142,6 +142,14 @@ def test_json_lists_the_sentences(tmp_path: Path, capsys):
     )
 
 
+def test_what_is_allowed_is_a_note_and_no_fault(capsys):
+    example = Path(__file__).parents[2] / "docs" / "examples" / "own_object.toml"
+    assert main(["check", str(example)]) == 0
+    note, verdict = capsys.readouterr().out.splitlines()
+    assert note.startswith(f"note: {example}: crate: it can be found, not brought")
+    assert verdict == f"{example}: no faults"
+
+
 SIZES = [(1, 8, 1), (3, 12, 2), (4, 40, 1), (30, 150, 1)]
 
 

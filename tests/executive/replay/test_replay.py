@@ -203,6 +203,18 @@ def test_recordings_replay_from_the_command_line(
     assert answer["parting"] is None
 
 
+def test_without_a_name_the_newest_recording_is_replayed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for words in ("Find an apple", "Find a power_drill"):
+        last = recorded(tmp_path / "runs", words, llm=False)
+    assert main(["replay"]) == 0
+    told = capsys.readouterr()
+    assert told.out.startswith(f"{last.name}: ")
+    assert told.err == f"runs/{last.name}: the newest of 2\n"
+
+
 def test_a_stop_before_anything_began_is_told_without_a_speed(tmp_path: Path) -> None:
     at_once = replay(recorded(tmp_path / "one", "stop it", llm=False))
     assert replay_text(at_once).endswith(": 0 ticks as recorded")
