@@ -18,7 +18,7 @@ from executive.app.parts import furniture_at
 from executive.errors import InputError
 from executive.testing.bench import Run, four_rooms, run_mission
 from executive.types import DriveTo, LookAt, MissionStatus, Pick, PutDown, Source
-from kb.__main__ import main
+from kb.__main__ import age, main
 from kb.facts import Fact, FactKind, FactStore
 
 
@@ -284,6 +284,14 @@ def test_facts_are_shown_with_their_age(file: Path, capsys: pytest.CaptureFixtur
     assert "seen" in first
     assert "desk" in first
     assert "days ago" in first
+
+
+@pytest.mark.parametrize(
+    ("seconds", "said"),
+    [(-1, "0 seconds"), (1.2, "1 second"), (90, "90 seconds"), (7300, "2 hours")],
+)
+def test_an_age_is_told_in_the_unit_that_fits(seconds: float, said: str) -> None:
+    assert age(seconds) == said
 
 
 def test_facts_are_printed_as_json(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
