@@ -71,7 +71,7 @@ class Session:
         the tree of each mission. A replay of what such a session recorded is given both, too.
 
         Raises:
-            ExecutiveError: if a setting, a source, the home, the ontology or the model file is wrong.
+            ExecutiveError: if a setting, a source, home, ontology or the model file is wrong.
         """
         self.settings = settings
         self.inbox = inbox or Inbox()
