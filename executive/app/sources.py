@@ -26,7 +26,7 @@ def checked(sources: object) -> tuple[PlaceSource, ...]:
         InputError: if they are no list of such.
     """
     if isinstance(sources, str | bytes | Mapping) or not isinstance(sources, Iterable):
-        what = f"is a {type(sources).__name__}, and no list"
+        what = f"one {type(sources).__name__} is no list"
         raise InputError("sources", what, "give a list, of one source too: sources=[source]")
     given = tuple(sources)
     names: set[str] = set()
@@ -64,7 +64,7 @@ def _attribute(where: str, source: object, name: str) -> object:
     try:
         return getattr(source, name)
     except AttributeError:
-        raise InputError(where, f"a {type(source).__name__} has no {name}", RIGHT) from None
+        raise InputError(where, f"{type(source).__name__} has no {name}", RIGHT) from None
     except Exception as error:
         raise InputError(where, f"its {name} cannot be read: {in_words(error)}", RIGHT) from None
 

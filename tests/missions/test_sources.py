@@ -151,10 +151,10 @@ class Mute:
 @pytest.mark.parametrize(
     ("sources", "sentence"),
     [
-        (Note(), "sources: is a Note, and no list; give a list"),
-        ("note", "sources: is a str, and no list"),
+        (Note(), "sources: one Note is no list; give a list"),
+        ("note", "sources: one str is no list"),
         ([Note], "sources[0]: is the class Note, and no source; call it: Note(...)"),
-        ([object()], "sources[0]: a object has no name; a source has a name"),
+        ([object()], "sources[0]: object has no name; a source has a name"),
         ([Note(name="my note")], "sources[0]: its name 'my note' is no word"),
         ([Note(name="llm")], "sources[0]: its name 'llm' is taken"),
         ([Note(), Note()], "sources[1]: another one is called 'note', too"),
