@@ -101,7 +101,7 @@ class Settings(BaseSettings):
     world: Annotated[
         str,
         Option(
-            "physics, fake or package.module:factory", "PyBullet, or instant (default: physics)"
+            "physics, fake or package.module:function", "PyBullet, or instant (default: physics)"
         ),
     ] = Field(
         "physics", description="PyBullet, or instant, or a robot of your own (docs/own-robot.md)"
@@ -150,6 +150,12 @@ class Settings(BaseSettings):
         1.0, ge=0, description="pictures a second for the log while the robot moves"
     )
 
+    @field_validator("kb", "fault", mode="before")
+    @classmethod
+    def _one_alone(cls, value: Any) -> Any:
+        """One of what is repeatable needs no list."""
+        return (value,) if isinstance(value, str | Path) else value
+
     @field_validator("llm")
     @classmethod
     def _known_llm(cls, value: str) -> str:
@@ -173,7 +179,7 @@ class Settings(BaseSettings):
         names = (*module.split("."), function)
         if value in ("physics", "fake") or (colon and all(map(str.isidentifier, names))):
             return value
-        raise ValueError("should be physics, fake or package.module:factory")
+        raise ValueError("should be physics, fake or package.module:function")
 
     @field_validator("detector")
     @classmethod

@@ -9,12 +9,12 @@ import logging
 import traceback
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from executive.errors import ExecutiveError
 from executive.events import Inbox
 from executive.interfaces import LanguageModel, Perception, PlaceSource, Recorder, Robot, User
-from executive.records import Note, Record
+from executive.records import Note, Record, SourceAnswer
 from executive.text import printable, writable
 from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, RankRequest
 
@@ -54,23 +54,39 @@ class GuardedRecorder:
 
 
 class GuardedSource:
-    """Implements `PlaceSource` around one that may raise: then it knows no place."""
+    """Implements `PlaceSource` around one that may raise: then it knows no place.
+
+    Each answer is recorded, so that a replay is told the same. That it raises is said once.
+    """
 
     def __init__(self, source: PlaceSource, recorder: Recorder) -> None:
         """Guard this source, whose name and clause stay as they are now."""
         self._source = source
         self._recorder = GuardedRecorder(recorder)
+        self._raised = False
         self.name = printable(source.name)
         self.says = printable(source.says)
 
     def places_of(self, name: str) -> tuple[str, ...]:
         """What it says."""
+        places = self._asked(name)
+        self._recorder.record(SourceAnswer(self.name, name, places))
+        return places
+
+    def _asked(self, name: str) -> tuple[str, ...]:
         try:
-            return tuple(map(str, self._source.places_of(name)))
+            said: Any = self._source.places_of(name)
+            places = [said] if isinstance(said, str) else said
+            return tuple(writable(str(place)) for place in places)
         except Exception as error:
-            log.warning("the %s does not answer: %s", self.name, in_words(error))
-            self._recorder.record(Note("error", traceback_of(error)))
+            self._tell(error)
             return ()
+
+    def _tell(self, error: Exception) -> None:
+        level = logging.DEBUG if self._raised else logging.WARNING
+        log.log(level, "the %s does not answer: %s", self.name, in_words(error))
+        self._recorder.record(Note("error", traceback_of(error)))
+        self._raised = True
 
 
 class _Guard(ABC):

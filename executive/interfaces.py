@@ -221,12 +221,16 @@ class PlaceSource(Protocol):
     """Something that knows where things are: a memory, a calendar, a list on the refrigerator.
 
     It is asked at the start of a search, before the ontology and the language model, and on the
-    ticking thread: what takes longer than some milliseconds is to be fetched beforehand.
+    ticking thread, where nothing is heard meanwhile, not even a stop: `places_of` has to answer
+    within milliseconds. What is slow (a network, a large file) is fetched beforehand.
     """
 
     @property
     def name(self) -> str:
-        """Who says so, in a word: `calendar`. It stands in logs, outcomes and the tree."""
+        """Who says so, in a word: `calendar`. It stands in logs, outcomes and the tree.
+
+        No two sources have the same, and none is called like a `Source`, `person` or `eyes`.
+        """
         ...
 
     @property

@@ -119,6 +119,15 @@ class Verified:
 
 
 @dataclass(frozen=True, slots=True)
+class SourceAnswer:
+    """Where a knowledge source of one's own said that a thing is: nowhere, if it did not know."""
+
+    source: str
+    thing: str
+    places: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Utterance:
     """Something said: speaker is `person` or `robot`."""
 
@@ -232,6 +241,7 @@ Record = (
     | EventTaken
     | LlmCall
     | Verified
+    | SourceAnswer
     | Utterance
     | Note
     | Picture

@@ -1,6 +1,6 @@
 """What a mission has for a body: ours in simulation, or a robot of one's own.
 
-`--world package.module:factory` names a function that is given a `Setup` and returns an
+`--world package.module:function` names a function that is given a `Setup` and returns an
 `Embodiment`; docs/own-robot.md shows one.
 """
 

@@ -1,4 +1,4 @@
-"""Parts of somebody's own, by name: `package.module:name` on the command line.
+"""Parts of somebody's own, by name: `package.module:function` on the command line.
 
 Whatever their code raises is told in a sentence, and `-vv` says where it was raised.
 """
@@ -15,6 +15,8 @@ from executive.errors import ExecutiveError, InputError
 from executive.guards import in_words
 
 T = TypeVar("T")
+
+FILE = ".py"
 
 log = logging.getLogger(__name__)
 
@@ -45,6 +47,8 @@ class Named:
         try:
             module = importlib.import_module(module_name)
         except ModuleNotFoundError as error:
+            if module_name.endswith(FILE):
+                raise self._file(module_name, attribute) from None
             what = f"there is no module {error.name}"
             right = "run in its folder, or name that in PYTHONPATH"
             raise InputError(self.where, what, right) from None
@@ -70,6 +74,12 @@ class Named:
         if not isinstance(made, kind):
             raise InputError(self.where, f"returned a {type(made).__name__}", self.right)
         return made
+
+    def _file(self, name: str, attribute: str) -> InputError:
+        module = Path(name).stem
+        return InputError(
+            self.where, f"{name} is a file, not a module", f"leave out {FILE}: {module}:{attribute}"
+        )
 
     def _broken(self, what: str, error: BaseException) -> InputError:
         log.debug("raised by code of somebody's own", exc_info=error)

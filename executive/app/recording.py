@@ -13,7 +13,7 @@ from executive.app.run_folder import write
 from executive.app.sources import written
 from executive.config import Settings
 from executive.files import read_bytes
-from executive.guards import GuardedRobot, GuardedSource, in_words
+from executive.guards import GuardedRobot, in_words
 from executive.toml_file import MOST_BYTES
 from executive.types import DELIVERY, FLOOR
 from logs.recorder import Sink
@@ -50,7 +50,7 @@ class Recording:
             "facts.json": json.dumps(self.parts.facts.beliefs()).encode(),
         }
         if self.parts.sources:
-            attachments["sources.json"] = self._sources()
+            attachments["sources.json"] = written(self.parts.sources)
         metadata = {
             "requests_before": str(self.parts.inbox.last),
             **before,
@@ -66,10 +66,6 @@ class Recording:
             lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
             lambda: RerunSink(folder / "mission.rrd", view=self.view),
         )
-
-    def _sources(self) -> bytes:
-        recorder, things = self.parts.recorder, self.parts.knowledge.objects()
-        return written([GuardedSource(source, recorder) for source in self.parts.sources], things)
 
     def _model(self) -> str:
         model = self.parts.model

@@ -15,7 +15,9 @@ from executive.app.building import build_parts
 from executive.app.parts import OURS, Build, Change, as_they_are, build_mission, mission_tree
 from executive.app.recording import Recording, body_used, files_used
 from executive.app.run_folder import new_folder, to_json, write
+from executive.app.sources import checked
 from executive.config import Settings
+from executive.errors import ExecutiveError
 from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
 from executive.guards import GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
@@ -27,6 +29,11 @@ from executive.text import one_line, too_long, writable
 from executive.types import Answered, Halt, MissionStatus, Outcome
 from executive.user import NOTHING_TO_STOP, Console
 from logs.recorder import FanOut, Sink
+
+CLOSED = (
+    "this session is closed, and its robot let go of: "
+    "run missions inside of its with block, or make a new Session"
+)
 
 log = logging.getLogger(__name__)
 
@@ -64,12 +71,13 @@ class Session:
         the tree of each mission. A replay of what such a session recorded is given both, too.
 
         Raises:
-            ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
+            ExecutiveError: if a setting, a source, home, ontology or the model file is wrong.
         """
         self.settings = settings
         self.inbox = inbox or Inbox()
         self.recorder = FanOut(lambda: self.parts.clock.now(), live=view)
         used = files_used(settings)
+        given = checked(sources)
         with ExitStack() as opened:
             self.embodiment, parts = build_parts(
                 settings,
@@ -81,8 +89,9 @@ class Session:
                 out=out or sys.stderr,
                 gui=gui,
             )
-            self.parts = change(replace(parts, sources=tuple(sources)))
+            self.parts = change(replace(parts, sources=given))
             """Whom missions are run with."""
+            checked(self.parts.sources)
             self._recording = None
             if recorded:
                 used |= body_used(self.parts)
@@ -92,6 +101,7 @@ class Session:
         self._build = build
         self._in_hand: str | None = None
         self._restless = False
+        self._closed = False
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
@@ -126,7 +136,11 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Free what the session has opened: the body, the file of facts, the model."""
+        """Free what the session has opened: the body, the file of facts, the model.
+
+        No mission can be run afterwards.
+        """
+        self._closed = True
         self._opened.close()
 
     def run(self, words: str) -> Outcome:
@@ -137,9 +151,12 @@ class Session:
         mission counts only if it was a stop; what comes after it does not count for the next one.
 
         Raises:
+            ExecutiveError: if the session is closed.
             InputError: if the run's folder cannot be made.
             KeyboardInterrupt: if someone says stop by signal a second time.
         """
+        if self._closed:
+            raise ExecutiveError(CLOSED)
         began = time.monotonic()
         self.stopped_by, self.folder = "", None
         if why := too_long(words):

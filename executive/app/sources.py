@@ -1,50 +1,137 @@
-"""Knowledge sources as a recording keeps them, so that a replay is told what the mission was."""
+"""Knowledge sources as a session is given them, and as a recording keeps them for its replay."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from pydantic import TypeAdapter, ValidationError
 
 from executive.errors import InputError
+from executive.guards import in_words
 from executive.interfaces import PlaceSource
+from executive.records import SourceAnswer
+from executive.text import printable
+from executive.types import Source
+
+TAKEN = frozenset({*Source, "person", "eyes"})
+"""Whose word something is in logs and outcomes besides."""
+RIGHT = "a source has a name, a clause that says who says so, and places_of (docs/knowledge.md)"
+
+# --- given ---
+
+
+def checked(sources: object) -> tuple[PlaceSource, ...]:
+    """These sources, each of which can be asked and told from the others.
+
+    Raises:
+        InputError: if they are no list of such.
+    """
+    if isinstance(sources, str | bytes | Mapping) or not isinstance(sources, Iterable):
+        what = f"one {type(sources).__name__} is no list"
+        raise InputError("sources", what, "give a list, of one source too: sources=[source]")
+    given = tuple(sources)
+    names: set[str] = set()
+    for number, source in enumerate(given):
+        where = f"sources[{number}]"
+        name = _name_of(where, source)
+        if name in names:
+            what = f"another one is called {name!r}, too"
+            raise InputError(where, what, "give each a name of its own")
+        names.add(name)
+    return given
+
+
+def _name_of(where: str, source: object) -> str:
+    """The name of a source that is as it should be."""
+    if isinstance(source, type):
+        what = f"is the class {source.__name__}, and no source"
+        raise InputError(where, what, f"call it: {source.__name__}(...)")
+    name, says, asked = (_attribute(where, source, a) for a in ("name", "says", "places_of"))
+    if not (isinstance(name, str) and name.isidentifier()):
+        right = "use a word of letters, digits and _, such as calendar"
+        raise InputError(where, f"its name {name!r} is no word", right)
+    if name in TAKEN:
+        what = f"its name {name!r} is taken: logs and outcomes would not tell the two apart"
+        raise InputError(where, what, f"use another one than {', '.join(sorted(TAKEN))}")
+    if not (isinstance(says, str) and says.strip()):
+        right = 'write who says so, such as "your calendar says so"'
+        raise InputError(where, f"its says {says!r} is no clause", right)
+    if not callable(asked):
+        raise InputError(where, "its places_of cannot be called", RIGHT)
+    return str(name)
+
+
+def _attribute(where: str, source: object, name: str) -> object:
+    try:
+        return getattr(source, name)
+    except AttributeError:
+        raise InputError(where, f"{type(source).__name__} has no {name}", RIGHT) from None
+    except Exception as error:
+        raise InputError(where, f"its {name} cannot be read: {in_words(error)}", RIGHT) from None
+
+
+# --- recorded ---
 
 
 @dataclass(frozen=True, slots=True)
-class WrittenSource:
-    """Implements `PlaceSource`: each thing, and the places that another source named for it."""
+class Written:
+    """A source as `sources.json` has it.
+
+    `places` is of earlier recordings, which kept there what it knew of each thing. Since then each
+    answer is a record, where it was given.
+    """
 
     name: str
     says: str
-    places: Mapping[str, tuple[str, ...]]
+    places: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedSource:
+    """Implements `PlaceSource`: what a source answered in a mission, in that order.
+
+    The last answer about a thing is given again and again.
+    """
+
+    name: str
+    says: str
+    answers: Mapping[str, list[tuple[str, ...]]]
 
     def places_of(self, name: str) -> tuple[str, ...]:
-        """What was written down."""
-        return self.places.get(name, ())
+        """The next answer."""
+        left = self.answers.get(name, [()])
+        return left.pop(0) if len(left) > 1 else left[0]
 
 
-_FILE = TypeAdapter(tuple[WrittenSource, ...])
+_FILE = TypeAdapter(tuple[Written, ...])
 
 
-def written(sources: Iterable[PlaceSource], things: Iterable[str]) -> bytes:
-    """What the sources know of these things now, as JSON."""
-    names = tuple(things)
-
-    def known(source: PlaceSource) -> WrittenSource:
-        places = {name: source.places_of(name) for name in names}
-        return WrittenSource(source.name, source.says, places)
-
-    return _FILE.dump_json(tuple(map(known, sources)))
+def written(sources: Iterable[PlaceSource]) -> bytes:
+    """What the sources are called, as JSON; none is asked anything."""
+    named = tuple(Written(printable(source.name), printable(source.says)) for source in sources)
+    return _FILE.dump_json(named, exclude_defaults=True)
 
 
-def read(file: str, text: bytes) -> tuple[WrittenSource, ...]:
-    """What was written.
+def read(
+    file: str, text: bytes, answers: Iterable[SourceAnswer] = ()
+) -> tuple[RecordedSource, ...]:
+    """The sources that were written, which give these answers.
 
     Raises:
-        InputError: if it is something else; `file` says what was read.
+        InputError: if something else was written; `file` says what was read.
     """
     try:
-        return _FILE.validate_json(text)
+        sources = _FILE.validate_json(text)
     except ValidationError as error:
         fault = error.errors()[0]
         what = f"its sources.json does not say what is where: {fault['msg']}"
         raise InputError(file, what) from error
+    given = tuple(answers)
+    return tuple(_recorded(source, given) for source in sources)
+
+
+def _recorded(source: Written, answers: Iterable[SourceAnswer]) -> RecordedSource:
+    told = {thing: [places] for thing, places in source.places.items()}
+    for answer in answers:
+        if answer.source == source.name:
+            told.setdefault(answer.thing, []).append(answer.places)
+    return RecordedSource(source.name, source.says, told)

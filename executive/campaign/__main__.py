@@ -33,7 +33,7 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="policies:\n"
         + "".join(f"  {name:<17} {policy.description}\n" for name, policy in POLICIES.items())
-        + "  package.module:NAME\n"
+        + "  package.module:function\n"
         + f"  {'':<17} one of your own: a function from parts to parts\n"
         + "\nexit: 0 all missions have ended, 1 some had no working model, 2 bad usage or input, "
         "130 stopped",
@@ -91,7 +91,7 @@ def _policy(name: str) -> str:
     if name not in POLICIES and ":" not in name:
         ours = ", ".join(map(repr, POLICIES))
         raise argparse.ArgumentTypeError(
-            f"invalid choice: {name!r} (choose from {ours}, or package.module:NAME)"
+            f"invalid choice: {name!r} (choose from {ours}, or package.module:function)"
         )
     return name
 

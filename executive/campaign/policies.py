@@ -331,7 +331,7 @@ RIGHT = (
 
 
 def policy_named(name: str) -> Policy:
-    """One of ours, or one of somebody's own by `package.module:name`.
+    """One of ours, or one of somebody's own by `package.module:function`.
 
     Raises:
         InputError: if one of somebody's own cannot be imported; in a mission, if it fails.

@@ -10,11 +10,12 @@ from typing import TypeVar
 from pydantic import TypeAdapter, ValidationError
 
 from executive.app.parts import OURS, Change, Parts, advised, as_they_are, parameters_of
-from executive.app.sources import read
+from executive.app.sources import RecordedSource, read
 from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import Clock, Recorder
+from executive.records import SourceAnswer
 from executive.replay.body import recorded_body
 from executive.replay.stand_ins import Absent
 from executive.types import Place, Thing
@@ -64,7 +65,7 @@ def recorded_parts(
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
         facts=FactStore.believing(_beliefs(run), learns=settings.learn),
-        sources=read(str(run.path), run.attachments.get("sources.json", b"[]")),
+        sources=_sources(run),
         in_map=body.in_map,
         blind_to=body.blind_to,
         parameters=parameters_of(settings),
@@ -104,6 +105,13 @@ def _beliefs(run: Run) -> dict[str, list[str]]:
     except ValidationError as error:
         what = f"its facts.json does not say what is where: {error.errors()[0]['msg']}"
         raise InputError(str(run.path), what) from error
+
+
+def _sources(run: Run) -> tuple[RecordedSource, ...]:
+    text = run.attachments.get("sources.json")
+    if text is None:
+        return ()
+    return read(str(run.path), text, (at.value for at in run.records(SourceAnswer)))
 
 
 def _settings(run: Run) -> Settings:

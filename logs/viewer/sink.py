@@ -18,6 +18,7 @@ from executive.records import (
     Record,
     Scene,
     Seen,
+    SourceAnswer,
     Tick,
     Transform,
     Transforms,
@@ -105,6 +106,10 @@ class RerunSink:
                 )
             case Note(level, text):
                 self._stream.log(blueprint.LOG, rr.TextLog(text, level=_LEVELS[level]))
+            case SourceAnswer(source, thing, places):
+                where = ", ".join(places) or "not known"
+                text = f"{source}: {thing}: {where}"
+                self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
             case Mishap(fault, text):
                 self._stream.log(blueprint.LOG, rr.TextLog(f"{fault}: {text}", level="WARN"))
             case EventTaken():

@@ -32,6 +32,12 @@ def test_the_written_settings_read_back_the_same(tmp_path: Path) -> None:
     assert load_settings(file_with(tmp_path, settings.to_toml())) == settings
 
 
+def test_one_of_what_is_repeatable_needs_no_list(tmp_path: Path) -> None:
+    settings = load_settings(file_with(tmp_path, 'kb = "a.owl"'), fault="slip=0.3")
+    assert (settings.fault, settings.kb) == (("slip=0.3",), (Path("a.owl"),))
+    assert load_settings(kb=Path("a.owl")).kb == settings.kb
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [

@@ -2,7 +2,8 @@
 
 import pytest
 
-from executive.app.sources import WrittenSource
+from executive.app.sources import read
+from executive.records import SourceAnswer
 from executive.testing.contracts.place_source import PlaceSourceContract, SourceBench
 from kb.facts import FactStore
 from trees.recall import Memory
@@ -18,5 +19,6 @@ class TestMemory(PlaceSourceContract):
 class TestWhatARecordingKept(PlaceSourceContract):
     @pytest.fixture
     def source_bench(self) -> SourceBench:
-        source = WrittenSource("calendar", "your calendar says so", {"mug": ("desk",)})
+        text = b'[{"name": "calendar", "says": "your calendar says so"}]'
+        (source,) = read("a run", text, [SourceAnswer("calendar", "mug", ("desk",))])
         return SourceBench(source, "mug", ("desk",))

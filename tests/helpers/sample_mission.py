@@ -21,6 +21,7 @@ from executive.records import (
     Scene,
     Seen,
     Shape,
+    SourceAnswer,
     Tick,
     Transform,
     Transforms,
@@ -223,6 +224,7 @@ def mission() -> Iterator[tuple[float, Record]]:
     yield 0.5, rank_call()
     yield 1.0, chat_call()
     yield 1.0, Verified("general_pos", ("cupboard",), (), ("spice rack",))
+    yield 1.5, SourceAnswer("calendar", "sugar_box", ("cupboard",))
     done = "SUCCESS"
     yield (
         2.0,

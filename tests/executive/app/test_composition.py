@@ -13,7 +13,7 @@ from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.campaign import blocks
 from executive.config import KnowledgeSystem, Settings, load_settings
-from executive.errors import InputError
+from executive.errors import ExecutiveError, InputError
 from executive.events import Inbox
 from executive.replay import replay
 from executive.testing.bench import run_mission
@@ -55,6 +55,14 @@ def test_session_replay_campaign_bench_and_show_make_missions_alike(
     assert len(made) == 4
     build("okb", "rank")
     assert len(made) == 5
+
+
+def test_a_session_that_is_closed_runs_no_mission() -> None:
+    with Session(Settings(**QUICK), recorded=False, out=io.StringIO()) as session:
+        pass
+    session.close()
+    with pytest.raises(ExecutiveError, match="this session is closed"):
+        session.run("Find the mug")
 
 
 def test_nobody_else_makes_a_context() -> None:

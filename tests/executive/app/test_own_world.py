@@ -1,4 +1,4 @@
-"""`--world package.module:factory`: a robot of one's own needs no edit here."""
+"""`--world package.module:function`: a robot of one's own needs no edit here."""
 
 import json
 import sys
@@ -72,9 +72,13 @@ def test_the_oracle_answers_from_the_truth_of_a_world_of_ones_own(own: Path) -> 
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (["--world", "moon"], "should be physics, fake or package.module:factory"),
-        (["--world", "own world:robot"], "should be physics, fake or package.module:factory"),
+        (["--world", "moon"], "should be physics, fake or package.module:function"),
+        (["--world", "own world:robot"], "should be physics, fake or package.module:function"),
         (["--world", "no_such_world:robot"], "there is no module no_such_world"),
+        (
+            ["--world", "own_world.py:robot"],
+            "is a file, not a module; leave out .py: own_world:robot",
+        ),
         (["--world", "own_world:arm"], "own_world has no function arm"),
         (["--world", "own_world:number"], "own_world has no function number"),
         (["--world", "own_world:broken"], "cannot be built: ConnectionError: the robot is off"),
