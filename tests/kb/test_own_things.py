@@ -89,4 +89,6 @@ def test_what_the_home_adds_to_the_ontology_is_kept_with_the_log(tmp_path: Path)
 def test_show_knows_the_objects_of_a_home(capsys: pytest.CaptureFixture[str]) -> None:
     example = Path(__file__).parents[2] / "docs" / "examples" / "own_object.toml"
     assert main(["show", "teapot", "--home", str(example)]) == 0
-    assert "is a         kitchenware" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert "is a         kitchenware" in shown
+    assert "color        blue" in shown

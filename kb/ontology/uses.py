@@ -1,0 +1,44 @@
+"""What things are for: whether a use is the one that somebody speaks of."""
+
+from collections.abc import Iterator
+
+from executive.language.phrases import PREPOSITIONS, Words, words_of
+
+PURPOSE_WORDS = ("to", "for")
+"""One of these begins a use: "to drink from", "for nails"."""
+_STRANDED = PREPOSITIONS | {"into", "onto", "with"}
+_INSTRUMENT = "with"
+"""May be left out: "for cleaning" is to clean with."""
+_SHORTEST_GERUND = 6
+
+
+def fits(use: str, purpose: str) -> bool:
+    """Whether a thing of this use serves the purpose: "to clean with", "clean the bathroom with".
+
+    Words count by their stems. The purpose may name an object that the use leaves open, but it
+    ends with the preposition of the use: what is "to eat" is nothing to eat with.
+    """
+    known, known_end = _parts(use)
+    asked, asked_end = _parts(purpose)
+    ends_alike = asked_end == known_end or (not asked_end and known_end == _INSTRUMENT)
+    return bool(known) and known[:1] == asked[:1] and ends_alike and _is_within(known, asked)
+
+
+def _parts(text: str) -> tuple[Words, str]:
+    """The words that count, and the preposition at the end, if there is one."""
+    words = [word for word in words_of(text) if word not in PURPOSE_WORDS]
+    end = words.pop() if words and words[-1] in _STRANDED else ""
+    return tuple(map(_verb_stem, words)), end
+
+
+def _verb_stem(word: str) -> str:
+    """A form that a verb shares with its gerund: "cutting", "cut" -> "cut"."""
+    if len(word) >= _SHORTEST_GERUND:
+        word = word.removesuffix("ing")
+    return word[:-1] if len(word) > 2 and word[-1] == word[-2] else word
+
+
+def _is_within(some: Words, words: Words) -> bool:
+    """Whether words are among others, in their order."""
+    rest: Iterator[str] = iter(words)
+    return all(word in rest for word in some)
