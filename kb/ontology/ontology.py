@@ -21,7 +21,7 @@ from kb.ontology.properties import COLOR, PRONOUN, SHAPE, USE, Properties, said,
 from kb.ontology.table import Table
 from kb.ontology.things import put_thing
 from kb.ontology.unused import unused
-from kb.ontology.uses import fits
+from kb.ontology.uses import Uses
 from kb.ontology.validation import ROOTS, faults
 
 HOUSEHOLD = Path(__file__).parents[1] / "household.owl"
@@ -106,6 +106,9 @@ class Ontology:
         self._objects = self._graph.leaves(_class("Object"))
         self._objects_by_words = self._index()
         self._descriptions = self._describe()
+        self._uses = Uses(
+            (label(thing), texts(self._properties.every(thing, USE))) for thing in self._objects
+        )
         self._names_by_words = index_by_words(
             [(words_of(label(thing)), label(thing)) for thing in self._things],
             [(words_of(name), label(thing)) for thing in self._things for name in names(thing)],
@@ -139,11 +142,7 @@ class Ontology:
 
     def objects_for(self, purpose: str) -> tuple[str, ...]:
         """The objects that are for this: "to drink from", "clean the bathroom with", "nails"."""
-        return tuple(
-            self._graph.label(thing)
-            for thing in self._objects
-            if any(fits(use, purpose) for use in texts(self._properties.every(thing, USE)))
-        )
+        return self._uses.serving(purpose)
 
     def nearest_names(self, words: str) -> tuple[str, ...]:
         """Known names that look most like the words, best first (at most 3)."""

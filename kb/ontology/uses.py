@@ -1,6 +1,6 @@
 """What things are for: whether a use is the one that somebody speaks of."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from executive.language.phrases import PREPOSITIONS, Words, words_of
 
@@ -10,6 +10,24 @@ _STRANDED = PREPOSITIONS | {"into", "onto", "with"}
 _INSTRUMENT = "with"
 """May be left out: "for cleaning" is to clean with."""
 _SHORTEST_GERUND = 6
+
+
+class Uses:
+    """Finds the things that serve a purpose."""
+
+    def __init__(self, used: Iterable[tuple[str, Sequence[str]]]) -> None:
+        """Index the things: each one's name and its uses."""
+        self._order: list[str] = []
+        self._of: dict[str, list[str]] = {}
+        for name, uses in used:
+            self._order.append(name)
+            for use in uses:
+                self._of.setdefault(use, []).append(name)
+
+    def serving(self, purpose: str) -> tuple[str, ...]:
+        """The names of the things that are for this, in their order."""
+        fit = {name for use, names in self._of.items() if fits(use, purpose) for name in names}
+        return tuple(filter(fit.__contains__, self._order))
 
 
 def fits(use: str, purpose: str) -> bool:
