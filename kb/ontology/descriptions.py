@@ -3,10 +3,16 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Flag, auto
+from itertools import chain
 
 from executive.colors import COLORS, OTHER_SPELLINGS
 from executive.language.phrases import MOST_WORDS, words_of
 from executive.types import OtherColor
+
+LONGEST = 20
+"""Words of a description; more of them are none."""
+MOST_TOLD = 6
+"""Things of which one tells that they have another colour: of all things there is none to tell."""
 
 
 class Role(Flag):
@@ -18,7 +24,6 @@ class Role(Flag):
     SHAPE = auto()
 
 
-NOUN = Role.NAME | Role.PRONOUN
 PROPERTY = Role.COLOR | Role.SHAPE
 
 
@@ -66,10 +71,17 @@ class Descriptions:
         self._colors = {joined(c): c for look in every for c in (*look.colors, *look.said)}
         for color in (*COLORS, *OTHER_SPELLINGS) if self._colors else ():
             self._colors.setdefault(joined(color), color)
-        self._shapes = {joined(shape) for look in every for shape in look.shapes}
-        self._pronouns = set(map(joined, pronouns))
         self._of_color = {n: _spellings(look.colors) for n, look in self._looks.items()}
         self._of_shape = {n: set(map(joined, look.shapes)) for n, look in self._looks.items()}
+        self._roles: dict[str, Role] = {}
+        for role, pieces in (
+            (Role.NAME, named),
+            (Role.PRONOUN, map(joined, pronouns)),
+            (Role.COLOR, self._colors),
+            (Role.SHAPE, chain.from_iterable(self._of_shape.values())),
+        ):
+            for piece in pieces:
+                self._roles[piece] = self._roles.get(piece, Role(0)) | role
 
     def find(self, words: str) -> tuple[str, ...]:
         """The objects that the words describe, by at least one property."""
@@ -82,7 +94,7 @@ class Descriptions:
         if not description or not description.colors or any(self._colored(description)):
             return None
         shaped = [self._looks[name] for name in self._shaped(description)]
-        if not shaped or not all(look.said for look in shaped):
+        if not 0 < len(shaped) <= MOST_TOLD or not all(look.said for look in shaped):
             return None
         wanted = tuple(self._colors[color] for color in description.colors)
         return OtherColor(wanted, tuple((look.name, look.said) for look in shaped))
@@ -122,24 +134,14 @@ class Descriptions:
     def _pieces(self, words: str) -> Iterator[tuple[str, Role]]:
         """The longest known pieces from the left, and what each may be; an unknown one ends it."""
         rest, begin = words_of(words), 0
+        if len(rest) > LONGEST:
+            rest = ()
         while begin < len(rest):
             for end in range(min(begin + MOST_WORDS, len(rest)), begin, -1):
-                if roles := self._roles(piece := "".join(rest[begin:end])):
+                if roles := self._roles.get(piece := "".join(rest[begin:end]), Role(0)):
                     break
             yield piece, roles
             begin = end if roles else len(rest)
-
-    def _roles(self, piece: str) -> Role:
-        known = {
-            Role.NAME: self._named,
-            Role.PRONOUN: self._pronouns,
-            Role.COLOR: self._colors,
-            Role.SHAPE: self._shapes,
-        }
-        roles = Role(0)
-        for role, index in known.items():
-            roles |= role if piece in index else Role(0)
-        return roles
 
 
 def joined(text: str) -> str:

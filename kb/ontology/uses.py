@@ -1,6 +1,7 @@
 """What things are for: whether a use is the one that somebody speaks of."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 from executive.language.phrases import PREPOSITIONS, Words, words_of
 
@@ -12,41 +13,48 @@ _INSTRUMENT = "with"
 _SHORTEST_GERUND = 6
 
 
+@dataclass(frozen=True, slots=True)
+class Purpose:
+    """The stems of the words that count, and the preposition at the end, if there is one."""
+
+    words: Words
+    end: str
+
+    def serves(self, asked: "Purpose") -> bool:
+        """Whether this use serves what is asked for: "to clean with", "clean the bathroom with".
+
+        What is asked for may name an object that the use leaves open, but it ends with the
+        preposition of the use: what is "to eat" is nothing to eat with.
+        """
+        ends_alike = asked.end == self.end or (not asked.end and self.end == _INSTRUMENT)
+        begin_alike = bool(self.words) and self.words[:1] == asked.words[:1]
+        return begin_alike and ends_alike and _is_within(self.words, asked.words)
+
+
 class Uses:
     """Finds the things that serve a purpose."""
 
     def __init__(self, used: Iterable[tuple[str, Sequence[str]]]) -> None:
         """Index the things: each one's name and its uses."""
         self._order: list[str] = []
-        self._of: dict[str, list[str]] = {}
+        self._of: dict[Purpose, list[str]] = {}
         for name, uses in used:
             self._order.append(name)
             for use in uses:
-                self._of.setdefault(use, []).append(name)
+                self._of.setdefault(purpose_of(use), []).append(name)
 
     def serving(self, purpose: str) -> tuple[str, ...]:
         """The names of the things that are for this, in their order."""
-        fit = {name for use, names in self._of.items() if fits(use, purpose) for name in names}
+        asked = purpose_of(purpose)
+        fit = {name for use, names in self._of.items() if use.serves(asked) for name in names}
         return tuple(filter(fit.__contains__, self._order))
 
 
-def fits(use: str, purpose: str) -> bool:
-    """Whether a thing of this use serves the purpose: "to clean with", "clean the bathroom with".
-
-    Words count by their stems. The purpose may name an object that the use leaves open, but it
-    ends with the preposition of the use: what is "to eat" is nothing to eat with.
-    """
-    known, known_end = _parts(use)
-    asked, asked_end = _parts(purpose)
-    ends_alike = asked_end == known_end or (not asked_end and known_end == _INSTRUMENT)
-    return bool(known) and known[:1] == asked[:1] and ends_alike and _is_within(known, asked)
-
-
-def _parts(text: str) -> tuple[Words, str]:
-    """The words that count, and the preposition at the end, if there is one."""
+def purpose_of(text: str) -> Purpose:
+    """The purpose in words."""
     words = [word for word in words_of(text) if word not in PURPOSE_WORDS]
     end = words.pop() if words and words[-1] in _STRANDED else ""
-    return tuple(map(_verb_stem, words)), end
+    return Purpose(tuple(map(_verb_stem, words)), end)
 
 
 def _verb_stem(word: str) -> str:

@@ -12,7 +12,7 @@ from executive.testing.bench import four_rooms, ontology
 from executive.types import OtherColor, Thing
 from kb.__main__ import main
 from kb.ontology.ontology import HOUSEHOLD, Ontology
-from kb.ontology.uses import fits
+from kb.ontology.uses import purpose_of
 
 KNOWN = ontology(True)
 MESHES = Path(__file__).parents[2] / "sim" / "assets" / "objects"
@@ -110,7 +110,7 @@ def test_it_is_known_what_has_another_color(
     assert KNOWN.other_color(words) == OtherColor(wanted, tuple(actual))
 
 
-@pytest.mark.parametrize("words", ["a red mug", "mug", "unicorn", "blue unicorn", "big mug"])
+@pytest.mark.parametrize("words", ["a red mug", "mug", "unicorn", "blue unicorn", "a purple one"])
 def test_no_other_color_is_told_of_what_is_found_or_unknown(words: str) -> None:
     assert KNOWN.other_color(words) is None
 
@@ -144,7 +144,7 @@ def test_all_food_is_to_eat() -> None:
     [("to eat", "eat with"), ("to drink from", "drink"), ("for nails", "clean my nails with")],
 )
 def test_another_preposition_or_verb_is_another_purpose(use: str, purpose: str) -> None:
-    assert not fits(use, purpose)
+    assert not purpose_of(use).serves(purpose_of(purpose))
 
 
 def test_an_own_file_says_what_its_things_are_like_and_for(tmp_path: Path) -> None:
