@@ -17,6 +17,7 @@ from executive.types import (
     Detection,
     Frame,
     Goal,
+    OtherColor,
     Place,
     Question,
     RankRequest,
@@ -157,7 +158,15 @@ class Knowledge(Protocol):
         ...
 
     def objects_named(self, words: str) -> tuple[str, ...]:
-        """The objects that the words may mean: none, one, or all members of a class ("fruit")."""
+        """The objects that the words may mean: none, one, or several ("fruit", "the red one")."""
+        ...
+
+    def other_color(self, words: str) -> OtherColor | None:
+        """What the words would mean if they did not say the colour: "blue mug", and it is red."""
+        ...
+
+    def objects_for(self, purpose: str) -> tuple[str, ...]:
+        """The objects that are for this: "to drink from", "clean the bathroom with", "nails"."""
         ...
 
     def nearest_names(self, words: str) -> tuple[str, ...]:

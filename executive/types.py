@@ -169,6 +169,18 @@ class Thing:
     name: str
     kind: str
     """Its class in the ontology: `Kitchenware`, `Toy`, ..."""
+    color: str = ""
+    """What its colour is called, one of `executive.colors.COLORS`; empty if nobody gave one."""
+
+
+@dataclass(frozen=True, slots=True)
+class OtherColor:
+    """Things that are called as was said, and have none of the colours that were said."""
+
+    wanted: tuple[str, ...]
+    """The colours that were said."""
+    actual: tuple[tuple[str, tuple[str, ...]], ...]
+    """Each thing, and its own colours."""
 
 
 # --- what the robot can be asked to do ---

@@ -36,6 +36,9 @@ def show(ontology: Ontology, words: str) -> int:
         for title, known in (
             ("also called", ontology.synonyms(name)),
             ("is a", ontology.classes_of(name)),
+            ("color", ontology.colors(name)),
+            ("shape", ontology.shapes(name)),
+            ("use", ontology.uses(name)),
             ("usually at", ontology.among(name)),
             ("preferred by", ontology.preferred_by(name)),
         ):

@@ -7,7 +7,8 @@ knowledge (paper, section "Integrated use of ontological knowledge base and LLM"
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import Source
+from executive.interfaces import Knowledge
+from executive.types import Command, Source
 from trees.context import MissionContext
 from trees.nodes import Check, Step, fallback, sequence
 from trees.person import AskDoYouMean, AskWhichObject
@@ -41,6 +42,11 @@ def known_object(context: MissionContext) -> Behaviour:
     )
 
 
+def meant(knowledge: Knowledge, command: Command) -> tuple[str, ...]:
+    """The objects that a command may be about, by what they are called or look like."""
+    return knowledge.objects_named(command.target)
+
+
 class OntologyKnowsObject(Step):
     """Succeeds if the words name exactly one known object.
 
@@ -53,7 +59,7 @@ class OntologyKnowsObject(Step):
         """Look the words up."""
         assert self.situation.request.command
         target = self.situation.request.command.target
-        named = self.context.knowledge.objects_named(target)
+        named = meant(self.context.knowledge, self.situation.request.command)
         if len(named) == 1:
             self.situation.request.object = named[0]
             return self.succeed(named[0])
@@ -92,6 +98,12 @@ class GuessName(Step):
         if self.situation.request.options:
             return self.fail(f"'{target}' is known")
         knowledge = self.context.knowledge
+        if other := knowledge.other_color(target):
+            names: tuple[str, ...] = tuple(name for name, _ in other.actual)
+            if len(names) > 1:
+                return self.fail(f"several things would be '{target}' but for their colours")
+            [self.situation.request.guess] = names
+            return self.succeed(names[0])
         names = knowledge.names_in(target)
         if len(names) > 1:
             self.situation.request.several = True

@@ -13,6 +13,7 @@ from executive.text import printable, too_long
 from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
+from trees.unknown import either, nearest, unknown, unresolved
 
 SAYS: Mapping[str, str] = {
     Source.ONTOLOGY: "that is its place",
@@ -145,7 +146,7 @@ class AskDoYouMean(AskYesNo):
         """Offer the guess."""
         assert self.situation.request.command
         target, guess = self.situation.request.command.target, self.situation.request.guess
-        text = f"I know no '{target}'. Do you mean {guess}?"
+        text = f"{unknown(self.context.knowledge, target)}. Do you mean {guess}?"
         objects = self.context.knowledge.objects_named(guess)
         return Question(QuestionKind.CONFIRM, guess, text, objects)
 
@@ -170,7 +171,7 @@ class AskDoYouMean(AskYesNo):
         """Name the guess."""
         assert self.situation.request.command
         target, guess = self.situation.request.command.target, self.situation.request.guess
-        return f"I know no '{target}'; the nearest that I know is {guess}"
+        return unresolved(self.context.knowledge, target, (guess,))
 
 
 class AskWhichObject(Ask):
@@ -184,18 +185,19 @@ class AskWhichObject(Ask):
         assert self.situation.request.command
         target = self.situation.request.command.target
         if (options := self.situation.request.options) and self.situation.request.several:
-            text = f"I can do one thing at a time. Which first: {_either(options)}?"
+            text = f"I can do one thing at a time. Which first: {either(options)}?"
         elif options:
-            text = f"Which {target} do you mean: {_either(options)}?"
+            text = f"Which {target} do you mean: {either(options)}?"
         elif options := self._other_names(target):
-            text = f"I know no '{target}'. Do you mean {_either(options)}, or something else?"
+            said = unknown(self.context.knowledge, target)
+            text = f"{said}. Do you mean {either(options)}, or something else?"
         else:
             text = f"I know no '{target}'. Which thing do you mean?"
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
 
     def _other_names(self, target: str) -> tuple[str, ...]:
         """The nearest known names, less the one that the person did not mean."""
-        names = self.context.knowledge.nearest_names(target)
+        names = nearest(self.context.knowledge, target)
         return tuple(name for name in names if name != self.situation.request.guess)
 
     def understood(self, answer: str) -> bool:
@@ -219,9 +221,9 @@ class AskWhichObject(Ask):
         assert self.situation.request.command
         target = self.situation.request.command.target
         if self.situation.request.options:
-            return f"'{target}' may be {_either(self.situation.request.options)}"
-        nearest = _either(self.context.knowledge.nearest_names(target))
-        return f"I know no '{target}'" + (f"; the nearest that I know is {nearest}" * bool(nearest))
+            return f"'{target}' may be {either(self.situation.request.options)}"
+        knowledge = self.context.knowledge
+        return unresolved(knowledge, target, nearest(knowledge, target))
 
 
 class AskWhere(Ask):
@@ -394,7 +396,3 @@ def _places(context: MissionContext, answer: str) -> tuple[str, ...]:
     if DELIVERY in re.findall(r"[a-z]+", answer.lower()):
         return (DELIVERY,)
     return context.knowledge.places_named(answer)
-
-
-def _either(names: tuple[str, ...]) -> str:
-    return " or ".join((", ".join(names[:-1]), names[-1])) if len(names) > 1 else "".join(names)

@@ -210,7 +210,7 @@ class Graph:
         refused, usable = list[str](), dict[Identifier, list[Identifier]]()
         for relation, labels in given.items():
             for text in labels:
-                if why := _unusable(one_line(text)):
+                if why := unusable(one_line(text)):
                     refused.append(f"{ending(entity)}: the name {printable(text)[:40]!r} {why}")
                 else:
                     usable.setdefault(relation, []).append(text)
@@ -242,7 +242,8 @@ def one_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def _unusable(name: str) -> str | None:
+def unusable(name: str) -> str | None:
+    """Why a name or a property cannot be spoken of, as a clause; None if it can."""
     if len(name) > LONGEST_NAME:
         return f"is longer than {LONGEST_NAME} characters: give a shorter one"
     if printable(name) != name:

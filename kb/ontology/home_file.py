@@ -13,20 +13,23 @@ from executive.types import Place
 def home_file(
     namespace: str,
     is_in: Identifier,
+    color: Identifier,
     places: Iterable[Place],
     furniture: Mapping[str, Identifier],
     rooms: Mapping[str, Identifier],
-    things: Mapping[str, Identifier],
+    things: Mapping[str, tuple[Identifier, str]],
 ) -> bytes:
     """Each room and each piece of furniture once, as an individual of its class; things as classes.
 
     Args:
         namespace: where the individuals are, up to the `#`.
         is_in: the property that says in which room a piece stands.
+        color: the property that says what colour a thing is.
         places: the furniture.
         furniture: furniture classes by name.
         rooms: room classes by name.
-        things: the classes right above the objects that the home declares, by their names.
+        things: by their names, the classes right above the objects that the home declares, and
+            what their colours are called; empty if it gives none.
     """
     root = ElementTree.Element(f"{{{RDF}}}RDF")
     _about(ElementTree.SubElement(root, f"{{{OWL}}}Ontology"), namespace.rstrip("#"))
@@ -37,11 +40,13 @@ def home_file(
         described.add(place.room)
         piece = _individual(root, namespace + place.name, furniture[place.kind])
         _resource(piece, is_in, namespace + place.room)
-    for name, kind in things.items():
+    for name, (kind, paint) in things.items():
         own = ElementTree.SubElement(root, f"{{{OWL}}}Class")
         _about(own, namespace + name)
         _resource(own, RDFS.subClassOf, kind)
         ElementTree.SubElement(own, f"{{{RDFS}}}label").text = name
+        if paint:
+            ElementTree.SubElement(own, _tag(color)).text = paint
     ElementTree.indent(root)
     written: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
     return written + b"\n"
@@ -59,6 +64,10 @@ def _about(element: ElementTree.Element, iri: str) -> None:
 
 
 def _resource(element: ElementTree.Element, relation: Identifier, iri: str) -> None:
-    space, mark, name = relation.rpartition("#")
-    named = ElementTree.SubElement(element, f"{{{space}{mark}}}{name}")
+    named = ElementTree.SubElement(element, _tag(relation))
     named.set(f"{{{RDF}}}resource", printable(iri))
+
+
+def _tag(relation: Identifier) -> str:
+    space, mark, name = relation.rpartition("#")
+    return f"{{{space}{mark}}}{name}"

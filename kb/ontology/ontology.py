@@ -4,21 +4,24 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from rapidfuzz import fuzz, process
-from rdflib import RDF, URIRef
+from rdflib import RDF, Literal, URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
 from executive.language.phrases import MOST_WORDS, spoken, words_of
 from executive.text import printable
-from executive.types import Place, Thing
+from executive.types import OtherColor, Place, Thing
+from kb.ontology.descriptions import Descriptions, Look
 from kb.ontology.graph import Graph
 from kb.ontology.home_file import home_file
 from kb.ontology.library import Library
 from kb.ontology.names import PlaceNames, index_by_words, unique
 from kb.ontology.owl import OwlFile, ending, read
+from kb.ontology.properties import COLOR, PRONOUN, SHAPE, USE, Properties, said, texts
 from kb.ontology.table import Table
 from kb.ontology.things import put_thing
 from kb.ontology.unused import unused
+from kb.ontology.uses import Uses
 from kb.ontology.validation import ROOTS, faults
 
 HOUSEHOLD = Path(__file__).parents[1] / "household.owl"
@@ -97,12 +100,18 @@ class Ontology:
         }
         for place in places:
             self._add(place)
+        self._properties = Properties(self._graph, CLASSES)
+        self._own_colors: dict[str, str] = {}
         self._added = self._add_things(things)
         label, names = self._graph.label, self._graph.names
         self._things = tuple(self._graph.downwards(_class("Object")))
         self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
         self._objects = self._graph.leaves(_class("Object"))
         self._objects_by_words = self._index()
+        self._descriptions = self._describe()
+        self._uses = Uses(
+            (label(thing), texts(self._properties.every(thing, USE))) for thing in self._objects
+        )
         self._names_by_words = index_by_words(
             [(words_of(label(thing)), label(thing)) for thing in self._things],
             [(words_of(name), label(thing)) for thing in self._things for name in names(thing)],
@@ -122,11 +131,21 @@ class Ontology:
         return name in self._places
 
     def objects_named(self, words: str) -> tuple[str, ...]:
-        """The objects that the words may mean: none, one, or all members of a class ("fruit").
+        """The objects that the words may mean: none, one, or several ("fruit", "the red one").
 
-        An object counts before a class, a name before a synonym.
+        An object counts before a class, a name before a synonym, and any name before what things
+        look like: "the orange" is the fruit.
         """
-        return self._objects_by_words.get("".join(words_of(words)), ())
+        named = self._objects_by_words.get("".join(words_of(words)), ())
+        return named or self._descriptions.find(words)
+
+    def other_color(self, words: str) -> OtherColor | None:
+        """What the words would mean if they did not say the colour: "blue mug", and it is red."""
+        return self._descriptions.other_color(words)
+
+    def objects_for(self, purpose: str) -> tuple[str, ...]:
+        """The objects that are for this: "to drink from", "clean the bathroom with", "nails"."""
+        return self._uses.serving(purpose)
 
     def nearest_names(self, words: str) -> tuple[str, ...]:
         """Known names that look most like the words, best first (at most 3)."""
@@ -185,6 +204,18 @@ class Ontology:
         """Other names of an object or a class, in any language."""
         return self._graph.called(self._thing(name)).synonyms
 
+    def colors(self, name: str) -> tuple[str, ...]:
+        """The colours of an object or its nearest class, the chief one first, as they are said."""
+        return said(self._properties.nearest(self._thing(name), COLOR))
+
+    def shapes(self, name: str) -> tuple[str, ...]:
+        """What an object or its nearest class looks like or comes in, as it is said."""
+        return said(self._properties.nearest(self._thing(name), SHAPE))
+
+    def uses(self, name: str) -> tuple[str, ...]:
+        """What an object or a class is for: its own uses first, then those of the classes above."""
+        return said(self._properties.every(self._thing(name), USE))
+
     def among(self, name: str) -> tuple[str, ...]:
         """Default locations of an object or its nearest class, in this home or not."""
         for thing in self._graph.upwards(self._thing(name)):
@@ -210,7 +241,11 @@ class Ontology:
     def files(self) -> Mapping[str, bytes]:
         """The loaded files by name, and what the home adds to them, to be kept with the log."""
         kinds, rooms = self._kinds["Furniture"], self._kinds["Room"]
-        home = home_file(INDIVIDUALS, _class("isIn"), self.places(), kinds, rooms, self._added)
+        color = self._properties.iri(COLOR)
+        things = {
+            name: (kind, self._own_colors.get(name, "")) for name, kind in self._added.items()
+        }
+        home = home_file(INDIVIDUALS, _class("isIn"), color, self.places(), kinds, rooms, things)
         return {**self._library.contents(), "home.owl": home}
 
     def faults(self) -> Iterator[str]:
@@ -322,11 +357,15 @@ class Ontology:
         """Put the objects of the home in; what no file has, and the class right above it."""
         added = {}
         for thing in things:
-            iri, where = URIRef(INDIVIDUALS + thing.name), f"object {thing.name}"
+            where = f"object {thing.name}"
             kind = self._kind(where, thing.kind, "Object")
             where = f"{self._home}{printable(where)}"
-            if put_thing(self._graph, thing.name, kind, iri, CLASSES, where):
+            if put_thing(self._graph, thing.name, kind, _own(thing.name), CLASSES, where):
                 added[thing.name] = kind
+                if thing.color and self._properties.are_declared():
+                    color = self._properties.iri(COLOR)
+                    self._graph.put(_own(thing.name), color, Literal(thing.color))
+                    self._own_colors[thing.name] = thing.color
         return added
 
     def _index(self) -> dict[str, tuple[str, ...]]:
@@ -346,6 +385,16 @@ class Ontology:
             [(words_of(n), name) for called, name in members for n in called.synonyms],
         )
 
+    def _describe(self) -> Descriptions:
+        """What the objects look like."""
+        looks = []
+        for thing in self._objects:
+            colors = self._properties.nearest(thing, COLOR)
+            shapes = texts(self._properties.nearest(thing, SHAPE))
+            looks.append(Look(self._graph.label(thing), texts(colors), shapes, said(colors)))
+        pronouns = texts(self._properties.every(_class("Object"), PRONOUN))
+        return Descriptions(self._objects_by_words, looks, pronouns)
+
     def _called(self) -> dict[str, tuple[str, ...]]:
         """Furniture or room class -> what it and the classes above it are called."""
         graph, roots = self._graph, {_class(root) for root in self._kinds}
@@ -358,6 +407,10 @@ class Ontology:
 
 def _class(name: str) -> URIRef:
     return URIRef(CLASSES + name)
+
+
+def _own(name: str) -> URIRef:
+    return URIRef(INDIVIDUALS + name)
 
 
 def _by_name(kinds: Iterable[Identifier]) -> dict[str, Identifier]:

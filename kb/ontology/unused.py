@@ -8,7 +8,10 @@ from rdflib.term import Identifier
 
 from kb.ontology.graph import Graph
 from kb.ontology.owl import OWLREADY, ending
+from kb.ontology.properties import PROPERTIES
 
+ROOT = "Object"
+"""The class below which all objects are."""
 MOST_EXAMPLES = 3
 _FILLERS: dict[Identifier, str] = {
     OWL.someValuesFrom: "some",
@@ -47,8 +50,9 @@ def unused(graph: Graph, namespace: str) -> Iterator[str]:
         ):
             yield f"{ending(entity)} is deprecated, and used all the same: take it out of the file"
     yield from _renamed(graph)
+    yield from _looks(graph, namespace)
     if rest := _rest(graph, ours):
-        only = "classes, their names, default locations, rooms and favourites are"
+        only = "classes, their names, default locations, rooms, favourites, looks and uses are"
         yield f"not used (only {only}): {rest}"
 
 
@@ -81,6 +85,15 @@ def _renamed(graph: Graph) -> Iterator[str]:
     used = {p for _, p, _ in graph.triples() if p.startswith(OWLREADY)}
     for relation in sorted(used):
         yield f"{ending(relation)} is an annotation for programs in Python, and not used"
+
+
+def _looks(graph: Graph, namespace: str) -> Iterator[str]:
+    """Colours, shapes and uses of what is no object."""
+    things = set(graph.downwards(URIRef(namespace + ROOT)))
+    for subject in graph.subjects():
+        for name in PROPERTIES:
+            if subject not in things and graph.objects(subject, URIRef(namespace + name)):
+                yield f"{ending(subject)} has a {name}, which is used of classes of objects only"
 
 
 def _rest(graph: Graph, ours: list[URIRef]) -> str:

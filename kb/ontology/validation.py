@@ -12,6 +12,7 @@ from executive.language.phrases import Words, words_of
 from executive.text import printable
 from kb.ontology.dangling import broken_lists, dangling
 from kb.ontology.graph import STANDARDS, Graph
+from kb.ontology.misuse import misuse
 from kb.ontology.owl import ending
 
 ROOTS = ("Object", "Furniture", "Room", "Person")
@@ -53,6 +54,7 @@ def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterato
     yield from _some(_individuals(graph, roots["Object"]), "individuals")
     prepositions = _prepositions(graph, roots["Furniture"], URIRef(namespace + "preposition"))
     yield from _some(prepositions, "prepositions")
+    yield from _some(misuse(graph, namespace, roots["Object"]), "colours, shapes and uses")
 
 
 def _some(told: Iterable[str], of: str) -> Iterator[str]:

@@ -78,7 +78,7 @@ class Home(BaseModel):
 
     def things(self) -> tuple[Thing, ...]:
         """The objects that the file declares, for who knows only those of the ontology."""
-        return tuple(Thing(name, one.kind) for name, one in self.own.items())
+        return tuple(Thing(name, one.kind, one.color_name) for name, one in self.own.items())
 
     def models(self) -> dict[str, ObjectModel]:
         """All things that there may be: those of the package, and those that the file declares."""

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Self
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from executive.colors import color_name
 from executive.errors import InputError
 from executive.records import Shape
 from executive.types import Color, Pose, Vector3
@@ -57,6 +58,11 @@ class OwnObject(Spot):
     def paint(self) -> Color | None:
         """Its colour, if the file gives one."""
         return None if self.color is None else rgba(self.color)
+
+    @property
+    def color_name(self) -> str:
+        """What its colour is called; empty if the file gives none."""
+        return "" if self.paint is None else color_name(*self.paint[:3])
 
     def model(self, name: str) -> ObjectModel:
         """The thing that it is, of this name, looking like its form."""

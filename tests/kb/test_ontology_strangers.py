@@ -380,8 +380,8 @@ def test_what_is_wrong_is_told_with_what_would_be_right(tmp_path, capsys, conten
         (
             """h:Mug rdfs:subClassOf [ owl:onProperty h:isIn ; owl:someValuesFrom [ owl:unionOf
             ( h:Kitchen h:Lobby ) ] ] . h:isIn owl:propertyChainAxiom ( h:isIn h:isIn ) .""",
-            "not used (only classes, their names, default locations, rooms and favourites are): "
-            "1 restrictions (isIn), 1 chains of properties, 1 unions",
+            "not used (only classes, their names, default locations, rooms, favourites, looks and "
+            "uses are): 1 restrictions (isIn), 1 chains of properties, 1 unions",
         ),
     ],
 )
@@ -436,10 +436,12 @@ def test_our_own_files_say_nothing_in_vain():
     assert [*known.faults(), *known.unused(), *known.warnings()] == []
 
 
-def test_the_turtle_that_the_docs_show_says_what_their_xml_says(tmp_path):
+def test_the_turtle_that_the_docs_show_says_what_the_docs_say(tmp_path):
     docs = (Path(__file__).parents[2] / "docs" / "knowledge.md").read_text()
-    [shown] = re.findall(r"^```turtle\n(.*?)^```", docs, re.DOTALL | re.MULTILINE)
-    (tmp_path / "anna.ttl").write_text(shown)
-    known = Ontology(files=[tmp_path / "anna.ttl"], person="Anna")
+    anna, pen = re.findall(r"^```turtle\n(.*?)^```", docs, re.DOTALL | re.MULTILINE)
+    (tmp_path / "anna.ttl").write_text(anna)
+    (tmp_path / "pen.ttl").write_text(pen)
+    known = Ontology(files=[tmp_path / "anna.ttl", tmp_path / "pen.ttl"], person="Anna")
     assert known.preferred(("apple", "pear")) == ("pear",)
+    assert known.objects_for("write a letter with") == ("pen",)
     assert [*known.faults(), *known.unused(), *known.warnings()] == []

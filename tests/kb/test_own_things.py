@@ -105,4 +105,6 @@ def test_a_home_with_a_thing_of_no_kind_of_object_is_named_on_the_command_line(
 
 def test_show_knows_the_objects_of_a_home(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["show", "teapot", "--home", str(EXAMPLE)]) == 0
-    assert "is a         kitchenware" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert "is a         kitchenware" in shown
+    assert "color        blue" in shown
