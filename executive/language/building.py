@@ -1,0 +1,406 @@
+"""From the rules of a grammar file to `meaning.py`: one method a rule, the same for every language."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from lark import Token, Transformer
+
+from executive.language.meaning import (
+    ALL,
+    ME,
+    About,
+    Answer,
+    Choice,
+    Correction,
+    Courtesy,
+    Question,
+    Refusal,
+    Relation,
+    Request,
+    Said,
+    Statement,
+    Task,
+    Thing,
+    Things,
+    Verb,
+    Where,
+)
+
+Part = Any
+"""What a rule has made of its words: a value of `meaning.py`, or a token."""
+
+
+class Builder(Transformer[Token, Said]):
+    """Makes the parts of `meaning.py`, from the words of a thing up to the whole.
+
+    Args:
+        numbers: what words for numbers and ordinals stand for.
+        relations: which relation a preposition says.
+    """
+
+    def __init__(self, numbers: dict[str, int], relations: dict[str, Relation]) -> None:
+        """Take the words that have a value."""
+        super().__init__()
+        self._numbers = numbers
+        self._relations = relations
+
+    # --- things ---
+
+    def words(self, parts: list[Part]) -> str:
+        """The words of a name."""
+        return " ".join(parts)
+
+    def determiner(self, parts: list[Part]) -> Token:
+        """An article, or a number."""
+        (token,) = parts
+        assert isinstance(token, Token)
+        return token
+
+    def noun(self, parts: list[Part]) -> Thing:
+        """ "box of sugar", "tool for nails"."""
+        name = " ".join(p for p in parts if type(p) is str or _is(p, "OF"))
+        return Thing(name, purpose=_purpose(parts, "USE"))
+
+    def thing(self, parts: list[Part]) -> Thing:
+        """ "the two mugs but not the red one"."""
+        noun = next(p for p in parts if isinstance(p, Thing))
+        numbers = [self._number(p) for p in parts if _is(p, "NUMBER")]
+        definite = any(_is(p, "THE") for p in parts)
+        number = numbers[0] if numbers else 1 if any(_is(p, "A") for p in parts) else None
+        return replace(noun, number=number, definite=definite, exceptions=_exceptions(parts))
+
+    def something(self, parts: list[Part]) -> Thing:
+        """ "something yellow to drink from"."""
+        words = " ".join(p for p in parts if type(p) is str)
+        purpose = _purpose(parts, "PURPOSE")
+        return Thing(words, number=1, purpose=purpose, exceptions=_exceptions(parts))
+
+    def pronoun(self, parts: list[Part]) -> Thing:
+        """ "it", "them"."""
+        return Thing(parts[0], pronoun=True, definite=True)
+
+    def every_pronoun(self, parts: list[Part]) -> Thing:
+        """ "all of them"."""
+        return Thing(parts[-1], number=ALL, pronoun=True, definite=True)
+
+    def another(self, parts: list[Part]) -> Thing:
+        """ "another apple", "the other one"."""
+        noun = next((p for p in parts if isinstance(p, Thing)), Thing())
+        return replace(noun, number=1, pronoun=not noun.words, other=True)
+
+    def every(self, parts: list[Part]) -> Thing:
+        """ "all the fruit", "everything but the mug"."""
+        noun = next((p for p in parts if isinstance(p, Thing)), Thing())
+        return replace(noun, number=ALL, definite=True, exceptions=_exceptions(parts))
+
+    def except_(self, parts: list[Part]) -> tuple[Thing, ...]:
+        """ "but a banana"."""
+        return tuple(p for p in parts if isinstance(p, Thing))
+
+    def all_of(self, parts: list[Part]) -> Things:
+        """ "an apple and a banana"."""
+        return Things(tuple(p for p in parts if isinstance(p, Thing)))
+
+    def one_of(self, parts: list[Part]) -> Things:
+        """ "either the hammer or the drill"."""
+        return Things(tuple(p for p in parts if isinstance(p, Thing)), one_of=True)
+
+    # --- places ---
+
+    def place(self, parts: list[Part]) -> Where:
+        """ "the kitchen table"."""
+        noun = next(p for p in parts if isinstance(p, Thing))
+        return Where(noun.words)
+
+    def pronoun_place(self, parts: list[Part]) -> Where:
+        """ "it", as in "next to it"."""
+        return Where(parts[0], pronoun=True)
+
+    def where(self, parts: list[Part]) -> Where:
+        """ "on the desk": where it is or where it is to go, as the verb says."""
+        preposition, place = parts
+        assert isinstance(place, Where)
+        return replace(place, relation=self._relations[preposition])
+
+    def source(self, parts: list[Part]) -> "From":
+        """ "from the desk"."""
+        return From(parts[-1])
+
+    def goal(self, parts: list[Part]) -> "To":
+        """ "to the desk"."""
+        return To(parts[-1])
+
+    def to_me(self, parts: list[Part]) -> "To":
+        """ "to me", "here"."""
+        return To(ME)
+
+    def there(self, parts: list[Part]) -> Where:
+        """ "there": where it was spoken of."""
+        return Where(parts[0], pronoun=True)
+
+    # --- tasks ---
+
+    def find(self, parts: list[Part]) -> Task:
+        """ "find the mug on the desk"."""
+        return _task(Verb.FIND, parts)
+
+    def take(self, parts: list[Part]) -> Task:
+        """ "take the mug"; with a goal it is brought there."""
+        task = _task(Verb.TAKE, parts)
+        return replace(task, verb=Verb.PUT) if task.goal else task
+
+    def bring(self, parts: list[Part]) -> Task:
+        """ "bring me the mug", "give the mug to Anna"."""
+        task = _task(Verb.BRING, parts)
+        if task.goal and any(_is(p, "ME") for p in parts):
+            raise Unfit(task.goal.words)
+        return replace(task, verb=Verb.BRING if task.goal in (None, ME) else Verb.PUT)
+
+    def wish(self, parts: list[Part]) -> Task:
+        """ "I need the mug"."""
+        return _task(Verb.BRING, parts)
+
+    def put(self, parts: list[Part]) -> Task:
+        """ "put the mug on the desk"; what has no goal cannot be done."""
+        task = _task(Verb.PUT, parts, goes=True)
+        if task.goal is None:
+            raise Unfit(str(parts[0]))
+        return replace(task, verb=Verb.BRING) if task.goal == ME else task
+
+    def put_down(self, parts: list[Part]) -> Task:
+        """ "put it down", "put the mug down on the desk"."""
+        task = _task(Verb.PUT_DOWN, parts, goes=True)
+        return replace(task, verb=Verb.PUT) if task.goal else task
+
+    def put_back(self, parts: list[Part]) -> Task:
+        """ "put it back", "take the mug back to the kitchen"."""
+        task = _task(Verb.PUT_BACK, parts, goes=True)
+        return replace(task, verb=Verb.PUT) if task.goal else task
+
+    def go(self, parts: list[Part]) -> Task:
+        """ "go to the kitchen"."""
+        task = _task(Verb.GO, parts, goes=True)
+        return task if task.goal else replace(task, goal=ME)
+
+    def come(self, parts: list[Part]) -> Task:
+        """ "come here"."""
+        return Task(Verb.GO, goal=ME, said=parts[0])
+
+    def clear(self, parts: list[Part]) -> Task:
+        """ "clear the table", "clear the mugs from the table"."""
+        task = _task(Verb.CLEAR, parts)
+        if task.source is None and task.things:
+            place = Where(task.things.members[0].words)
+            return replace(task, things=None, source=place)
+        return task
+
+    def count(self, parts: list[Part]) -> Task:
+        """ "how many fruits are on the table"."""
+        return _task(Verb.COUNT, parts)
+
+    def tell(self, parts: list[Part]) -> Task:
+        """ "what is on the table"."""
+        return _task(Verb.TELL, parts)
+
+    tell_which = tell
+
+    def check(self, parts: list[Part]) -> Task:
+        """ "is the mug on the sofa", "is there any milk"."""
+        return _task(Verb.CHECK, parts)
+
+    def if_there(self, parts: list[Part]) -> Task:
+        """ "if there is one", "if there is an apple on the table"."""
+        return _task(Verb.CHECK, parts)
+
+    if_it_is = if_there
+
+    def otherwise(self, parts: list[Part]) -> "Otherwise":
+        """ "otherwise a pear", "otherwise come back"."""
+        return Otherwise(parts[-1])
+
+    def conditional(self, parts: list[Part]) -> Task:
+        """ "bring an apple if there is one, otherwise a pear"."""
+        deed, *rest = parts
+        assert isinstance(deed, Task)
+        sought = next((p for p in rest if isinstance(p, Task)), None)
+        if sought is not None and sought.things is None and sought.source is None:
+            sought = None
+        return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
+
+    def if_then(self, parts: list[Part]) -> Task:
+        """ "if there is an apple, bring it, otherwise bring a pear"."""
+        sought, deed, *rest = (p for p in parts if not isinstance(p, Token))
+        assert isinstance(deed, Task)
+        return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
+
+    # --- what is said ---
+
+    def request(self, parts: list[Part]) -> Request:
+        """Tasks, one after the other."""
+        tasks = tuple(p for p in parts if isinstance(p, Task))
+        in_order = any(_is(p, "FIRST", "THEN") for p in parts)
+        return Request(tasks, in_order, too=any(_is(p, "TOO") for p in parts))
+
+    def more(self, parts: list[Part]) -> Correction:
+        """ "and the pear", "the pear, too": the same as before, with more things."""
+        return Correction(next(p for p in parts if isinstance(p, Things)), adds=True)
+
+    def refusal(self, parts: list[Part]) -> Refusal:
+        """ "do not touch the hammer"."""
+        return Refusal(str(parts[-1]) if len(parts) > 1 else "")
+
+    def correction(self, parts: list[Part]) -> Correction:
+        """ "no, the banana"."""
+        return Correction(next(p for p in parts if not isinstance(p, Token)))
+
+    def not_that(self, parts: list[Part]) -> Correction:
+        """ "not the apple, the banana"."""
+        wrong, meant = (p for p in parts if isinstance(p, Things))
+        return Correction(meant, wrong)
+
+    def question(self, parts: list[Part]) -> Question:
+        """ "what can you do"."""
+        (token,) = parts
+        return Question(About(token.type.lower()))
+
+    def where_put(self, parts: list[Part]) -> Question:
+        """ "where did you put the mug"."""
+        return Question(About.WHERE_PUT, things=parts[-1])
+
+    def why(self, parts: list[Part]) -> Question:
+        """ "why did you go to the kitchen"."""
+        return Question(About.WHY, str(parts[1]) if len(parts) > 1 else "")
+
+    def statement(self, parts: list[Part]) -> Statement:
+        """ "the mug is on the sofa"."""
+        things = next(p for p in parts if isinstance(p, Things))
+        place = next(p for p in parts if isinstance(p, Where | To | From))
+        if not isinstance(place, Where):
+            raise Unfit(place.place.words)
+        return Statement(things, place)
+
+    def named(self, parts: list[Part]) -> Answer:
+        """ "I think the apple"."""
+        return Answer(things=parts[-1])
+
+    def placed(self, parts: list[Part]) -> Answer:
+        """ "on the desk"."""
+        place = parts[-1]
+        return Answer(where=place if isinstance(place, Where) else place.place)
+
+    def ordinal(self, parts: list[Part]) -> Answer:
+        """ "the second one"."""
+        return Answer(place_in_list=self._number(parts[-1]))
+
+    def yes(self, parts: list[Part]) -> Answer:
+        """ "yes", "yes, the apple"."""
+        return Answer(Choice.YES, things=next((p for p in parts if isinstance(p, Things)), None))
+
+    def no(self, parts: list[Part]) -> Answer:
+        """ "no"."""
+        return Answer(Choice.NO)
+
+    def unknown(self, parts: list[Part]) -> Answer:
+        """ "I do not know"."""
+        return Answer(Choice.UNKNOWN)
+
+    def any_one(self, parts: list[Part]) -> Answer:
+        """ "whichever"."""
+        return Answer(Choice.ANY)
+
+    def both(self, parts: list[Part]) -> Answer:
+        """ "both", "all of them"."""
+        return Answer(Choice.ALL)
+
+    def courtesy(self, parts: list[Part]) -> Courtesy:
+        """ "thank you"."""
+        (token,) = parts
+        return Courtesy(token.type.lower())
+
+    def _number(self, token: Token) -> int:
+        word = token.removesuffix(" one")
+        return int(word) if word.isdecimal() else self._numbers[word]
+
+
+class Unfit(Exception):
+    """The words have the form of a sentence, and make no sense as one; says which word does not."""
+
+
+@dataclass(frozen=True, slots=True)
+class From:
+    """Where a thing is to be taken from."""
+
+    place: Where
+
+
+@dataclass(frozen=True, slots=True)
+class To:
+    """Where, or to whom, a thing is to go."""
+
+    place: Where
+
+
+@dataclass(frozen=True, slots=True)
+class Otherwise:
+    """What is to be done instead."""
+
+    deed: Task | Things
+
+
+def _is(part: Part, *types: str) -> bool:
+    return isinstance(part, Token) and part.type in types
+
+
+def _purpose(parts: list[Part], kind: str) -> str:
+    token = next((p for p in parts if _is(p, kind)), "")
+    return token.partition(" ")[2]
+
+
+def _exceptions(parts: list[Part]) -> tuple[Thing, ...]:
+    return next((p for p in parts if isinstance(p, tuple) and not isinstance(p, str)), ())
+
+
+def _instead(deed: Task, rest: list[Part]) -> Task | None:
+    """What to do if the condition does not hold: with things only, the same deed with them."""
+    instead = next((p.deed for p in rest if isinstance(p, Otherwise)), None)
+    if isinstance(instead, Things):
+        return replace(deed, things=instead)
+    return instead
+
+
+def _task(verb: Verb, parts: list[Part], *, goes: bool = False) -> Task:
+    """A task of a verb, its things and its places.
+
+    Args:
+        verb: what to do.
+        parts: of the rule.
+        goes: whether a place without "from" and "to" is where the thing is to go, and not where
+            it is.
+
+    Raises:
+        Unfit: if there are more places than the task has use for.
+    """
+    things = next((p for p in parts if isinstance(p, Things)), None)
+    places: dict[str, Where] = {}
+    last = ""
+    for part in parts:
+        if isinstance(part, From):
+            role, place = "source", part.place
+        elif isinstance(part, To):
+            role, place = "goal", part.place
+        elif isinstance(part, Where):
+            role, place = ("goal" if goes else "source"), part
+            if last and (role in places or last == "goal"):
+                places[last] = replace(places[last], within=_inner(places[last].within, place))
+                continue
+        else:
+            continue
+        if role in places:
+            raise Unfit(place.words)
+        places[role], last = place, role
+    said = next((str(p) for p in parts if isinstance(p, Token)), "")
+    return Task(verb, things, places.get("source"), places.get("goal"), said=said)
+
+
+def _inner(within: Where | None, place: Where) -> Where:
+    return place if within is None else replace(within, within=_inner(within.within, place))
