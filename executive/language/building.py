@@ -1,4 +1,4 @@
-"""From the rules of a grammar file to `meaning.py`: one method a rule, the same for every language."""
+"""From the rules of a grammar to `meaning.py`: one method a rule, the same for every language."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -57,12 +57,12 @@ class Builder(Transformer[Token, Said]):
         return token
 
     def noun(self, parts: list[Part]) -> Thing:
-        """ "box of sugar", "tool for nails"."""
+        """As in "box of sugar", "tool for nails"."""
         name = " ".join(p for p in parts if type(p) is str or _is(p, "OF"))
         return Thing(name, purpose=_purpose(parts, "USE"))
 
     def thing(self, parts: list[Part]) -> Thing:
-        """ "the two mugs but not the red one"."""
+        """As in "the two mugs but not the red one"."""
         noun = next(p for p in parts if isinstance(p, Thing))
         numbers = [self._number(p) for p in parts if _is(p, "NUMBER")]
         definite = any(_is(p, "THE") for p in parts)
@@ -70,124 +70,124 @@ class Builder(Transformer[Token, Said]):
         return replace(noun, number=number, definite=definite, exceptions=_exceptions(parts))
 
     def something(self, parts: list[Part]) -> Thing:
-        """ "something yellow to drink from"."""
+        """As in "something yellow to drink from"."""
         words = " ".join(p for p in parts if type(p) is str)
         purpose = _purpose(parts, "PURPOSE")
         return Thing(words, number=1, purpose=purpose, exceptions=_exceptions(parts))
 
     def pronoun(self, parts: list[Part]) -> Thing:
-        """ "it", "them"."""
+        """As in "it", "them"."""
         return Thing(parts[0], pronoun=True, definite=True)
 
     def every_pronoun(self, parts: list[Part]) -> Thing:
-        """ "all of them"."""
+        """As in "all of them"."""
         return Thing(parts[-1], number=ALL, pronoun=True, definite=True)
 
     def another(self, parts: list[Part]) -> Thing:
-        """ "another apple", "the other one"."""
+        """As in "another apple", "the other one"."""
         noun = next((p for p in parts if isinstance(p, Thing)), Thing())
         return replace(noun, number=1, pronoun=not noun.words, other=True)
 
     def every(self, parts: list[Part]) -> Thing:
-        """ "all the fruit", "everything but the mug"."""
+        """As in "all the fruit", "everything but the mug"."""
         noun = next((p for p in parts if isinstance(p, Thing)), Thing())
         return replace(noun, number=ALL, definite=True, exceptions=_exceptions(parts))
 
     def except_(self, parts: list[Part]) -> tuple[Thing, ...]:
-        """ "but a banana"."""
+        """As in "but a banana"."""
         return tuple(p for p in parts if isinstance(p, Thing))
 
     def all_of(self, parts: list[Part]) -> Things:
-        """ "an apple and a banana"."""
+        """As in "an apple and a banana"."""
         return Things(tuple(p for p in parts if isinstance(p, Thing)))
 
     def one_of(self, parts: list[Part]) -> Things:
-        """ "either the hammer or the drill"."""
+        """As in "either the hammer or the drill"."""
         return Things(tuple(p for p in parts if isinstance(p, Thing)), one_of=True)
 
     # --- places ---
 
     def place(self, parts: list[Part]) -> Where:
-        """ "the kitchen table"."""
+        """As in "the kitchen table"."""
         noun = next(p for p in parts if isinstance(p, Thing))
         return Where(noun.words)
 
     def pronoun_place(self, parts: list[Part]) -> Where:
-        """ "it", as in "next to it"."""
+        """As in "it", as in "next to it"."""
         return Where(parts[0], pronoun=True)
 
     def where(self, parts: list[Part]) -> Where:
-        """ "on the desk": where it is or where it is to go, as the verb says."""
+        """As in "on the desk": where it is or where it is to go, as the verb says."""
         preposition, place = parts
         assert isinstance(place, Where)
         return replace(place, relation=self._relations[preposition])
 
     def source(self, parts: list[Part]) -> "From":
-        """ "from the desk"."""
+        """As in "from the desk"."""
         return From(parts[-1])
 
     def goal(self, parts: list[Part]) -> "To":
-        """ "to the desk"."""
+        """As in "to the desk"."""
         return To(parts[-1])
 
     def to_me(self, parts: list[Part]) -> "To":
-        """ "to me", "here"."""
+        """As in "to me", "here"."""
         return To(ME)
 
     def there(self, parts: list[Part]) -> Where:
-        """ "there": where it was spoken of."""
+        """As in "there": where it was spoken of."""
         return Where(parts[0], pronoun=True)
 
     # --- tasks ---
 
     def find(self, parts: list[Part]) -> Task:
-        """ "find the mug on the desk"."""
+        """As in "find the mug on the desk"."""
         return _task(Verb.FIND, parts)
 
     def take(self, parts: list[Part]) -> Task:
-        """ "take the mug"; with a goal it is brought there."""
+        """As in "take the mug"; with a goal it is brought there."""
         task = _task(Verb.TAKE, parts)
         return replace(task, verb=Verb.PUT) if task.goal else task
 
     def bring(self, parts: list[Part]) -> Task:
-        """ "bring me the mug", "give the mug to Anna"."""
+        """As in "bring me the mug", "give the mug to Anna"."""
         task = _task(Verb.BRING, parts)
         if task.goal and any(_is(p, "ME") for p in parts):
             raise Unfit(task.goal.words)
         return replace(task, verb=Verb.BRING if task.goal in (None, ME) else Verb.PUT)
 
     def wish(self, parts: list[Part]) -> Task:
-        """ "I need the mug"."""
+        """As in "I need the mug"."""
         return _task(Verb.BRING, parts)
 
     def put(self, parts: list[Part]) -> Task:
-        """ "put the mug on the desk"; what has no goal cannot be done."""
+        """As in "put the mug on the desk"; what has no goal cannot be done."""
         task = _task(Verb.PUT, parts, goes=True)
         if task.goal is None:
             raise Unfit(str(parts[0]))
         return replace(task, verb=Verb.BRING) if task.goal == ME else task
 
     def put_down(self, parts: list[Part]) -> Task:
-        """ "put it down", "put the mug down on the desk"."""
+        """As in "put it down", "put the mug down on the desk"."""
         task = _task(Verb.PUT_DOWN, parts, goes=True)
         return replace(task, verb=Verb.PUT) if task.goal else task
 
     def put_back(self, parts: list[Part]) -> Task:
-        """ "put it back", "take the mug back to the kitchen"."""
+        """As in "put it back", "take the mug back to the kitchen"."""
         task = _task(Verb.PUT_BACK, parts, goes=True)
         return replace(task, verb=Verb.PUT) if task.goal else task
 
     def go(self, parts: list[Part]) -> Task:
-        """ "go to the kitchen"."""
+        """As in "go to the kitchen"."""
         task = _task(Verb.GO, parts, goes=True)
         return task if task.goal else replace(task, goal=ME)
 
     def come(self, parts: list[Part]) -> Task:
-        """ "come here"."""
+        """As in "come here"."""
         return Task(Verb.GO, goal=ME, said=parts[0])
 
     def clear(self, parts: list[Part]) -> Task:
-        """ "clear the table", "clear the mugs from the table"."""
+        """As in "clear the table", "clear the mugs from the table"."""
         task = _task(Verb.CLEAR, parts)
         if task.source is None and task.things:
             place = Where(task.things.members[0].words)
@@ -195,31 +195,31 @@ class Builder(Transformer[Token, Said]):
         return task
 
     def count(self, parts: list[Part]) -> Task:
-        """ "how many fruits are on the table"."""
+        """As in "how many fruits are on the table"."""
         return _task(Verb.COUNT, parts)
 
     def tell(self, parts: list[Part]) -> Task:
-        """ "what is on the table"."""
+        """As in "what is on the table"."""
         return _task(Verb.TELL, parts)
 
     tell_which = tell
 
     def check(self, parts: list[Part]) -> Task:
-        """ "is the mug on the sofa", "is there any milk"."""
+        """As in "is the mug on the sofa", "is there any milk"."""
         return _task(Verb.CHECK, parts)
 
     def if_there(self, parts: list[Part]) -> Task:
-        """ "if there is one", "if there is an apple on the table"."""
+        """As in "if there is one", "if there is an apple on the table"."""
         return _task(Verb.CHECK, parts)
 
     if_it_is = if_there
 
     def otherwise(self, parts: list[Part]) -> "Otherwise":
-        """ "otherwise a pear", "otherwise come back"."""
+        """As in "otherwise a pear", "otherwise come back"."""
         return Otherwise(parts[-1])
 
     def conditional(self, parts: list[Part]) -> Task:
-        """ "bring an apple if there is one, otherwise a pear"."""
+        """As in "bring an apple if there is one, otherwise a pear"."""
         deed, *rest = parts
         assert isinstance(deed, Task)
         sought = next((p for p in rest if isinstance(p, Task)), None)
@@ -228,7 +228,7 @@ class Builder(Transformer[Token, Said]):
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
 
     def if_then(self, parts: list[Part]) -> Task:
-        """ "if there is an apple, bring it, otherwise bring a pear"."""
+        """As in "if there is an apple, bring it, otherwise bring a pear"."""
         sought, deed, *rest = (p for p in parts if not isinstance(p, Token))
         assert isinstance(deed, Task)
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
@@ -242,37 +242,37 @@ class Builder(Transformer[Token, Said]):
         return Request(tasks, in_order, too=any(_is(p, "TOO") for p in parts))
 
     def more(self, parts: list[Part]) -> Correction:
-        """ "and the pear", "the pear, too": the same as before, with more things."""
+        """As in "and the pear", "the pear, too": the same as before, with more things."""
         return Correction(next(p for p in parts if isinstance(p, Things)), adds=True)
 
     def refusal(self, parts: list[Part]) -> Refusal:
-        """ "do not touch the hammer"."""
+        """As in "do not touch the hammer"."""
         return Refusal(str(parts[-1]) if len(parts) > 1 else "")
 
     def correction(self, parts: list[Part]) -> Correction:
-        """ "no, the banana"."""
+        """As in "no, the banana"."""
         return Correction(next(p for p in parts if not isinstance(p, Token)))
 
     def not_that(self, parts: list[Part]) -> Correction:
-        """ "not the apple, the banana"."""
+        """As in "not the apple, the banana"."""
         wrong, meant = (p for p in parts if isinstance(p, Things))
         return Correction(meant, wrong)
 
     def question(self, parts: list[Part]) -> Question:
-        """ "what can you do"."""
+        """As in "what can you do"."""
         (token,) = parts
         return Question(About(token.type.lower()))
 
     def where_put(self, parts: list[Part]) -> Question:
-        """ "where did you put the mug"."""
+        """As in "where did you put the mug"."""
         return Question(About.WHERE_PUT, things=parts[-1])
 
     def why(self, parts: list[Part]) -> Question:
-        """ "why did you go to the kitchen"."""
+        """As in "why did you go to the kitchen"."""
         return Question(About.WHY, str(parts[1]) if len(parts) > 1 else "")
 
     def statement(self, parts: list[Part]) -> Statement:
-        """ "the mug is on the sofa"."""
+        """As in "the mug is on the sofa"."""
         things = next(p for p in parts if isinstance(p, Things))
         place = next(p for p in parts if isinstance(p, Where | To | From))
         if not isinstance(place, Where):
@@ -280,40 +280,40 @@ class Builder(Transformer[Token, Said]):
         return Statement(things, place)
 
     def named(self, parts: list[Part]) -> Answer:
-        """ "I think the apple"."""
+        """As in "I think the apple"."""
         return Answer(things=parts[-1])
 
     def placed(self, parts: list[Part]) -> Answer:
-        """ "on the desk"."""
+        """As in "on the desk"."""
         place = parts[-1]
         return Answer(where=place if isinstance(place, Where) else place.place)
 
     def ordinal(self, parts: list[Part]) -> Answer:
-        """ "the second one"."""
+        """As in "the second one"."""
         return Answer(place_in_list=self._number(parts[-1]))
 
     def yes(self, parts: list[Part]) -> Answer:
-        """ "yes", "yes, the apple"."""
+        """As in "yes", "yes, the apple"."""
         return Answer(Choice.YES, things=next((p for p in parts if isinstance(p, Things)), None))
 
     def no(self, parts: list[Part]) -> Answer:
-        """ "no"."""
+        """As in "no"."""
         return Answer(Choice.NO)
 
     def unknown(self, parts: list[Part]) -> Answer:
-        """ "I do not know"."""
+        """As in "I do not know"."""
         return Answer(Choice.UNKNOWN)
 
     def any_one(self, parts: list[Part]) -> Answer:
-        """ "whichever"."""
+        """As in "whichever"."""
         return Answer(Choice.ANY)
 
     def both(self, parts: list[Part]) -> Answer:
-        """ "both", "all of them"."""
+        """As in "both", "all of them"."""
         return Answer(Choice.ALL)
 
     def courtesy(self, parts: list[Part]) -> Courtesy:
-        """ "thank you"."""
+        """As in "thank you"."""
         (token,) = parts
         return Courtesy(token.type.lower())
 
