@@ -58,7 +58,7 @@ class Builder(Transformer[Token, Said]):
 
     def noun(self, parts: list[Part]) -> Thing:
         """As in "box of sugar", "tool for nails"."""
-        name = " ".join(p for p in parts if type(p) is str or _is(p, "OF"))
+        name = " ".join(p for p in parts if type(p) is str or _is(p, "OF", "POSE"))
         return Thing(name, purpose=_purpose(parts, "USE"))
 
     def thing(self, parts: list[Part]) -> Thing:
@@ -118,17 +118,29 @@ class Builder(Transformer[Token, Said]):
 
     def where(self, parts: list[Part]) -> Where:
         """As in "on the desk": where it is or where it is to go, as the verb says."""
-        preposition, place = parts
-        assert isinstance(place, Where)
-        return replace(place, relation=self._relations[preposition])
+        said = [p for p in parts if not _is(p, "THAT_IS", "OR")]
+        pairs = zip(said[::2], said[1::2], strict=True)
+        return _either([replace(place, relation=self._relations[p]) for p, place in pairs])
 
     def source(self, parts: list[Part]) -> "From":
         """As in "from the desk"."""
-        return From(parts[-1])
+        return From(_either(parts))
 
     def goal(self, parts: list[Part]) -> "To":
         """As in "to the desk"."""
-        return To(parts[-1])
+        return To(_either(parts))
+
+    def to_person(self, parts: list[Part]) -> "To":
+        """As in "to her"."""
+        return To(Where(parts[-1], pronoun=True))
+
+    def dative(self, parts: list[Part]) -> Where:
+        """As in "bring Anna the mug"."""
+        return Where(parts[0])
+
+    def dative_pronoun(self, parts: list[Part]) -> Where:
+        """As in "bring her the mug"."""
+        return Where(parts[0], pronoun=True)
 
     def to_me(self, parts: list[Part]) -> "To":
         """As in "to me", "here"."""
@@ -155,6 +167,25 @@ class Builder(Transformer[Token, Said]):
         if task.goal and any(_is(p, "ME") for p in parts):
             raise Unfit(task.goal.words)
         return replace(task, verb=Verb.BRING if task.goal in (None, ME) else Verb.PUT)
+
+    def bring_to(self, parts: list[Part]) -> Task:
+        """As in "bring Anna the mug"."""
+        verb, person, *rest = parts
+        return _task(Verb.PUT, [verb, To(person), *rest])
+
+    def wish_for(self, parts: list[Part]) -> Task:
+        """As in "I want to drink something": whatever serves for that."""
+        thing = Thing(number=1, purpose=_purpose(parts, "PURPOSE"))
+        return Task(Verb.BRING, Things((thing,)), said=parts[0])
+
+    def search_for(self, parts: list[Part]) -> Task:
+        """As in "search the kitchen for the mug"."""
+        place, things = (p for p in parts if isinstance(p, Things))
+        return Task(Verb.FIND, things, source=Where(place.members[0].words), said=parts[0])
+
+    def leave(self, parts: list[Part]) -> Refusal:
+        """As in "leave the hammer alone"."""
+        return Refusal(" ".join(member.words for member in parts[1].members))
 
     def wish(self, parts: list[Part]) -> Task:
         """As in "I need the mug"."""
@@ -235,8 +266,12 @@ class Builder(Transformer[Token, Said]):
 
     # --- what is said ---
 
-    def request(self, parts: list[Part]) -> Request:
-        """Tasks, one after the other."""
+    def request(self, parts: list[Part]) -> Request | Refusal:
+        """Tasks, one after the other; one that is not to be done stands alone."""
+        if refused := next((p for p in parts if isinstance(p, Refusal)), None):
+            if any(isinstance(p, Task) for p in parts):
+                raise Unfit(refused.words)
+            return refused
         tasks = tuple(p for p in parts if isinstance(p, Task))
         in_order = any(_is(p, "FIRST", "THEN") for p in parts)
         return Request(tasks, in_order, too=any(_is(p, "TOO") for p in parts))
@@ -255,8 +290,8 @@ class Builder(Transformer[Token, Said]):
 
     def not_that(self, parts: list[Part]) -> Correction:
         """As in "not the apple, the banana"."""
-        wrong, meant = (p for p in parts if isinstance(p, Things))
-        return Correction(meant, wrong)
+        wrong = next(p for p in parts if isinstance(p, Thing))
+        return Correction(parts[-1], Things((wrong,)))
 
     def question(self, parts: list[Part]) -> Question:
         """As in "what can you do"."""
@@ -285,8 +320,8 @@ class Builder(Transformer[Token, Said]):
 
     def placed(self, parts: list[Part]) -> Answer:
         """As in "on the desk"."""
-        place = parts[-1]
-        return Answer(where=place if isinstance(place, Where) else place.place)
+        places = [p for p in parts if not isinstance(p, Token)]
+        return Answer(where=tuple(p if isinstance(p, Where) else p.place for p in places))
 
     def ordinal(self, parts: list[Part]) -> Answer:
         """As in "the second one"."""
@@ -314,8 +349,7 @@ class Builder(Transformer[Token, Said]):
 
     def courtesy(self, parts: list[Part]) -> Courtesy:
         """As in "thank you"."""
-        (token,) = parts
-        return Courtesy(token.type.lower())
+        return Courtesy(parts[0].type.lower())
 
     def _number(self, token: Token) -> int:
         word = token.removesuffix(" one")
@@ -349,6 +383,12 @@ class Otherwise:
 
 def _is(part: Part, *types: str) -> bool:
     return isinstance(part, Token) and part.type in types
+
+
+def _either(parts: list[Part]) -> Where:
+    """The first of the places, with the others beside it."""
+    first, *others = (p for p in parts if isinstance(p, Where))
+    return replace(first, others=tuple(others))
 
 
 def _purpose(parts: list[Part], kind: str) -> str:

@@ -50,6 +50,8 @@ class Where:
     """Whether it has to be known from before: "there", "next to it"."""
     within: "Where | None" = None
     """Where this place or person is, by the words: "the table in the kitchen"."""
+    others: tuple["Where", ...] = ()
+    """Where it may be instead: "in the kitchen or in the bedroom"."""
 
 
 ME = Where("me")
@@ -195,7 +197,7 @@ class Answer:
     place_in_list: int | None = None
     """The first is 1, the last is -1."""
     things: Things | None = None
-    where: Where | None = None
+    where: tuple[Where, ...] = ()
 
 
 class Courtesy(StrEnum):
