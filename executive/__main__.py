@@ -16,11 +16,12 @@ from importlib.metadata import version
 from pathlib import Path
 from select import select
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from executive.config import KnowledgeSystem, Settings, load_settings
+from executive.config import Settings, load_settings
 from executive.errors import ExecutiveError, InputError
 from executive.events import THE_PERSON, Inbox, StopRequested
+from executive.options import add_settings
 from executive.shell import (
     BAD_INPUT,
     DONE,
@@ -34,7 +35,7 @@ from executive.shell import (
     on_stop_signals,
 )
 from executive.terminal import Terminal
-from executive.text import printable, too_long
+from executive.text import counted, printable, too_long
 from executive.types import MissionStatus, Outcome
 from executive.usage import Parser
 from executive.user import STOPPING, Console
@@ -62,7 +63,8 @@ CLOSED_S = 1.0
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a mission, or one for each line that the person types; return the exit code."""
     options = vars(parser().parse_args(arguments))
-    words = options.pop("words")
+    said = options.pop("words")
+    words = " ".join(said) if said else None
     as_json, verbose = options.pop("json"), options.pop("verbose")
     view, gui = options.pop("view"), options.pop("gui")
     with on_stop_signals(end_at_once):
@@ -88,23 +90,21 @@ def serve(
     settings: Settings, words: str | None, inbox: Inbox, *, view: bool, gui: bool, as_json: bool
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
-    user = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
+    console = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
     from executive.app.session import Session  # heavy: not for --help or a wrong option
 
-    session = Session(settings, inbox=inbox, user=user, view=view, gui=gui)
-    stop_on_signals(inbox)
-    try:
-        if words is None:
-            code = converse(session, as_json)
-        else:
-            code = conclude(session.run(words), as_json)
-        leave_within(CLOSED_S, code)
-        return code
-    except KeyboardInterrupt:
-        leave_within(CLOSED_S, STOPPED)
-        raise
-    finally:
-        session.close()
+    with Session(settings, inbox=inbox, user=console, view=view, gui=gui) as session:
+        stop_on_signals(inbox)
+        try:
+            if words is None and console:
+                code = converse(session, console, as_json)
+            else:
+                code = conclude(session.run(words or ""), as_json)
+            leave_within(CLOSED_S, code)
+            return code
+        except KeyboardInterrupt:
+            leave_within(CLOSED_S, STOPPED)
+            raise
 
 
 def conclude(outcome: Outcome, as_json: bool) -> int:
@@ -119,7 +119,8 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
             f"{outcome.status}: {printable(outcome.reason)}\n"
             f"  {outcome.mission_time_s:.1f} s of mission, {outcome.wall_time_s:.1f} s of yours; "
             f"visited {printable(visited)}; "
-            f"asked you {outcome.inquiries}, the model {outcome.llm_calls} times",
+            f"{counted(outcome.inquiries, 'question')} asked, "
+            f"{counted(outcome.llm_calls, 'call')} of the model",
             flush=True,
         )
         if outcome.run_dir:
@@ -129,18 +130,18 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
     return EXIT[outcome.status]
 
 
-def converse(session: "Session", as_json: bool) -> int:
+def converse(session: "Session", console: Console, as_json: bool) -> int:
     """Do what the person types, until they end the session; the exit code of the last command.
 
     Who says stop otherwise than the person ends the session, and not only the mission.
     """
     code = DONE
-    line = session.next_command(f"{PROMPT} (stop ends what I do, quit ends the session)")
+    line = session.next_command(console, f"{PROMPT} (stop ends what I do, quit ends the session)")
     while line is not None:
         code = conclude(session.run(line), as_json)
         if session.stopped_by not in ("", THE_PERSON):
             return STOPPED
-        line = session.next_command(PROMPT)
+        line = session.next_command(console, PROMPT)
     return code
 
 
@@ -193,55 +194,8 @@ def parser() -> argparse.ArgumentParser:
         epilog="exit: 0 done, 1 not done, 2 bad usage or input, 130 stopped",
     )
 
-    def option(name: str, help: str | None = None, **kwargs: Any) -> None:
-        field = Settings.model_fields[name.removeprefix("--").replace("-", "_")]
-        default = "" if field.default in (None, ()) else f" (default: {field.default})"
-        p.add_argument(name, help=f"{help or field.description}{default}", **kwargs)
-
-    p.add_argument("words", nargs="?", help='a command such as "Bring a sugar_box"; none: ask')
-    option("--home", metavar="NAME or FILE.toml")
-    option("--knowledge", choices=[str(k) for k in KnowledgeSystem])
-    p.add_argument(
-        "--defaults",
-        action=argparse.BooleanOptionalAction,
-        help="whether the ontology knows default locations (default: it does)",
-    )
-    option("--llm", metavar="embedded, FILE.gguf, http://host:port/v1 or none")
-    option("--llm-model", metavar="NAME")
-    p.add_argument(
-        "--elicit",
-        choices=["generate", "rank"],
-        help="ask for a list (paper) or score each known place "
-        "(default: rank for the embedded model, else generate)",
-    )
-    p.add_argument(
-        "--grammar",
-        action=argparse.BooleanOptionalAction,
-        help="hold the model's replies to their JSON schema (default: trust and verify)",
-    )
-    option("--prompts", type=Path, metavar="FILE")
-    option("--kb", action="append", type=Path, metavar="FILE")
-    option("--person", metavar="NAME")
-    option("--user", choices=["console", "oracle", "none"])
-    p.add_argument(
-        "--place",
-        action=_Placement,
-        metavar="OBJECT=FURNITURE",
-        help="where a thing truly is; repeatable (default: as in the home file)",
-    )
-    option("--world", choices=["physics", "fake"])
-    option("--detector", metavar="learned, simulated or FILE.onnx")
-    option("--camera-hz", type=float, metavar="RATE")
-    option("--fault", action="append", metavar="FAULT[=VALUE][@FROM[-TO]]")
-    option("--ycb", type=Path, metavar="DIR")
-    option("--seed", type=int, metavar="N")
-    option("--memory", type=Path, metavar="FILE")
-    p.add_argument(
-        "--learn",
-        action=argparse.BooleanOptionalAction,
-        help="whether to remember what is seen and said (default: it does)",
-    )
-    option("--runs", type=Path, metavar="DIR")
+    p.add_argument("words", nargs="*", help='a command such as "Bring a sugar_box"; none: ask')
+    add_settings(p)
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     p.add_argument("--gui", action="store_true", help="show PyBullet's own window")
     p.add_argument("--view", action="store_true", help="show the recording live in rerun's viewer")
@@ -249,23 +203,6 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("-v", "--verbose", action="count", default=0, help="say more (-vv: all)")
     p.add_argument("--version", action="version", version=version("robot-executive"))
     return p
-
-
-class _Placement(argparse.Action):
-    """Gathers OBJECT=FURNITURE pairs."""
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        option_string: str | None = None,
-    ) -> None:
-        """Add one pair."""
-        name, equals, furniture = values.partition("=")
-        if not (name and equals and furniture):
-            parser.error(f"--place {values}: should be OBJECT=FURNITURE, as in mug=desk")
-        setattr(namespace, self.dest, {**(getattr(namespace, self.dest) or {}), name: furniture})
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Mission time for simulated worlds: free-running while the robot acts, real while one thinks."""
+"""Mission time: that of simulated worlds, and that of the world outside."""
 
 import time
 
@@ -13,7 +13,10 @@ HANGING_S = 60.0
 
 
 class SimulatedClock:
-    """Advances a world inside `wait`; with nothing moving it sleeps, or jumps to the deadline."""
+    """Free-running while the robot acts, real while a person or a model thinks.
+
+    It advances a world inside `wait`; with nothing moving it sleeps, or jumps to the deadline.
+    """
 
     def __init__(self, inbox: Inbox, world: World) -> None:
         """Start at 0."""
@@ -65,3 +68,30 @@ class SimulatedClock:
         while self._world.busy and caught_up < passed and not self._inbox.computes:
             caught_up += self._world.advance(passed - caught_up)
         self._now += passed
+
+
+class RealClock:
+    """Real time, for a robot that is real: while the tree decides, it stands still."""
+
+    def __init__(self, inbox: Inbox) -> None:
+        """Start at 0."""
+        self._inbox = inbox
+        self.restart()
+
+    def now(self) -> float:
+        """The mission time (seconds)."""
+        return self._now
+
+    def restart(self) -> None:
+        """Call this moment 0."""
+        self._began, self._now = time.monotonic(), 0.0
+
+    def wait(self, deadline: float | None) -> None:
+        """Sleep until an event is in the inbox or the deadline is reached."""
+        self._look()
+        while not self._inbox.has_events and (deadline is None or self._now < deadline):
+            self._inbox.wait(None if deadline is None else deadline - self._now)
+            self._look()
+
+    def _look(self) -> None:
+        self._now = time.monotonic() - self._began

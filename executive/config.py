@@ -1,9 +1,10 @@
 """Every setting in one model: from a TOML file, the environment, the command line; last wins."""
 
 import re
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 from urllib.parse import urlsplit
 
 import tomli_w
@@ -19,6 +20,21 @@ PREFIX = "EXECUTIVE_"
 JSON_EXAMPLES = """lists and tables are JSON there: '["a.owl"]', '{"mug": "desk"}'"""
 
 
+@dataclass(frozen=True, slots=True)
+class Option:
+    """What the command line says of a setting; one without it is set in a file or the environment.
+
+    Attributes:
+        metavar: stands for the value.
+        help: instead of the description and the default.
+        after: the setting that it is listed after (default: the one before it).
+    """
+
+    metavar: str = ""
+    help: str = ""
+    after: str = ""
+
+
 class KnowledgeSystem(StrEnum):
     """The paper's three systems."""
 
@@ -28,55 +44,90 @@ class KnowledgeSystem(StrEnum):
 
 
 class Settings(BaseSettings):
-    """What a mission is run with. Environment variables are named EXECUTIVE_HOME and so on."""
+    """What a mission is run with. Environment variables are named EXECUTIVE_HOME and so on.
+
+    A setting is one field. One that is annotated with an `Option` is an option of the command line.
+    """
 
     model_config = SettingsConfigDict(
         env_prefix=PREFIX, extra="forbid", frozen=True, allow_inf_nan=False
     )
 
-    home: str = Field("four_rooms", description="name of a packaged home, or a FILE.toml")
-    knowledge: KnowledgeSystem = Field(
+    home: Annotated[str, Option("NAME or FILE.toml")] = Field(
+        "four_rooms", description="name of a packaged home, or a FILE.toml"
+    )
+    knowledge: Annotated[KnowledgeSystem, Option()] = Field(
         KnowledgeSystem.OKB_LLM_MEM, description="the paper's three systems"
     )
-    defaults: bool = Field(True, description="whether the ontology knows default locations")
-    llm: str = Field(
+    defaults: Annotated[
+        bool, Option(help="whether the ontology knows default locations (default: it does)")
+    ] = Field(True, description="whether the ontology knows default locations")
+    llm: Annotated[str, Option("embedded, FILE.gguf, http://host:port/v1 or none")] = Field(
         "embedded", description="embedded, FILE.gguf, http://host:port/v1 of a server, or none"
     )
-    llm_model: str | None = Field(
+    llm_model: Annotated[str | None, Option("NAME")] = Field(
         None, description="name of the model on a server (default: the first that chats)"
     )
-    grammar: bool = Field(False, description="hold the model's replies to their JSON schema")
-    prompts: Path | None = Field(None, description="TOML file of texts that replace ours")
-    kb: tuple[Path, ...] = Field(
+    grammar: Annotated[
+        bool,
+        Option(help="hold the model's replies to their JSON schema (default: trust and verify)"),
+    ] = Field(False, description="hold the model's replies to their JSON schema")
+    prompts: Annotated[Path | None, Option("FILE")] = Field(
+        None, description="TOML file of texts that replace ours"
+    )
+    kb: Annotated[tuple[Path, ...], Option("FILE")] = Field(
         (), description="a person's own OWL file, which adds to ours or replaces one; repeatable"
     )
-    person: str | None = Field(None, description="who is at home, as an OWL file names them")
-    elicit: Literal["generate", "rank"] | None = Field(
-        None, description="let the model write a list (paper) or score each known place"
+    person: Annotated[str | None, Option("NAME")] = Field(
+        None, description="who is at home, as an OWL file names them"
     )
-    user: Literal["console", "oracle", "none"] = Field(
+    elicit: Annotated[
+        Literal["generate", "rank"] | None,
+        Option(
+            help="ask for a list (paper) or score each known place "
+            "(default: rank for the embedded model, else generate)",
+            after="llm_model",
+        ),
+    ] = Field(None, description="let the model write a list (paper) or score each known place")
+    user: Annotated[Literal["console", "oracle", "none"], Option()] = Field(
         "console", description="who answers: you, the paper's simulated user, or nobody"
     )
-    place: dict[str, str] = Field(
-        default_factory=dict, description="where things truly are, beside the home file"
+    place: Annotated[
+        dict[str, str],
+        Option(
+            "OBJECT=FURNITURE", "where a thing truly is; repeatable (default: as in the home file)"
+        ),
+    ] = Field(default_factory=dict, description="where things truly are, beside the home file")
+    world: Annotated[
+        str,
+        Option(
+            "physics, fake or package.module:factory", "PyBullet, or instant (default: physics)"
+        ),
+    ] = Field(
+        "physics", description="PyBullet, or instant, or a robot of your own (docs/own-robot.md)"
     )
-    world: Literal["physics", "fake"] = Field("physics", description="PyBullet, or instant")
-    detector: str = Field(
+    detector: Annotated[str, Option("learned, simulated or FILE.onnx")] = Field(
         "learned",
         description="learned, simulated (never wrong), or FILE.onnx; the fake world has its own",
     )
-    fault: tuple[str, ...] = Field(
+    fault: Annotated[tuple[str, ...], Option("FAULT[=VALUE][@FROM[-TO]]")] = Field(
         (), description="what goes wrong in the simulated world; repeatable"
     )
-    ycb: Path | None = Field(
+    ycb: Annotated[Path | None, Option("DIR")] = Field(
         None, description="folder of YCB models to see instead of the packaged meshes"
     )
-    seed: int = Field(0, ge=0, description="of the world, the model and the simulated person")
-    memory: Path | None = Field(
+    seed: Annotated[int, Option("N")] = Field(
+        0, ge=0, description="of the world, the model and the simulated person"
+    )
+    memory: Annotated[Path | None, Option("FILE")] = Field(
         None, description="SQLite file of what was seen and said; without, this session only"
     )
-    learn: bool = Field(True, description="whether to remember what is seen and said")
-    runs: Path = Field(Path("runs"), description="where each run leaves its folder")
+    learn: Annotated[
+        bool, Option(help="whether to remember what is seen and said (default: it does)")
+    ] = Field(True, description="whether to remember what is seen and said")
+    runs: Annotated[Path, Option("DIR")] = Field(
+        Path("runs"), description="where each run leaves its folder"
+    )
 
     temperature: float = Field(0.6, ge=0, description="of the language model (paper: 0.6)")
     top_p: float = Field(0.9, gt=0, le=1, description="of the language model (paper: 0.9)")
@@ -95,7 +146,7 @@ class Settings(BaseSettings):
     sure: float = Field(
         0.5, gt=0, le=1, description="confidence from which what is seen is believed"
     )
-    camera_hz: float = Field(
+    camera_hz: Annotated[float, Option("RATE", after="detector")] = Field(
         1.0, ge=0, description="pictures a second for the log while the robot moves"
     )
 
@@ -114,6 +165,15 @@ class Settings(BaseSettings):
         if value is not None and not (value.strip() and value.isprintable() and len(value) <= 200):
             raise ValueError("should be a name of one line")
         return value
+
+    @field_validator("world")
+    @classmethod
+    def _known_world(cls, value: str) -> str:
+        module, colon, function = value.partition(":")
+        names = (*module.split("."), function)
+        if value in ("physics", "fake") or (colon and all(map(str.isidentifier, names))):
+            return value
+        raise ValueError("should be physics, fake or package.module:factory")
 
     @field_validator("detector")
     @classmethod

@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from executive.errors import ExecutiveError
 from executive.events import Inbox
-from executive.interfaces import LanguageModel, Perception, Recorder, Robot, User
+from executive.interfaces import LanguageModel, Perception, PlaceSource, Recorder, Robot, User
 from executive.records import Note, Record
 from executive.text import printable, writable
 from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, RankRequest
@@ -51,6 +51,26 @@ class GuardedRecorder:
             self._recorder.record(record)
         except Exception as error:
             log.warning("a record was lost: %s", in_words(error))
+
+
+class GuardedSource:
+    """Implements `PlaceSource` around one that may raise: then it knows no place."""
+
+    def __init__(self, source: PlaceSource, recorder: Recorder) -> None:
+        """Guard this source, whose name and clause stay as they are now."""
+        self._source = source
+        self._recorder = GuardedRecorder(recorder)
+        self.name = printable(source.name)
+        self.says = printable(source.says)
+
+    def places_of(self, name: str) -> tuple[str, ...]:
+        """What it says."""
+        try:
+            return tuple(map(str, self._source.places_of(name)))
+        except Exception as error:
+            log.warning("the %s does not answer: %s", self.name, in_words(error))
+            self._recorder.record(Note("error", traceback_of(error)))
+            return ()
 
 
 class _Guard(ABC):

@@ -4,7 +4,8 @@ All slow work has one shape: a method that starts it returns a request number at
 comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
 from executive.records import NodeState, Record, TreeShape
@@ -211,9 +212,35 @@ class Facts(Protocol):
         """Where it was seen or said to be, freshest first, as far as no later look contradicts."""
         ...
 
+    def beliefs(self) -> Mapping[str, Sequence[str]]:
+        """Each object that is believed to be anywhere, and where: what a recording keeps."""
+        ...
 
-class Advisor(Protocol):
-    """Puts questions about places to a language model and lets only real places through.
+
+class PlaceSource(Protocol):
+    """Something that knows where things are: a memory, a calendar, a list on the refrigerator.
+
+    It is asked at the start of a search, before the ontology and the language model, and on the
+    ticking thread: what takes longer than some milliseconds is to be fetched beforehand.
+    """
+
+    @property
+    def name(self) -> str:
+        """Who says so, in a word: `calendar`. It stands in logs, outcomes and the tree."""
+        ...
+
+    @property
+    def says(self) -> str:
+        """How the person is told who says so, as a clause: "your calendar says so"."""
+        ...
+
+    def places_of(self, name: str) -> tuple[str, ...]:
+        """Where the object may be, the likeliest first; only places of the home are visited."""
+        ...
+
+
+class PlaceLister(Protocol):
+    """Has a language model list places, and lets only real places through.
 
     The paper's prompting, output parser, memory and consistency verification. `among` holds the
     default locations if the ontology has several, else it is empty: every place is allowed.
@@ -247,29 +274,46 @@ class Advisor(Protocol):
         """Hold names against the ontology (the existence check)."""
         ...
 
-    def command_ranking(self, words: str) -> RankRequest:
-        """Score what the words may ask the robot to do."""
-        ...
 
-    def command_ranked(self, scored: Scored) -> CommandKind:
-        """The likeliest of these kinds of command."""
-        ...
-
-    def command_inquiry(self, words: str) -> ChatRequest:
-        """`command`: what do the words ask for?"""
-        ...
-
-    def command_read(self, reply: str) -> tuple[CommandKind, str] | None:
-        """CommandKind and object of the reply, if it has the format and the object exists."""
-        ...
+class PlaceRanker(Protocol):
+    """Has a language model score the known places: it cannot invent any."""
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
-        """Score every allowed place instead of asking for a list."""
+        """Score every place that is allowed; all are, if `among` is empty."""
         ...
 
     def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
         """Places with probabilities (they sum to 1), likeliest first."""
         ...
+
+
+class CommandReader(Protocol):
+    """Has a language model read what the grammar of commands cannot."""
+
+    def ranking(self, words: str) -> RankRequest:
+        """Score what the words may ask the robot to do."""
+        ...
+
+    def ranked(self, scored: Scored) -> CommandKind:
+        """The likeliest of these kinds of command."""
+        ...
+
+    def inquiry(self, words: str) -> ChatRequest:
+        """`command`: what do the words ask for?"""
+        ...
+
+    def read(self, reply: str) -> tuple[CommandKind, str] | None:
+        """Kind and object of the reply, if it has the format and the object exists."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """Who puts questions to the language model, and takes from its answers only what exists."""
+
+    lister: PlaceLister
+    ranker: PlaceRanker
+    reader: CommandReader
 
 
 class Interpreter(Protocol):
@@ -359,7 +403,7 @@ class Clock(Protocol):
     """Mission time (seconds since the mission began)."""
 
     def now(self) -> float:
-        """The time."""
+        """The time; it passes within `wait` only, so that a tick is replayed at its own time."""
         ...
 
     def restart(self) -> None:

@@ -7,6 +7,7 @@ from executive.errors import ExecutiveError
 from executive.events import Broke, DeadlinePassed, Ended, Event, HandFelt, Inbox, StopRequested
 from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
 from executive.interfaces import Clock, Recorder, Robot, Tree
+from executive.pending import Pending
 from executive.records import EventTaken, LlmCall, Note, Record, Tick
 from executive.situation import Situation
 from executive.text import printable
@@ -31,14 +32,19 @@ class Executive:
         tree: Tree,
         situation: Situation,
         *,
+        pending: Pending,
         inbox: Inbox,
         clock: Clock,
         robot: Robot,
         recorder: Recorder,
     ) -> None:
-        """Put the parts together; `run` starts."""
+        """Put the parts together; `run` starts.
+
+        `pending` is where the behaviours of this tree, and no others, wait for what they started.
+        """
         self._tree = tree
         self._situation = situation
+        self._pending = pending
         self._inbox = inbox
         self._clock = clock
         self._robot = GuardedRobot(robot, inbox, recorder)
@@ -59,11 +65,11 @@ class Executive:
         try:
             decided = self._decide()
             self._call_off()
-            if not decided or self._situation.restless:
+            if not decided or self._situation.ending.restless:
                 self._come_to_rest()
         except BaseException as interrupt:
             self._take_in(StopRequested(who_interrupts(interrupt)))
-            self._situation.stay_restless()
+            self._situation.ending.stay_restless()
             try:
                 self._call_off()
             finally:
@@ -91,13 +97,13 @@ class Executive:
     def _run_until_decided(self) -> bool:
         while True:
             cause = self._take_events()
-            if self._situation.is_cut_short:
+            if self._situation.ending.is_cut_short:
                 return False
             self._tick(cause)
             if self._tree.status != "RUNNING":
-                self._situation.decided = True
+                self._situation.ending.decided = True
                 return True
-            self._clock.wait(self._situation.next_deadline)
+            self._clock.wait(self._pending.next_deadline)
 
     def _take_events(self) -> str:
         """Fold what happened into the situation; say what it was."""
@@ -118,6 +124,8 @@ class Executive:
         return events
 
     def _take_in(self, event: Event) -> None:
+        if isinstance(event, Ended):
+            self._pending.end(event.request, event.result)
         self._situation.fold(event)
         self._recorder.record(EventTaken(event))
         if isinstance(event, StopRequested):
@@ -134,7 +142,7 @@ class Executive:
     def _feel(self) -> None:
         """Ask the fingers; what they feel anew is an event."""
         holding = self._robot.holding
-        if holding != self._situation.felt:
+        if holding != self._situation.hand.felt:
             self._take_in(HandFelt(holding))
 
     def _tick(self, cause: str) -> None:
@@ -159,7 +167,7 @@ class Executive:
             cause=cause,
             tip=self._tree.tip,
             nodes=self._tree.states(),
-            situation=self._situation.snapshot(),
+            situation=self._situation.snapshot() | {"deadlines": self._pending.deadlines()},
             duration_s=time.perf_counter() - began,
         )
 
@@ -180,10 +188,10 @@ class Executive:
             if not isinstance(result, Failed):
                 break
         if isinstance(result, Succeeded):
-            self._situation.restless = False
+            self._situation.ending.restless = False
         else:
             why = result.reason if isinstance(result, Failed) else ""
-            self._situation.stay_restless(printable(why)[:LONGEST])
+            self._situation.ending.stay_restless(printable(why)[:LONGEST])
         self._inbox.drop_all()
         self._feel()
 
@@ -198,7 +206,7 @@ class Executive:
                 self._note(error)
                 failures += 1
             self._take_all()
-        return self._situation.results.pop(request, None)
+        return self._pending.take_end(request)
 
     def _note(self, error: Exception) -> None:
         log.debug("the mission is cut short", exc_info=error)

@@ -5,6 +5,7 @@ mission time and passes it to every sink.
 """
 
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Any
 
 from executive.events import Event
@@ -22,9 +23,28 @@ from executive.types import (
 # --- the tree ---
 
 
+class Activity(StrEnum):
+    """What the robot is doing while a behaviour is running; behaviours of one's own may add words.
+
+    A behaviour inside of another one says it more exactly: of those running, the innermost counts.
+    """
+
+    DRIVING = "driving"
+    LOOKING = "looking"
+    HANDLING = "handling"
+    THINKING = "thinking"
+    ASKING = "asking"
+    SEARCHING = "searching"
+    """At a place where the thing may be, or on the way there: what `look at ...` is told of."""
+
+
 @dataclass(frozen=True, slots=True)
 class NodeShape:
-    """One behaviour of the tree; `path` is the names from the root, joined by slashes, unique."""
+    """One behaviour of the tree; `path` is the names from the root, joined by slashes, unique.
+
+    What a behaviour means stands in the last three, as it declares it. Whoever reads a tree goes by
+    them, never by a name: names are there to be read by people, and may change.
+    """
 
     path: str
     parent: str
@@ -33,6 +53,13 @@ class NodeShape:
     kind: str
     """`sequence`, `selector`, `decorator` or `behaviour`."""
     class_name: str
+    source: str = ""
+    """Who says what it settles: `person` (in the command), a `Source`, or a source of one's own;
+    empty if nobody but the tree."""
+    activity: str = ""
+    """What the robot is doing while it is running: an `Activity`; empty if it takes no time."""
+    stage: bool = False
+    """Whether it is a part of the mission that deserves a lane of its own."""
 
 
 @dataclass(frozen=True, slots=True)

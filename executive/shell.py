@@ -12,6 +12,7 @@ from types import FrameType
 from typing import Any, Protocol
 
 from executive.errors import ExecutiveError
+from executive.shadows import shadow
 from executive.terminal import open_closed_files, standard_streams
 from executive.text import printable
 
@@ -38,13 +39,17 @@ _is_program = False
 def begin() -> None:
     """What a program does first of all, before the imports that take long.
 
-    A signal that says stop ends it without a traceback, also while it imports.
+    A signal that says stop ends it without a traceback, also while it imports. If it would import
+    what is not ours, it says so and ends.
     """
     global _is_program
     _is_program = True
     open_closed_files()
     handle_stop_signals(end_at_once)
     signal.signal(signal.SIGTTIN, signal.SIG_IGN)  # in the background nobody is there to ask
+    if shadowed := shadow():
+        print(f"error: {printable(shadowed)}", file=sys.stderr)
+        leave(BAD_INPUT)
 
 
 def end_at_once(number: int, frame: FrameType | None) -> None:

@@ -7,6 +7,9 @@ if __name__ == "__main__":
 
 import argparse
 ...
+
+The console commands come in here, too. Unlike `python -m` they do not import from the folder that
+they are run in.
 """
 
 import os
@@ -20,6 +23,23 @@ def begin() -> None:
     from executive import shell  # takes 50 ms, in which Python raises KeyboardInterrupt
 
     shell.begin()
+
+
+def robot_executive() -> None:
+    """The command `robot-executive`, which is `python -m executive`."""
+    _open("executive")
+
+
+def robot_executive_logs() -> None:
+    """The command `robot-executive-logs`, which is `python -m logs`."""
+    _open("logs")
+
+
+def _open(door: str) -> None:
+    sys.excepthook = _quiet
+    from runpy import run_module
+
+    run_module(door, run_name="__main__", alter_sys=True)
 
 
 def _quiet(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:

@@ -1,4 +1,4 @@
-"""Text from outside, made fit to be written down, and fit to be shown."""
+"""Text from outside, made fit to be written down, and fit to be shown; and counts in words."""
 
 import re
 import unicodedata
@@ -34,6 +34,11 @@ def too_long(words: str) -> str:
     begin = unicodedata.normalize("NFKC", words[: LONGEST + 1])  # some letters stand for 18
     long = len(begin) > LONGEST
     return f"what you said is too long, I read at most {LONGEST:,} characters" * long
+
+
+def counted(number: int, noun: str) -> str:
+    """So many of them: `1 call`, `2 calls`."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def printable(text: object) -> str:

@@ -21,22 +21,58 @@ Color = tuple[float, float, float, float]
 # --- what is asked, and what came of it ---
 
 
-class CommandKind(StrEnum):
-    """What the person wants done with the thing."""
+PERSON = "person"
+"""Where the robot stands when it speaks with the person; it is no furniture."""
+DELIVERY = "delivery"
+"""The place by the person where brought things are put down; it is no furniture to search."""
 
-    FIND = "find"
-    TAKE = "take"
-    BRING = "bring"
-    PUT_DOWN = "put_down"
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """What a verb asks of the robot, as far as others than its own subtree have to know it.
+
+    Attributes:
+        searches: whether it is about a thing that has to be found first.
+        grasps: whether the robot has to pick that thing up.
+        ends_at: where the robot is in the end, and the thing with it if it grasps: `PERSON`,
+            `DELIVERY`; None: where the thing was found.
+    """
+
+    searches: bool = True
+    grasps: bool = False
+    ends_at: str | None = None
+
+    @property
+    def carries(self) -> bool:
+        """Whether the thing is in another place in the end."""
+        return self.grasps and self.ends_at is not None
+
+
+class CommandKind(StrEnum):
+    """What the person wants done with the thing: the verb, and what it means."""
+
+    means: Meaning
+
+    FIND = "find", Meaning(ends_at=PERSON)
+    TAKE = "take", Meaning(grasps=True)
+    BRING = "bring", Meaning(grasps=True, ends_at=DELIVERY)
+    PUT_DOWN = "put_down", Meaning(searches=False)
     """What is in the hand, by the person."""
 
+    def __new__(cls, verb: str, means: Meaning = Meaning()) -> "CommandKind":
+        """The verb itself is the value: it stands in recordings."""
+        kind = str.__new__(cls, verb)
+        kind._value_ = verb
+        kind.means = means
+        return kind
 
-SEARCHING = (CommandKind.FIND, CommandKind.TAKE, CommandKind.BRING)
+
+SEARCHING = tuple(kind for kind in CommandKind if kind.means.searches)
 """The deeds for which a thing is looked for: a language model may read these into words."""
 
 
 class Source(StrEnum):
-    """Who an answer came from."""
+    """Who an answer came from; a knowledge source of one's own has a name of its own besides."""
 
     ONTOLOGY = "ontology"
     LLM = "llm"
@@ -64,10 +100,13 @@ class Command:
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A place where the thing may be, who says so, and how likely (None where nobody said)."""
+    """A place where the thing may be, who says so, and how likely (None where nobody said).
+
+    `source` is one of `Source`, or the name of a `PlaceSource`.
+    """
 
     place: str
-    source: Source
+    source: str
     probability: float | None = None
 
     def __str__(self) -> str:
@@ -85,7 +124,7 @@ class Outcome:
     object: str | None
     status: MissionStatus
     reason: str
-    source: Source | None
+    source: str | None
     location: str | None
     inquiries: int
     visited: tuple[str, ...]
@@ -123,11 +162,20 @@ class Place:
     """The room's class in the ontology: `Kitchen`, `Bedroom`, ..."""
 
 
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """An object that the home file declares, since no file of the ontology does."""
+
+    name: str
+    kind: str
+    """Its class in the ontology: `Kitchenware`, `Toy`, ..."""
+
+
 # --- what the robot can be asked to do ---
 
 
-DELIVERY = "delivery"
-"""The place by the person where brought things are put down; it is no furniture to search."""
+HAND = "hand"
+"""Where a thing is that the robot holds, for those who ask where it is."""
 SOMETHING = "something"
 """In the hand, as far as the fingers feel, but nobody knows what."""
 FLOOR = "floor"

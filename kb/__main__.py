@@ -100,8 +100,8 @@ def age(seconds: float) -> str:
 
 def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> Ontology:
     """What a mission with the same options would know."""
-    places = load_home(given.home).places()
-    ontology = Ontology(places, defaults=given.defaults, files=[*given.kb, *files])
+    home, own = load_home(given.home), [*given.kb, *files]
+    ontology = Ontology(home.places(), things=home.things(), defaults=given.defaults, files=own)
     if given.command != "check":
         for warning in ontology.warnings():
             print(printable(f"warning: {warning}"), file=sys.stderr)

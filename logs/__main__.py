@@ -9,7 +9,7 @@ import argparse
 import gc
 import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
@@ -20,6 +20,7 @@ from executive.text import printable
 from executive.usage import Parser
 from logs.questions import comparison, gantt, pictures, report
 from logs.questions.why import why, why_text
+from logs.recording.choice import newest, runs_in
 from logs.recording.reader import FILE_NAME, At, Run, mcap_of
 from logs.recording.recovery import first_damage, recover, written
 from logs.viewer import program
@@ -39,10 +40,20 @@ class Answer(NamedTuple):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Answer one question; return the exit status (2: bad input)."""
     options = _parser().parse_args(arguments)
+    if "run" in options:
+        options.run = _chosen(options.run)
     ask: Callable[[argparse.Namespace], Answer] = options.ask
     answer = ask(options)
     print(json.dumps(answer.data, default=str) if options.json else answer.text)
     return answer.status
+
+
+def _chosen(named: Sequence[Path]) -> Path:
+    """The one run that is asked about; if others could be meant, too, it is said which it is."""
+    chosen = newest(named)
+    if chosen.why:
+        print(f"{printable(chosen.run)}: {chosen.why}", file=sys.stderr)
+    return chosen.run
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -62,17 +73,25 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--json", action="store_true", help="answer as JSON")
         return command
 
+    def add_for_one(
+        name: str, ask: Callable[[argparse.Namespace], Answer], what: str, run: str = ""
+    ) -> Any:
+        command = add(name, ask, what)
+        means = f"a run's folder{run}; of several the newest (default: the newest in runs/)"
+        command.add_argument("run", nargs="*", type=Path, metavar="RUN", help=means)
+        return command
+
     summary = add("summary", _summary, "how missions ended, and what they took")
     summary.add_argument(
         "runs", nargs="+", type=Path, metavar="RUN", help="a run's folder, or a folder of runs"
     )
-    add("why", _why, "the chain from words to deed: decisions, sources, alternatives", "run")
-    add("ticks", _ticks, "each tick: its events, and the behaviours that it changed", "run")
-    when = add("timeline", _timeline, "which behaviours ran when (mission time, s)", "run")
+    add_for_one("why", _why, "the chain from words to deed: decisions, sources, alternatives")
+    add_for_one("ticks", _ticks, "each tick: its events, and the behaviours that it changed")
+    when = add_for_one("timeline", _timeline, "which behaviours ran when (mission time, s)")
     when.add_argument("--svg", type=Path, metavar="FILE", help="draw it, too")
-    add("llm", _llm, "calls of the language model and their verification", "run")
-    add("dialog", _dialog, "what was said", "run")
-    frames = add("frames", _frames, "write the camera's pictures", "run")
+    add_for_one("llm", _llm, "calls of the language model and their verification")
+    add_for_one("dialog", _dialog, "what was said")
+    frames = add_for_one("frames", _frames, "write the camera's pictures")
     frames.add_argument(
         "--out", type=Path, required=True, metavar="DIR or FILE.mp4", help="files, or a video"
     )
@@ -87,12 +106,12 @@ def _parser() -> argparse.ArgumentParser:
     again.add_argument(
         "runs", nargs="+", type=Path, metavar="RUN", help="a run's folder, or a folder of runs"
     )
-    view = add("view", _view, "show the mission in the rerun viewer", "run")
+    view = add_for_one("view", _view, "show the mission in the rerun viewer")
     view.add_argument("--web", action="store_true", help="in the browser, served to this machine")
     view.add_argument("--png", type=Path, metavar="FILE", help="instead, a picture of the viewer")
     view.add_argument("--at", type=float, default=0.0, metavar="S", help="at this mission time")
-    mend = add("recover", _recover, "write a broken mcap file whole again, as far as it reads")
-    mend.add_argument("run", type=Path, metavar="RUN", help="a run's folder, or its mcap file")
+    mends = "write a broken mcap file whole again, as far as it reads"
+    add_for_one("recover", _recover, mends, ", or its mcap file")
     return parser
 
 
@@ -103,20 +122,13 @@ def _summary(options: argparse.Namespace) -> Answer:
 
 def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> Iterator[T | report.Row]:
     """An answer a run; of several, what cannot be read has a row that says so."""
-    for run in _runs_in(folders):
+    for run in runs_in(folders):
         try:
             yield ask(run)
         except InputError as error:
             if [run] == list(folders):
                 raise
             yield {"run": run.name, "error": str(error).removeprefix(f"{run / FILE_NAME}: ")}
-
-
-def _runs_in(folders: Iterable[Path]) -> Iterator[Path]:
-    """Runs, and the runs in folders of runs."""
-    for folder in folders:
-        inside = sorted(found.parent for found in folder.glob(f"*/{FILE_NAME}"))
-        yield from [folder] if (folder / FILE_NAME).exists() or not inside else inside
 
 
 def _why(options: argparse.Namespace) -> Answer:
@@ -177,7 +189,7 @@ class _Frames:
 def _export(options: argparse.Namespace) -> Answer:
     from logs.questions.export import write_parquet
 
-    runs = list(_runs_in(options.runs))
+    runs = list(runs_in(options.runs))
     exported = write_parquet(runs, options.parquet)
     if runs == options.runs[:1] and exported.unread:
         raise exported.unread[0]

@@ -75,15 +75,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _view(options: argparse.Namespace) -> int:
-    models = load_objects()
-    if options.ycb:
-        models = with_scans(models, options.ycb)
+    def seen(models: dict[str, ObjectModel]) -> dict[str, ObjectModel]:
+        return with_scans(models, options.ycb) if options.ycb else models
+
     if options.home == "objects":
-        _write(options.out or Path("objects.png"), _png(contact_sheet(models.values())))
+        sheet = contact_sheet(seen(load_objects()).values())
+        _write(options.out or Path("objects.png"), _png(sheet))
         return DONE
     home = load_home(options.home)
     out = options.out or Path(f"{home.name}.png")
-    _write(out, _png(Image.fromarray(draw(home, models))))
+    _write(out, _png(Image.fromarray(draw(home, seen(home.drawn_models())))))
     return DONE
 
 

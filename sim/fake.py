@@ -33,6 +33,7 @@ from executive.types import (
     Succeeded,
 )
 from sim.home.home import Home
+from sim.objects.objects import why_not_taken
 
 SPEED_M_S = 0.8
 """Nominal driving speed."""
@@ -184,10 +185,12 @@ class FakeRobot:
             case Halt():
                 return REST_S, Succeeded
 
+    def _knows(self, place: str) -> bool:
+        return place in {"person", "delivery", *(p.name for p in self._world.home.places())}
+
     def _drive(self, place: str) -> tuple[float, Callable[[], Result]]:
         world = self._world
-        known = {"person", "delivery", *(p.name for p in world.home.places())}
-        if place not in known:
+        if not self._knows(place):
             return 0.0, lambda: Failed(f"there is no {place} in this home")
         goal = world.home.stand(place)
         distance = math.dist(goal[:2], world.pose[:2])
@@ -214,6 +217,8 @@ class FakeRobot:
             return Failed(f"my hand already holds the {world.held}")
         if world.things.get(name) not in (world.at, FLOOR):
             return Failed(f"the {name} is out of reach")
+        if why := why_not_taken(world.home.models()[name]):
+            return Failed(f"I cannot grasp the {name} as it lies: {why}")
         del world.things[name]
         world.held = name
         return Succeeded()

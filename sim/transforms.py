@@ -2,12 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 
-from pybullet_utils.bullet_client import BulletClient
-
 from executive.records import Transform
 from executive.types import Pose
 from sim.body.hardware import Hardware
 from sim.bullet.bodies import MAP, frame_pose
+from sim.engine import BulletClient
 
 _MOVED = 1e-4
 """Smaller changes (metres, parts of the quaternion) do not count."""

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from itertools import count
 
 import numpy as np
-import pybullet
 from scipy.spatial.transform import Rotation
 
 from executive.events import Inbox
@@ -20,6 +19,7 @@ from sim.bullet.bodies import build_home, frame_pose, home_entities, place_objec
 from sim.bullet.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
 from sim.bullet.client import aim_window, connect
 from sim.bullet.contacts import FreshContacts
+from sim.engine import pybullet
 from sim.faults.hardware import FaultyHardware
 from sim.faults.injector import FaultInjector, FaultyCamera
 from sim.faults.world import WorldFaults

@@ -13,11 +13,13 @@ from typing import Any
 from py_trees.behaviour import Behaviour
 from py_trees.display import unicode_tree
 
+from executive.app.parts import Parts, build_context
 from executive.errors import InputError
 from executive.shell import DONE, entry_point
 from executive.situation import Situation
 from executive.usage import Parser
-from trees.context import MissionContext, Parameters
+from sim.home.home import load_home
+from trees.context import Parameters
 from trees.drawing import svg
 from trees.mission import mission
 
@@ -49,21 +51,21 @@ def build(knowledge: str, elicit: str) -> Behaviour:
     """The tree of these settings, with nobody in the context: it is to be looked at, not ticked."""
     nobody: Any = object()
     llm = None if knowledge == "okb" else nobody
-    return mission(
-        MissionContext(
-            situation=Situation(),
-            clock=nobody,
-            recorder=nobody,
-            interpreter=nobody,
-            knowledge=nobody,
-            robot=nobody,
-            perception=nobody,
-            user=nobody,
-            model=llm,
-            advisor=llm,
-            parameters=Parameters(elicit=elicit),
-        )
+    parts = Parts(
+        settings=nobody,
+        home=load_home("four_rooms"),
+        inbox=nobody,
+        clock=nobody,
+        recorder=nobody,
+        robot=nobody,
+        perception=nobody,
+        user=nobody,
+        knowledge=nobody,
+        model=llm,
+        advice=llm,
+        parameters=Parameters(elicit=elicit),
     )
+    return mission(build_context(parts, Situation()))
 
 
 def _write(file: Path, text: str) -> None:

@@ -1,92 +1,45 @@
-"""Do what was asked with the thing that was found: find, take or bring."""
+"""Do what was asked with the thing that was found; `deeds/` has a file for each verb."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import DELIVERY, CommandKind
 from trees.context import MissionContext
-from trees.deliver import deliver
+from trees.deeds import DEEDS, deed_of
+from trees.deeds.deed import meaning
 from trees.nodes import Check, Step, fallback, sequence
 from trees.person import Report
-from trees.robot import DriveBack
 
 
 def act(context: MissionContext) -> Behaviour:
     """A thing that was found, and is in the hand if it has to be -> reported or delivered."""
     situation = context.situation
-
-    def from_a_place() -> Check:
-        return Check("found at a place", context, lambda: situation.found is not None)
-
+    with_it = [deed for deed in DEEDS if deed.kind.means.searches]
     return fallback(
         "act",
-        sequence(
-            "is there already",
-            asked_to(context, CommandKind.BRING),
-            Check("at the delivery place", context, lambda: situation.is_delivered),
-            Report("report", context, "The {object} is here already, on the delivery table."),
-        ),
-        sequence(
-            "bring",
-            asked_to(context, CommandKind.BRING),
-            deliver(context),
-            fallback(
-                "say so",
-                sequence(
-                    "elsewhere",
-                    Check("on other furniture", context, lambda: situation.put_at != DELIVERY),
-                    Report(
-                        "report",
-                        context,
-                        "I put the {object} on {surface}; "
-                        "I could not put it on the delivery table: {why}.",
-                    ),
-                ),
-                sequence(
-                    "from there",
-                    from_a_place(),
-                    Report("report", context, "Here is the {object} from {place}."),
-                ),
-                Report("report", context, "Here is the {object}."),
-            ),
-        ),
-        sequence(
-            "find",
-            asked_to(context, CommandKind.FIND),
-            from_a_place(),
-            DriveBack("come back", context, "person"),
-            Report("report", context, "The {object} is at {place}."),
-        ),
-        sequence(
-            "take",
-            asked_to(context, CommandKind.TAKE),
-            from_a_place(),
-            Check("in my hand", context, lambda: situation.has_it),
-            Report("report", context, "I took the {object} from {place} and hold it."),
-        ),
+        *(way for deed in with_it for way in deed.ways(context)),
         sequence(
             "have it",
-            Check("had it before", context, lambda: situation.has_it and not situation.found),
-            Check("not asked to bring", context, lambda: not situation.asks_to(CommandKind.BRING)),
+            Check(
+                "had it before", context, lambda: situation.has_it and not situation.search.found
+            ),
+            Check("not asked to bring", context, lambda: not meaning(situation).carries),
             Report("report", context, "I hold the {object}."),
         ),
         SayHowFar("not all of it", context),
     )
 
 
-def asked_to(context: MissionContext, kind: CommandKind) -> Check:
-    """Whether this kind of deed was asked for."""
-    return Check(f"asked to {kind}", context, lambda: context.situation.asks_to(kind))
+def without_a_search(context: MissionContext) -> list[Behaviour]:
+    """What is done with no thing to look for."""
+    others = [deed for deed in DEEDS if not deed.kind.means.searches]
+    return [way for deed in others for way in deed.ways(context)]
 
 
 class SayHowFar(Step):
     """Says what was found out although not all was done that was asked for; always fails."""
 
     def update(self) -> Status:
-        """Who asks where a thing is wants to know it, even if the robot cannot come back."""
-        found, why = self.situation.found, self.situation.reason
-        if self.situation.asks_to(CommandKind.FIND) and found:
-            return self.fail(f"the {self.situation.object} is at {found.place}, but {why}")
-        if self.situation.asks_to(CommandKind.TAKE) and not self.situation.has_it:
-            return self.fail(f"the {self.situation.object} is not in my hand any more")
-        return self.fail(why)
+        """The verb knows what is worth telling."""
+        assert self.situation.request.command
+        deed, why = deed_of(self.situation.request.command.kind), self.why_before()
+        return self.fail(deed.how_far(self.situation, why))

@@ -1,20 +1,22 @@
 """Whom the behaviours work with, and by which parameters."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from executive.interfaces import (
-    Advisor,
+    Advice,
     Clock,
     Facts,
     Interpreter,
     Knowledge,
     LanguageModel,
     Perception,
+    PlaceSource,
     Recorder,
     Robot,
     User,
 )
+from executive.pending import Pending
 from executive.situation import Situation
 from executive.types import Vector3
 
@@ -67,14 +69,21 @@ class NoFacts:
         """Nowhere."""
         return ()
 
+    def beliefs(self) -> dict[str, tuple[str, ...]]:
+        """None."""
+        return {}
+
 
 @dataclass(frozen=True, slots=True)
 class MissionContext:
-    """The collaborators of a mission; no `model` and `advisor` for the system without an LLM.
+    """The collaborators of a mission; no `model` and `advice` for the system without an LLM.
 
     `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
+    `blind_to` are known objects that perception would not recognise.
+    The `sources` know where things are without looking; they are asked in this order, after memory.
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
-    the delivery table has no room.
+    the delivery table has no room. `pending` is what the behaviours wait for: the loop that ticks
+    them has to be given the same.
     """
 
     situation: Situation
@@ -86,8 +95,11 @@ class MissionContext:
     perception: Perception
     user: User
     model: LanguageModel | None = None
-    advisor: Advisor | None = None
+    advice: Advice | None = None
     parameters: Parameters = Parameters()
     facts: Facts = NoFacts()
+    sources: tuple[PlaceSource, ...] = ()
     place_at: Callable[[Vector3], str | None] = lambda point: None
     near_person: tuple[str, ...] = ()
+    blind_to: tuple[str, ...] = ()
+    pending: Pending = field(default_factory=Pending)

@@ -10,7 +10,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.composites import Selector, Sequence
 from py_trees.decorators import FailureIsSuccess
 
-from trees.location import ModelAction
+from trees.model import ModelAction
 from trees.nodes import EachOf, FirstOf
 from trees.person import Announce, Apologise, Ask, Report
 from trees.robot import BodyAction

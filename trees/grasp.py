@@ -3,8 +3,9 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import CommandKind
+from executive.records import Activity
 from trees.context import MissionContext
+from trees.deeds.deed import meaning
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.robot import DriveToCandidate, PickUp
 from trees.search import look_over, search
@@ -15,8 +16,9 @@ def grasp(context: MissionContext) -> Behaviour:
     situation = context.situation
 
     def may_stay() -> bool:
-        delivered = situation.asks_to(CommandKind.BRING) and situation.is_delivered
-        return delivered or situation.asks_to(CommandKind.FIND)
+        asked, found = meaning(situation), situation.search.found
+        is_there = asked.carries and found is not None and found.place == asked.ends_at
+        return is_there or not asked.grasps
 
     return fallback(
         "grasp",
@@ -25,7 +27,7 @@ def grasp(context: MissionContext) -> Behaviour:
         get_hold(context),
         sequence(
             "search again",
-            Check("it is gone", context, lambda: situation.gone),
+            Check("it is gone", context, lambda: situation.search.gone),
             ForgetSighting("begin anew", context),
             search(context),
             get_hold(context, Check("in my hand", context, lambda: situation.has_it)),
@@ -50,10 +52,11 @@ def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
             lambda _: None,
             sequence(
                 "another approach",
-                Check("it was there", context, lambda: not situation.gone),
+                Check("it was there", context, lambda: not situation.search.gone),
                 DriveToCandidate("return", context),
                 look_over(context),
                 PickUp("pick", context),
+                activity=Activity.SEARCHING,
             ),
         ),
     )
@@ -64,6 +67,6 @@ class ForgetSighting(Step):
 
     def update(self) -> Status:
         """Begin the search anew."""
-        self.situation.detection = self.situation.found = None
-        self.situation.gone = False
+        self.situation.search.detection = self.situation.search.found = None
+        self.situation.search.gone = False
         return Status.SUCCESS

@@ -1,14 +1,14 @@
-"""The hand holds one thing at a time: is it free for another, and how it is emptied on request."""
+"""The hand holds one thing at a time: is it free for another, and may it be emptied first."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.language.put_down import HELD
-from executive.types import DELIVERY, SOMETHING, CommandKind
+from executive.types import DELIVERY
 from trees.context import MissionContext
+from trees.deeds.deed import meaning
+from trees.deeds.put_down import put_down_somewhere
 from trees.nodes import Step, fallback, sequence
-from trees.person import AskToPutDown, Report, full_hand, the
-from trees.put_down import put_down_somewhere
+from trees.person import AskToPutDown, full_hand, the
 
 
 def hand_is_free(context: MissionContext) -> Behaviour:
@@ -25,28 +25,13 @@ def hand_is_free(context: MissionContext) -> Behaviour:
     )
 
 
-def empty_hand(context: MissionContext) -> Behaviour:
-    """Put down what is in the hand, because the person says so."""
-    return sequence(
-        "empty the hand",
-        HoldsWhatIsMeant("holds it", context),
-        fallback(
-            "put it down",
-            put_down_somewhere(context, "by the person", DELIVERY),
-            StillHolds("still in my hand", context),
-        ),
-        Report("report", context, "I put {the_object} on {surface}."),
-    )
-
-
 class HandIsFree(Step):
     """Succeeds if the hand is free for what is asked: it holds one thing at a time."""
 
     def update(self) -> Status:
         """Fail if another thing than the one that is asked for is in it."""
-        assert self.situation.command
-        held = self.situation.in_hand
-        if held in (None, self.situation.object) or self.situation.command.kind == CommandKind.FIND:
+        held = self.situation.hand.in_hand
+        if held in (None, self.situation.request.object) or not meaning(self.situation).grasps:
             return Status.SUCCESS
         return self.fail(full_hand(held))
 
@@ -56,40 +41,9 @@ class HandStaysFull(Step):
 
     def update(self) -> Status:
         """There was no room for what it holds, or it may not be put down."""
-        held, why = self.situation.in_hand, self.situation.reason
+        held, why = self.situation.hand.in_hand, self.why_before()
         if held is None:
             return self.fail(why)
-        if self.situation.unplaced:
+        if self.situation.hand.unplaced:
             return self.fail(f"{why}; I still hold {the(held)}")
         return self.fail(full_hand(held))
-
-
-class StillHolds(Step):
-    """Says why the hand is not empty, and that it is not; always fails."""
-
-    def update(self) -> Status:
-        """What fell is no longer held; nor is what was let go of before it went wrong."""
-        held, why = self.situation.in_hand, self.situation.reason
-        if held:
-            return self.fail(f"{why}; I still hold {the(held)}")
-        if self.situation.lost:
-            return self.fail(why)
-        return self.fail(
-            f"{why}; {the(self.situation.object or SOMETHING)} is not in my hand any more"
-        )
-
-
-class HoldsWhatIsMeant(Step):
-    """Succeeds if what is to be put down is in the hand."""
-
-    def update(self) -> Status:
-        """Nobody need say the name of what is held; if they do, it has to be that."""
-        assert self.situation.command
-        held, target = self.situation.in_hand, self.situation.command.target
-        if held is None:
-            return self.fail("my hand is empty")
-        named = self.context.knowledge.objects_named(target)
-        if target != HELD and held not in (SOMETHING, *named):
-            return self.fail(f"my hand holds {the(held)}, not the {target}")
-        self.situation.object = held
-        return self.succeed(held)

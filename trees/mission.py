@@ -9,18 +9,18 @@ confirmed     hand is free    place; else LLM, verified if gone, search    table
 """
 
 from py_trees.behaviour import Behaviour
-from py_trees.common import Status
 
-from executive.types import CommandKind, MissionStatus
-from trees.act import act, asked_to
+from executive.types import PERSON
+from trees.act import act, without_a_search
 from trees.context import MissionContext
+from trees.deeds.deed import Conclude, meaning
 from trees.grasp import grasp
-from trees.hand import empty_hand, hand_is_free
-from trees.nodes import Check, Optionally, Step, fallback, sequence
+from trees.hand import hand_is_free
+from trees.nodes import Check, Optionally, fallback, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.robot import DriveBack
-from trees.search import search
+from trees.search import eyes_for_it, search
 from trees.understand import understand
 
 
@@ -29,27 +29,19 @@ def mission(context: MissionContext) -> Behaviour:
     situation = context.situation
     return fallback(
         "mission",
-        sequence(
+        stages(
             "serve",
             understand(context),
-            Check(
-                "about a thing to look for",
-                context,
-                lambda: not situation.asks_to(CommandKind.PUT_DOWN),
-            ),
+            Check("about a thing to look for", context, lambda: meaning(situation).searches),
             resolve_object(context),
+            *eyes_for_it(context),
             hand_is_free(context),
             search(context),
             grasp(context),
             act(context),
             Conclude("done", context),
         ),
-        sequence(
-            "put down",
-            asked_to(context, CommandKind.PUT_DOWN),
-            empty_hand(context),
-            Conclude("done", context),
-        ),
+        *without_a_search(context),
         sequence("give up", come_back(context), Apologise("apologise", context)),
     )
 
@@ -61,16 +53,7 @@ def come_back(context: MissionContext) -> Behaviour:
         context.situation,
         sequence(
             "come back",
-            Check("is away", context, lambda: context.situation.away),
-            DriveBack("drive", context, "person"),
+            Check("is away", context, lambda: context.situation.dialogue.away),
+            DriveBack("drive", context, PERSON),
         ),
     )
-
-
-class Conclude(Step):
-    """Marks the mission as done."""
-
-    def update(self) -> Status:
-        """Done."""
-        self.situation.status = MissionStatus.DONE
-        return Status.SUCCESS

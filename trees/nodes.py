@@ -8,9 +8,10 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+from py_trees import composites
 from py_trees.behaviour import Behaviour
-from py_trees.common import Status
-from py_trees.composites import Selector, Sequence
+from py_trees.common import BlackBoxLevel, Status
+from py_trees.composites import Sequence
 from py_trees.decorators import Decorator, FailureIsSuccess
 
 from executive.situation import Situation
@@ -24,9 +25,33 @@ UNSAID = "it did not work, and nothing said why"
 """The reason of what fails without one."""
 
 
-def sequence(name: str, *children: Behaviour) -> Sequence:
-    """All children in order, until one fails."""
-    return Sequence(name, memory=True, children=list(children))
+class Selector(composites.Selector):
+    """A fallback that keeps why the child that it tried last failed, for those it tries then."""
+
+    reason = ""
+
+    def tick(self) -> Iterator[Behaviour]:
+        """Tick the children as ever."""
+        if self.status != Status.RUNNING:
+            self.reason = ""
+        for node in super().tick():
+            if node.parent is self and node.status == Status.FAILURE:
+                self.reason = reason_of(node) or self.reason
+            yield node
+
+
+def sequence(name: str, *children: Behaviour, activity: str = "") -> Sequence:
+    """All children in order, until one fails; `activity` is what the robot does meanwhile."""
+    node = Sequence(name, memory=True, children=list(children))
+    vars(node)["activity"] = activity
+    return node
+
+
+def stages(name: str, *children: Behaviour) -> Sequence:
+    """A sequence whose children are parts of the mission, each with a lane in the viewer."""
+    for child in children:
+        child.blackbox_level = BlackBoxLevel.BIG_PICTURE
+    return sequence(name, *children)
 
 
 def fallback(name: str, *children: Behaviour) -> Selector:
@@ -35,13 +60,26 @@ def fallback(name: str, *children: Behaviour) -> Selector:
 
 
 class Step(Behaviour):
-    """Decides at once, from what is known: a condition, or a change of the situation."""
+    """Decides at once, from what is known: a condition, or a change of the situation.
+
+    What it means for whoever reads the log is declared here, by a class or by one of its instances,
+    and never guessed from a name: see `executive.records.NodeShape`.
+    """
+
+    source: str = ""
+    activity: str = ""
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Keep the context at hand."""
         super().__init__(name)
         self.context = context
         self.situation = context.situation
+        self.reason = ""
+        """Why it failed, as a clause; empty if it did not, or fails without a word."""
+
+    def initialise(self) -> None:
+        """Begin: what it failed for before, counts no more."""
+        self.reason = ""
 
     @abstractmethod
     def update(self) -> Status:
@@ -54,8 +92,24 @@ class Step(Behaviour):
 
     def fail(self, reason: str) -> Status:
         """Fail, and keep why, for the log and for the person: on one line, and never empty."""
-        self.feedback_message = self.situation.reason = printable(reason).strip() or UNSAID
+        self.reason = self.feedback_message = printable(reason).strip() or UNSAID
+        self.situation.ending.last_word = self.reason
         return Status.FAILURE
+
+    def why_before(self) -> str:
+        """Why that failed which was tried before this, in the innermost fallback that knows."""
+        node = self.parent
+        while node and not (isinstance(node, Selector) and node.reason):
+            node = node.parent
+        return reason_of(node) if node else ""
+
+
+def reason_of(node: Behaviour) -> str:
+    """Why a behaviour failed: what the last said that failed within it; empty if none said why."""
+    if isinstance(node, Step | Selector | _Loop):
+        return node.reason
+    failed = (child for child in node.children if child.status == Status.FAILURE)
+    return next((reason_of(child) for child in failed), "")
 
 
 class Check(Step):
@@ -108,6 +162,7 @@ class Action(Step):
 
     def initialise(self) -> None:
         """Start."""
+        super().initialise()
         self.start_again()
 
     def start_again(self) -> Status:
@@ -115,32 +170,32 @@ class Action(Step):
         self.feedback_message = ""
         self._request = self.start()
         self._deadline = self.context.clock.now() + self._patience_s
-        self.situation.deadlines[self.name] = self._deadline
+        self.context.pending.wait_until(self._deadline, self._request, self.name)
         return Status.RUNNING
 
     def update(self) -> Status:
         """Look whether it ended."""
-        assert self._request is not None
-        result = self.situation.results.pop(self._request, None)
+        request = self._request
+        assert request is not None
+        result = self.context.pending.take_end(request)
         if result is not None:
-            self._wait_no_more()
+            self._wait_no_more(request)
             return self.ended(result)
         if self.context.clock.now() < self._deadline:
             return Status.RUNNING
-        self.cancel(self._request)
-        self._wait_no_more()
+        self.cancel(request)
+        self._wait_no_more(request)
         return self.out_of_time()
 
     def terminate(self, new_status: Status) -> None:
         """Cancel what is still under way."""
-        if self._request is not None:
-            request = self._request
-            self._wait_no_more()
+        if (request := self._request) is not None:
+            self._wait_no_more(request)
             self.cancel(request)
 
-    def _wait_no_more(self) -> None:
+    def _wait_no_more(self, request: int) -> None:
         self._request = None
-        self.situation.deadlines.pop(self.name, None)
+        self.context.pending.wait_no_more(request)
 
     def failed(self, result: Result) -> Status:
         """Fail for the reason in a result that is no success."""
@@ -156,22 +211,22 @@ def why_of(result: Result) -> str:
 
 
 class Optionally(FailureIsSuccess):
-    """Does what may fail: then all goes on, and the reason that was known before stands."""
+    """Does what may fail: then all goes on, and for the log the last word is that of before."""
 
     def __init__(self, name: str, situation: Situation, child: Behaviour) -> None:
         """Keep the situation at hand."""
         super().__init__(name, child)
         self._situation = situation
-        self._reason = ""
+        self._last_word = ""
 
     def initialise(self) -> None:
-        """Remember the reason."""
-        self._reason = self._situation.reason
+        """Remember the last word."""
+        self._last_word = self._situation.ending.last_word
 
     def update(self) -> Status:
         """Succeed in either case."""
         if self.decorated.status == Status.FAILURE:
-            self._situation.reason = self._reason
+            self._situation.ending.last_word = self._last_word
         return super().update()
 
 
@@ -195,11 +250,13 @@ class _Loop(Decorator):
         self._items = items
         self._choose = choose
         self._rest: Iterator[Any] = iter(())
+        self.reason = ""
+        """Why its child failed, the last time that it said why."""
 
     def tick(self) -> Iterator[Behaviour]:
         """Tick the child for the item at hand, and for the next ones as long as it decides."""
         if self.status != Status.RUNNING:
-            self._rest = iter(tuple(self._items()))
+            self._rest, self.reason = iter(tuple(self._items())), ""
             if not self._next():
                 self.stop(self.exhausted)
                 yield self
@@ -210,6 +267,8 @@ class _Loop(Decorator):
             if status == Status.RUNNING:
                 self.status = status
                 break
+            if status == Status.FAILURE:
+                self.reason = reason_of(self.decorated) or self.reason
             if status == self.ends_on or not self._next():
                 self.stop(status if status == self.ends_on else self.exhausted)
                 break

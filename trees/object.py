@@ -7,13 +7,14 @@ knowledge (paper, section "Integrated use of ontological knowledge base and LLM"
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.types import Source
 from trees.context import MissionContext
 from trees.nodes import Check, Step, fallback, sequence
 from trees.person import AskDoYouMean, AskWhichObject
 
 
 def resolve_object(context: MissionContext) -> Behaviour:
-    """Words for a thing -> `situation.object`."""
+    """Words for a thing -> `situation.request.object`."""
     return fallback(
         "which object",
         known_object(context),
@@ -25,7 +26,7 @@ def resolve_object(context: MissionContext) -> Behaviour:
         ),
         sequence(
             "ask",
-            Check("person may help", context, lambda: not context.situation.no_help),
+            Check("person may help", context, lambda: not context.situation.dialogue.no_help),
             AskWhichObject("ask which object", context),
         ),
     )
@@ -41,29 +42,37 @@ def known_object(context: MissionContext) -> Behaviour:
 
 
 class OntologyKnowsObject(Step):
-    """Succeeds if the words name exactly one known object."""
+    """Succeeds if the words name exactly one known object.
+
+    Reads request.command; writes request.object, or request.options.
+    """
+
+    source = Source.ONTOLOGY
 
     def update(self) -> Status:
         """Look the words up."""
-        assert self.situation.command
-        target = self.situation.command.target
+        assert self.situation.request.command
+        target = self.situation.request.command.target
         named = self.context.knowledge.objects_named(target)
         if len(named) == 1:
-            self.situation.object = named[0]
+            self.situation.request.object = named[0]
             return self.succeed(named[0])
-        self.situation.options = named
+        self.situation.request.options = named
         return self.fail(f"'{target}' names {len(named) or 'no'} known objects")
 
 
 class PersonPrefersOne(Step):
-    """Succeeds if the ontology knows that this person prefers one of the things that fit."""
+    """Succeeds if the ontology knows that this person prefers one of the things that fit.
+
+    Reads request.options; writes request.object.
+    """
 
     def update(self) -> Status:
         """Look for a favourite."""
-        favourites = self.context.knowledge.preferred(self.situation.options)
+        favourites = self.context.knowledge.preferred(self.situation.request.options)
         if len(favourites) != 1:
             return self.fail(f"{len(favourites) or 'none'} of them is a favourite")
-        self.situation.object = favourites[0]
+        self.situation.request.object = favourites[0]
         return self.succeed(favourites[0])
 
 
@@ -71,23 +80,24 @@ class GuessName(Step):
     """Succeeds if one known name is in the words, or is so near that they may be a slip of it.
 
     If several are, the person has to choose: the robot does one thing at a time.
+    Reads request.command; writes request.guess, or request.options and request.several.
     """
 
     def update(self) -> Status:
         """Look for known names."""
-        assert self.situation.command
-        target = self.situation.command.target
-        if self.situation.options:
+        assert self.situation.request.command
+        target = self.situation.request.command.target
+        if self.situation.request.options:
             return self.fail(f"'{target}' is known")
         knowledge = self.context.knowledge
         names = knowledge.names_in(target)
         if len(names) > 1:
-            self.situation.several = True
-            self.situation.options = tuple(
+            self.situation.request.several = True
+            self.situation.request.options = tuple(
                 dict.fromkeys(one for name in names for one in knowledge.objects_named(name))
             )
             return self.fail(f"'{target}' names several things")
-        self.situation.guess = names[0] if names else knowledge.near_name(target) or ""
-        if not self.situation.guess:
+        self.situation.request.guess = names[0] if names else knowledge.near_name(target) or ""
+        if not self.situation.request.guess:
             return self.fail(f"'{target}' is like no known name")
-        return self.succeed(self.situation.guess)
+        return self.succeed(self.situation.request.guess)

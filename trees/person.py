@@ -2,25 +2,42 @@
 
 import re
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import replace
 
 from py_trees.common import Status
 
-from executive.records import Utterance
+from executive.records import Activity, Utterance
 from executive.situation import candidates_from, table
 from executive.text import printable, too_long
 from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
 
+SAYS: Mapping[str, str] = {
+    Source.ONTOLOGY: "that is its place",
+    Source.LLM: "the language model's guess",
+    Source.USER: "as you said",
+    Source.MEMORY: "I remember it there",
+}
+"""How the person is told who names a place to look at; other sources say it themselves."""
+NO_PLACE = "I know no such place. "
+
 
 class Ask(Action):
-    """Puts a question, and puts it again while the answer makes no sense."""
+    """Puts a question, and puts it again while the answer makes no sense.
+
+    Writes dialogue.inquiries, and dialogue.no_help if no answer is of use.
+    """
+
+    source = Source.USER
+    activity = Activity.ASKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Wait for each answer as long as the parameters allow."""
         super().__init__(name, context, context.parameters.answer_s)
         self._tries = 0
+        self._commanded = False
 
     @abstractmethod
     def question(self) -> Question:
@@ -34,21 +51,26 @@ class Ask(Action):
     def unresolved(self) -> str:
         """What stays unknown without an answer, as a clause."""
 
+    def busy(self) -> str:
+        """What goes on, for who gives a command instead of an answer, as a clause."""
+        return "I am still at what you asked for before"
+
     def declines(self, answer: str) -> bool:
         """Whether the answer is that there is none."""
         return self.context.interpreter.declines(answer)
 
     def initialise(self) -> None:
         """Ask for the first time."""
-        self._tries = 0
+        self._tries, self._commanded = 0, False
         super().initialise()
 
     def start(self) -> int:
         """Ask."""
         question = self.question()
-        question = replace(question, text=printable(question.text))
+        first = f"{self.busy()}; say stop to end that. " if self._commanded else ""
+        question = replace(question, text=printable(first + question.text))
         self._tries += 1
-        self.situation.inquiries += 1
+        self.situation.dialogue.inquiries += 1
         self.context.recorder.record(Utterance("robot", question.text))
         return self.context.user.ask(question)
 
@@ -62,6 +84,7 @@ class Ask(Action):
             return self._no_help("you could not tell me")
         if not unread and self.understood(result.text):
             return self.succeed(result.text)
+        self._commanded = self.context.interpreter.command(result.text) is not None
         if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
@@ -75,7 +98,7 @@ class Ask(Action):
         self.context.user.cancel(request)
 
     def _no_help(self, why: str) -> Status:
-        self.situation.no_help = why
+        self.situation.dialogue.no_help = why
         return self.fail(f"{self.unresolved()}, and {why}")
 
 
@@ -106,53 +129,61 @@ class AskYesNo(Ask):
             return status
         if not self._agrees:
             return self.fail(f"{self.unresolved()}, and you said no")
-        assert self.situation.command
-        return self.succeed(f"{self.situation.command.kind} {self.situation.command.target}")
+        assert self.situation.request.command
+        return self.succeed(
+            f"{self.situation.request.command.kind} {self.situation.request.command.target}"
+        )
 
 
 class AskDoYouMean(AskYesNo):
-    """Asks whether a known name is meant: the robot never silently guesses."""
+    """Asks whether a known name is meant: the robot never silently guesses.
+
+    Reads request.guess; writes request.command.
+    """
 
     def question(self) -> Question:
         """Offer the guess."""
-        assert self.situation.command
-        target, guess = self.situation.command.target, self.situation.guess
+        assert self.situation.request.command
+        target, guess = self.situation.request.command.target, self.situation.request.guess
         text = f"I know no '{target}'. Do you mean {guess}?"
         objects = self.context.knowledge.objects_named(guess)
         return Question(QuestionKind.CONFIRM, guess, text, objects)
 
     def agreed(self) -> None:
         """The guess is what was asked for."""
-        assert self.situation.command
-        command = replace(self.situation.command, target=self.situation.guess)
-        self.situation.command = command
+        assert self.situation.request.command
+        command = replace(self.situation.request.command, target=self.situation.request.guess)
+        self.situation.request.command = command
 
     def understood(self, answer: str) -> bool:
         """Instead of yes or no, the person may say what they mean: "no, the mug"."""
         names = self.context.knowledge.names_in(answer)
         refused = self.context.interpreter.agrees(answer) is False
-        if len(names) != 1 or (refused and names[0] == self.situation.guess):
+        if len(names) != 1 or (refused and names[0] == self.situation.request.guess):
             return super().understood(answer)
-        self.situation.guess = names[0]
+        self.situation.request.guess = names[0]
         self._agrees = True
         self.agreed()
         return True
 
     def unresolved(self) -> str:
         """Name the guess."""
-        assert self.situation.command
-        target, guess = self.situation.command.target, self.situation.guess
+        assert self.situation.request.command
+        target, guess = self.situation.request.command.target, self.situation.request.guess
         return f"I know no '{target}'; the nearest that I know is {guess}"
 
 
 class AskWhichObject(Ask):
-    """Asks which thing is meant, where the words fit several or none."""
+    """Asks which thing is meant, where the words fit several or none.
+
+    Reads request.options; writes request.object, or fewer request.options.
+    """
 
     def question(self) -> Question:
         """Offer the members of the class, or the nearest known names."""
-        assert self.situation.command
-        target = self.situation.command.target
-        if (options := self.situation.options) and self.situation.several:
+        assert self.situation.request.command
+        target = self.situation.request.command.target
+        if (options := self.situation.request.options) and self.situation.request.several:
             text = f"I can do one thing at a time. Which first: {_either(options)}?"
         elif options:
             text = f"Which {target} do you mean: {_either(options)}?"
@@ -165,77 +196,98 @@ class AskWhichObject(Ask):
     def _other_names(self, target: str) -> tuple[str, ...]:
         """The nearest known names, less the one that the person did not mean."""
         names = self.context.knowledge.nearest_names(target)
-        return tuple(name for name in names if name != self.situation.guess)
+        return tuple(name for name in names if name != self.situation.request.guess)
 
     def understood(self, answer: str) -> bool:
         """One object is enough; several narrow the next question down."""
+        command = self.context.interpreter.command(answer)
         named = self.context.knowledge.objects_named(answer)
-        if self.situation.options:
-            named = tuple(n for n in named if n in self.situation.options)
+        if (
+            self.situation.request.options and command and not named
+        ):  # "Bring the banana", one of them
+            named = self.context.knowledge.objects_named(command.target)
+        if self.situation.request.options:
+            named = tuple(n for n in named if n in self.situation.request.options)
         if len(named) > 1:
-            self.situation.options = named
+            self.situation.request.options = named
         elif named:
-            self.situation.object = named[0]
+            self.situation.request.object = named[0]
         return len(named) == 1
 
     def unresolved(self) -> str:
         """Name the nearest known things."""
-        assert self.situation.command
-        target = self.situation.command.target
-        if self.situation.options:
-            return f"'{target}' may be {_either(self.situation.options)}"
+        assert self.situation.request.command
+        target = self.situation.request.command.target
+        if self.situation.request.options:
+            return f"'{target}' may be {_either(self.situation.request.options)}"
         nearest = _either(self.context.knowledge.nearest_names(target))
         return f"I know no '{target}'" + (f"; the nearest that I know is {nearest}" * bool(nearest))
 
 
 class AskWhere(Ask):
-    """Asks where the thing is."""
+    """Asks where the thing is.
+
+    Reads request.object and search.looks; writes search.candidates.
+    """
 
     def question(self) -> Question:
         """Say where it was looked for, if anywhere."""
-        name = self.situation.object or ""
+        name = self.situation.request.object or ""
         text = f"Where is the {name}?"
-        if so_far := self.situation.search_so_far:
+        if so_far := self.situation.search.so_far(name):
             text = f"{so_far}. {text}"
         if self._tries:
             known = ", ".join(place.name for place in self.context.knowledge.places())
-            text = f"I know no such place. {text} I know: {known}."
+            text = f"{NO_PLACE * (not self._commanded)}{text} I know: {known}."
         return Question(QuestionKind.WHERE_IS, name, text)
+
+    def busy(self) -> str:
+        """It is looked for."""
+        return f"I am still looking for the {self.situation.request.object}"
 
     def understood(self, answer: str) -> bool:
         """Any places that exist become the candidates."""
         places = _places(self.context, answer)
         if places:
-            assert self.situation.object
-            self.context.facts.heard(self.situation.object, places)
-            self.situation.candidates = candidates_from(places, Source.USER)
+            assert self.situation.request.object
+            self.context.facts.heard(self.situation.request.object, places)
+            self.situation.search.candidates = candidates_from(places, Source.USER)
         return bool(places)
 
     def unresolved(self) -> str:
         """Say what was tried."""
-        return self.situation.search_so_far or f"I do not know where the {self.situation.object} is"
+        name = self.situation.request.object
+        return self.situation.search.so_far(name) or f"I do not know where the {name} is"
 
 
 class AskWhereToPut(Ask):
-    """Asks where what is in the hand may be put down, when it found no room for it."""
+    """Asks where what is in the hand may be put down, when it found no room for it.
+
+    Reads hand.unplaced; writes hand.surfaces.
+    """
 
     def question(self) -> Question:
         """Say where there was none."""
-        held = self.situation.in_hand or ""
+        held = self.situation.hand.in_hand or ""
         text = f"{self.unresolved()}. Where shall I put {the(held)}?"
         if self._tries:
             known = ", ".join(place.name for place in self.context.knowledge.places())
-            text = f"I know no such place. Where shall I put {the(held)}? I know: {known}."
+            text = f"Where shall I put {the(held)}? I know: {known}."
+            text = NO_PLACE * (not self._commanded) + text
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
+
+    def busy(self) -> str:
+        """It is in the hand."""
+        return f"I am still holding {the(self.situation.hand.in_hand or '')}"
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
-        self.situation.surfaces = _places(self.context, answer)
-        return bool(self.situation.surfaces)
+        self.situation.hand.surfaces = _places(self.context, answer)
+        return bool(self.situation.hand.surfaces)
 
     def unresolved(self) -> str:
         """Say where it was tried."""
-        return self.situation.not_put_down
+        return self.situation.hand.not_put_down
 
 
 class AskToPutDown(AskYesNo):
@@ -243,7 +295,7 @@ class AskToPutDown(AskYesNo):
 
     def question(self) -> Question:
         """Offer it."""
-        held, asked = self.situation.in_hand or "", self.situation.object or ""
+        held, asked = self.situation.hand.in_hand or "", self.situation.request.object or ""
         text = f"My hand holds {the(held)}. Shall I put it down first?"
         return Question(QuestionKind.CONFIRM, held, text, (asked,))
 
@@ -252,29 +304,30 @@ class AskToPutDown(AskYesNo):
 
     def unresolved(self) -> str:
         """The hand stays full."""
-        return full_hand(self.situation.in_hand or "")
+        return full_hand(self.situation.hand.in_hand or "")
 
 
 class Announce(Step):
-    """Tells where the robot is going to look, and who says so."""
+    """Tells where the robot is going to look, and who says so.
+
+    Reads search.candidates.
+    """
 
     def update(self) -> Status:
         """Say it."""
-        says = {
-            Source.ONTOLOGY: "that is its place",
-            Source.LLM: "the language model's guess",
-            Source.USER: "as you said",
-            Source.MEMORY: "I remember it there",
-        }
-        candidates = self.situation.candidates
+        says = {**SAYS, **{source.name: source.says for source in self.context.sources}}
+        candidates = self.situation.search.candidates
         places = ", then ".join(candidate.place for candidate in candidates)
-        why = says[candidates[0].source]
-        tell(self.context, f"I look for the {self.situation.object} at {places}: {why}.")
+        why = printable(says.get(candidates[0].source, f"so says the {candidates[0].source}"))
+        tell(self.context, f"I look for the {self.situation.request.object} at {places}: {why}.")
         return self.succeed(places)
 
 
 class Report(Step):
-    """Tells what was done."""
+    """Tells what was done.
+
+    Reads search.found, hand.put_at and hand.unplaced; writes ending.reason.
+    """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
         """`text` may use {object}, {the_object}, {place}, {surface} and {why}."""
@@ -283,28 +336,32 @@ class Report(Step):
 
     def update(self) -> Status:
         """Say it, and keep it as the mission's reason."""
-        found = self.situation.found
+        found = self.situation.search.found
         said = printable(
             self._text.format(
-                object=self.situation.object,
-                the_object=the(self.situation.object or ""),
+                object=self.situation.request.object,
+                the_object=the(self.situation.request.object or ""),
                 place=found.place if found else "nowhere",
-                surface=table(self.situation.put_at),
-                why=self.situation.unplaced.get(DELIVERY, ""),
+                surface=table(self.situation.hand.put_at),
+                why=self.situation.hand.unplaced.get(DELIVERY, ""),
             )
         )
-        self.situation.reason = said
+        self.situation.ending.tell(said)
         tell(self.context, said)
         return self.succeed(said)
 
 
 class Apologise(Step):
-    """Tells why it was not done."""
+    """Tells why it was not done.
+
+    Writes ending.reason.
+    """
 
     def update(self) -> Status:
-        """Say the reason that the failed behaviour left."""
-        tell(self.context, f"Sorry: {self.situation.why}.")
-        return self.succeed(self.situation.why)
+        """Say why the last thing failed that was tried."""
+        self.situation.ending.tell(self.why_before())
+        tell(self.context, sentence(f"Sorry: {self.situation.ending.why}"))
+        return self.succeed(self.situation.ending.why)
 
 
 def tell(context: MissionContext, text: str) -> None:
@@ -312,6 +369,11 @@ def tell(context: MissionContext, text: str) -> None:
     said = printable(text)
     context.recorder.record(Utterance("robot", said))
     context.user.tell(said)
+
+
+def sentence(text: str) -> str:
+    """The text with a full stop, unless it has an end."""
+    return text if text.endswith((".", "!", "?", "…")) else f"{text}."
 
 
 def full_hand(held: str) -> str:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from py_trees.common import Status
 
+from executive.records import Activity
 from executive.situation import table
 from executive.types import (
     SOMETHING,
@@ -58,7 +59,11 @@ class BodyAction(Action):
 
 
 class RobotAction(BodyAction):
-    """Pursues one goal of the robot."""
+    """Pursues one goal of the robot.
+
+    Writes ending.restless, and hand.lost if it lost what it held; what failed goes to search.looks
+    or hand.unplaced.
+    """
 
     searches = False
     """Whether it serves to look for the thing, so that its failure leaves a place unseen."""
@@ -76,16 +81,16 @@ class RobotAction(BodyAction):
         """Hand the goal to the robot."""
         self._goal = self.goal()
         self.feedback_message = _in_words(self._goal)
-        self.situation.restless = True
+        self.situation.ending.restless = True
         return self.context.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
         """Succeed as the robot did; note if it lost what it held."""
-        self.situation.restless = not isinstance(result, Succeeded)
+        self.situation.ending.restless = not isinstance(result, Succeeded)
         if isinstance(result, Succeeded):
             return Status.SUCCESS
         if isinstance(result, Failed) and result.lost:
-            self.situation.lost, self.situation.in_hand = why_of(result), None
+            self.situation.hand.lost, self.situation.hand.in_hand = why_of(result), None
         return self.failed(result)
 
     def attempt(self) -> str:
@@ -106,11 +111,11 @@ class RobotAction(BodyAction):
         """A place stays out of reach, or unseen; or there is no room for what is in the hand."""
         match self._goal:
             case DriveTo(place) if self.searches:
-                self.situation.looks.not_reached(place, why)
+                self.situation.search.looks.not_reached(place, why)
             case LookAt(place) if self.searches:
-                self.situation.looks.not_seen(place, why)
+                self.situation.search.looks.not_seen(place, why)
             case PutDown(place):
-                self.situation.unplaced[place] = why
+                self.situation.hand.unplaced[place] = why
 
     def cancel(self, request: int) -> None:
         """Brake."""
@@ -118,30 +123,42 @@ class RobotAction(BodyAction):
 
 
 class DriveToCandidate(RobotAction):
-    """Goes to the place where the thing may be."""
+    """Goes to the place where the thing may be.
 
+    Reads search.candidate; writes dialogue.away.
+    """
+
+    activity = Activity.DRIVING
     searches = True
 
     def goal(self) -> Goal:
         """Drive to the candidate."""
-        assert self.situation.candidate
-        self.situation.away = True
-        return DriveTo(self.situation.candidate.place)
+        assert self.situation.search.candidate
+        self.situation.dialogue.away = True
+        return DriveTo(self.situation.search.candidate.place)
 
 
 class Visit(DriveToCandidate):
-    """Goes to a place for the first time: it counts as visited if it is reached."""
+    """Goes to a place for the first time: it counts as visited if it is reached.
+
+    Reads search.candidate; writes search.looks.
+    """
 
     def ended(self, result: Result) -> Status:
         """Count only a place that was reached."""
-        assert self.situation.candidate
+        assert self.situation.search.candidate
         if isinstance(result, Succeeded):
-            self.situation.looks.reached(self.situation.candidate.place)
+            self.situation.search.looks.reached(self.situation.search.candidate.place)
         return super().ended(result)
 
 
 class DriveBack(RobotAction):
-    """Goes to where things are asked for or delivered: `person` or `delivery`."""
+    """Goes to where things are asked for or delivered: `person` or `delivery`.
+
+    Writes dialogue.away.
+    """
+
+    activity = Activity.DRIVING
 
     def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
@@ -154,45 +171,64 @@ class DriveBack(RobotAction):
 
     def ended(self, result: Result) -> Status:
         """Be back with the person."""
-        self.situation.away = not isinstance(result, Succeeded)
+        self.situation.dialogue.away = not isinstance(result, Succeeded)
         return super().ended(result)
 
 
 class LookAtCandidate(RobotAction):
-    """Points the head at the next part of the place."""
+    """Points the head at the next part of the place.
 
+    Reads search.candidate and search.view; clears search.doubtful.
+    """
+
+    activity = Activity.LOOKING
     searches = True
 
     def goal(self) -> Goal:
         """Look at the view at hand."""
-        assert self.situation.candidate
-        self.situation.doubtful = None
-        return LookAt(self.situation.candidate.place, self.situation.view)
+        assert self.situation.search.candidate
+        self.situation.search.doubtful = None
+        return LookAt(self.situation.search.candidate.place, self.situation.search.view)
 
 
 class LookCloser(RobotAction):
-    """Brings what may be the thing to the middle of the picture."""
+    """Brings what may be the thing to the middle of the picture.
 
+    Reads search.doubtful, search.candidate and search.view.
+    """
+
+    activity = Activity.LOOKING
     searches = True
 
     def goal(self) -> Goal:
         """Look at the doubtful detection."""
-        assert self.situation.candidate
-        assert self.situation.doubtful
-        point = self.situation.doubtful.position
-        return LookAt(self.situation.candidate.place, self.situation.view, point)
+        assert self.situation.search.candidate
+        assert self.situation.search.doubtful
+        point = self.situation.search.doubtful.position
+        return LookAt(self.situation.search.candidate.place, self.situation.search.view, point)
 
 
 class LookForLost(RobotAction):
-    """Points the head at where the thing may have fallen."""
+    """Points the head at where the thing may have fallen.
+
+    Reads hand.spot and search.view.
+    """
+
+    activity = Activity.LOOKING
 
     def goal(self) -> Goal:
         """Look at the next part of the spot."""
-        return LookAt(self.situation.spot, self.situation.view)
+        return LookAt(self.situation.hand.spot, self.situation.search.view)
 
 
 class PickUp(RobotAction):
-    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides."""
+    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides.
+
+    Reads search.detection, search.found and hand.felt; writes hand.reached_for and hand.in_hand,
+    clears hand.lost and hand.unplaced.
+    """
+
+    activity = Activity.HANDLING
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Reach for it."""
@@ -206,44 +242,50 @@ class PickUp(RobotAction):
 
     def goal(self) -> Goal:
         """Pick what was detected."""
-        assert self.situation.detection
-        self.situation.reached_for = self.situation.detection.label
-        return Pick(self.situation.detection)
+        assert self.situation.search.detection
+        self.situation.hand.reached_for = self.situation.search.detection.label
+        return Pick(self.situation.search.detection)
 
     def ended(self, result: Result) -> Status:
         """Remember that it is no longer there.
 
         If the robot failed with the thing in its hand, it is given one chance to finish.
         """
-        assert self.situation.detection
-        name, felt = self.situation.detection.label, self.situation.felt
-        if isinstance(result, Succeeded) and felt is False:
+        hand, search = self.situation.hand, self.situation.search
+        assert search.detection
+        name = search.detection.label
+        if isinstance(result, Succeeded) and hand.felt is False:
             result = Failed(f"the {name} slipped from my fingers")
-        if isinstance(result, Failed) and felt and self.situation.in_hand == name:
+        if isinstance(result, Failed) and hand.felt and hand.in_hand == name:
             if not self._finished:
                 self._finished = True
                 return self.start_again()
             result = Succeeded()
         if isinstance(result, Succeeded):
-            assert self.situation.found
-            self.situation.in_hand = name
-            self.context.facts.took(name, self.situation.found.place)
-            self.situation.lost = ""
-            self.situation.unplaced.clear()
+            assert search.found
+            hand.in_hand, hand.lost = name, ""
+            hand.unplaced.clear()
+            self.context.facts.took(name, search.found.place)
         return super().ended(result)
 
     def out_of_time(self) -> Status:
         """With the thing in the hand it is as if the robot had failed; only that it may move."""
-        assert self.situation.detection
-        if not (self.situation.felt and self.situation.in_hand == self.situation.detection.label):
+        hand, seen = self.situation.hand, self.situation.search.detection
+        assert seen
+        if not (hand.felt and hand.in_hand == seen.label):
             return super().out_of_time()
         status = self.ended(Failed(f"it took longer than {self._patience_s:g} s"))
-        self.situation.restless = True
+        self.situation.ending.restless = True
         return status
 
 
 class PutDownAt(RobotAction):
-    """Puts the held thing down."""
+    """Puts the held thing down.
+
+    Reads hand.in_hand and hand.felt; writes hand.in_hand and hand.put_at.
+    """
+
+    activity = Activity.HANDLING
 
     def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
@@ -253,18 +295,18 @@ class PutDownAt(RobotAction):
 
     def goal(self) -> Goal:
         """Put it there; afterwards the hand does not tell what it was."""
-        self._held = self.situation.in_hand
+        self._held = self.situation.hand.in_hand
         return PutDown(self._place_now())
 
     def ended(self, result: Result) -> Status:
         """Remember that it is here now."""
-        if isinstance(result, Succeeded) and self.situation.felt:
+        if isinstance(result, Succeeded) and self.situation.hand.felt:
             result = Failed("my fingers do not let go of it")
         if isinstance(result, Succeeded):
             place = self._place_now()
             if self._held and self._held != SOMETHING:
                 self.context.facts.put(self._held, place)
-            self.situation.in_hand, self.situation.put_at = None, place
+            self.situation.hand.in_hand, self.situation.hand.put_at = None, place
         return super().ended(result)
 
     def _place_now(self) -> str:
@@ -272,27 +314,41 @@ class PutDownAt(RobotAction):
 
 
 class PutDownThere(PutDownAt):
-    """Puts the held thing down on the surface at hand."""
+    """Puts the held thing down on the surface at hand.
+
+    Reads hand.surface.
+    """
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Wait for the surface to be chosen."""
         super().__init__(name, context, "")
 
     def _place_now(self) -> str:
-        return self.situation.surface
+        return self.situation.hand.surface
 
 
 class DriveToSurface(RobotAction):
-    """Goes to the furniture where the held thing may be put down."""
+    """Goes to the furniture where the held thing may be put down.
+
+    Reads hand.surface; writes dialogue.away.
+    """
+
+    activity = Activity.DRIVING
 
     def goal(self) -> Goal:
         """Drive there; the person is not there."""
-        self.situation.away = True
-        return DriveTo(self.situation.surface)
+        self.situation.dialogue.away = True
+        return DriveTo(self.situation.hand.surface)
 
 
 class SeeTarget(BodyAction):
-    """Takes a picture and succeeds if the thing is in it, surely and wholly."""
+    """Takes a picture and succeeds if the thing is in it, surely and wholly.
+
+    Reads request.object and search.candidate; writes search.detection and search.found if it is
+    sure, else search.doubtful or search.looks.
+    """
+
+    activity = Activity.LOOKING
 
     def __init__(self, name: str, context: MissionContext, closer: bool = False) -> None:
         """`closer`, a part of the thing is enough."""
@@ -305,37 +361,38 @@ class SeeTarget(BodyAction):
 
     def ended(self, result: Result) -> Status:
         """Keep the surest detection of the thing, and where it was; remember all that was seen."""
-        assert self.situation.candidate
+        search = self.situation.search
+        assert search.candidate
         if not isinstance(result, Saw):
             return self.failed(result)
         self._remember(result.detections)
-        self.situation.doubtful = None
+        search.doubtful = None
         seen = self._surest(result)
         if seen is None:
-            place, view = self.situation.candidate.place, self.situation.view
-            self.situation.looks.without(place, view)
-            self.feedback_message = f"no {self.situation.object} in view"
+            search.looks.without(search.candidate.place, search.view)
+            self.feedback_message = f"no {self.situation.request.object} in view"
             return Status.FAILURE
         if seen.confidence < self.context.parameters.min_confidence:
-            self.situation.doubtful = seen
+            search.doubtful = seen
             self.feedback_message = f"perhaps {seen.label}, confidence {seen.confidence:.2f}"
             return Status.FAILURE
         if seen.cut_off and not self._closer:
-            self.situation.doubtful = seen
+            search.doubtful = seen
             self.feedback_message = f"{seen.label}, at the edge of the picture"
             return Status.FAILURE
-        self.situation.detection = seen
-        self.situation.found = self._where(seen)
+        search.detection = seen
+        search.found = self._where(seen)
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
     def attempt(self) -> str:
         """By the place."""
-        return f"look at {self.situation.candidate.place if self.situation.candidate else 'it'}"
+        candidate = self.situation.search.candidate
+        return f"look at {candidate.place if candidate else 'it'}"
 
     def note_failure(self, why: str) -> None:
         """A part of the place stays unseen."""
-        assert self.situation.candidate
-        self.situation.looks.not_seen(self.situation.candidate.place, why)
+        assert self.situation.search.candidate
+        self.situation.search.looks.not_seen(self.situation.search.candidate.place, why)
 
     def cancel(self, request: int) -> None:
         """Look no more."""
@@ -343,17 +400,18 @@ class SeeTarget(BodyAction):
 
     def _where(self, seen: Detection) -> Candidate:
         """Here; but what is seen on furniture behind this place is on that."""
-        assert self.situation.candidate
+        here = self.situation.search.candidate
+        assert here
         below = self.context.place_at(seen.position) if seen.position else None
-        return replace(self.situation.candidate, place=below or self.situation.candidate.place)
+        return replace(here, place=below or here.place)
 
     def _surest(self, saw: Saw) -> Detection | None:
         """The surest detection of the thing, if it was seen."""
-        return next((d for d in saw.detections if d.label == self.situation.object), None)
+        return next((d for d in saw.detections if d.label == self.situation.request.object), None)
 
     def _remember(self, detections: Iterable[Detection]) -> None:
         """A thing may be on furniture behind this place; with none below it, it counts as here."""
-        assert self.situation.candidate
+        assert self.situation.search.candidate
         for seen in detections:
             if seen.confidence < self.context.parameters.min_confidence:
                 continue
@@ -361,7 +419,10 @@ class SeeTarget(BodyAction):
 
 
 class SeeLost(SeeTarget):
-    """Takes a picture and succeeds if what fell from the hand is in it."""
+    """Takes a picture and succeeds if what fell from the hand is in it.
+
+    Reads request.object and hand.spot; writes search.detection.
+    """
 
     def ended(self, result: Result) -> Status:
         """Keep where it lies now; it was found elsewhere."""
@@ -369,13 +430,13 @@ class SeeLost(SeeTarget):
             return self.failed(result)
         seen = self._surest(result)
         if seen is None:
-            return self.fail(f"I do not see it on the {self.situation.spot}")
-        self.situation.detection = seen
+            return self.fail(f"I do not see it on the {self.situation.hand.spot}")
+        self.situation.search.detection = seen
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
     def attempt(self) -> str:
         """By the spot."""
-        return f"look at the {self.situation.spot}"
+        return f"look at the {self.situation.hand.spot}"
 
     def note_failure(self, why: str) -> None:
         """Nothing: this is no search of a place."""

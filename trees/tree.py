@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from py_trees.behaviour import Behaviour
-from py_trees.common import Status
+from py_trees.common import BlackBoxLevel, Status
 from py_trees.composites import Selector, Sequence
 from py_trees.decorators import Decorator
 from py_trees.trees import BehaviourTree
@@ -35,6 +35,9 @@ class MissionTree:
                     name=node.name,
                     kind=_kind(node),
                     class_name=type(node).__name__,
+                    source=getattr(node, "source", ""),
+                    activity=getattr(node, "activity", ""),
+                    stage=node.blackbox_level == BlackBoxLevel.BIG_PICTURE,
                 )
                 for path, node in self._nodes.items()
             )

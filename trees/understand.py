@@ -4,15 +4,15 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.types import Command, MissionStatus, Question, QuestionKind, Replied, Result, Scored
+from executive.types import MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
-from trees.location import ModelAction
+from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import Step, fallback, sequence
 from trees.person import AskYesNo
 
 
 def understand(context: MissionContext) -> Behaviour:
-    """Words -> `situation.command`."""
+    """Words -> `situation.request.command`."""
     readers: list[Behaviour] = [ReadCommand("grammar reads it", context)]
     if context.model is not None:
         readers.append(let_the_model_read(context))
@@ -33,13 +33,15 @@ def let_the_model_read(context: MissionContext) -> Behaviour:
 class ReadCommand(Step):
     """Words -> command, by the grammar of commands."""
 
+    source = "person"
+
     def update(self) -> Status:
         """Read the words."""
-        self.context.recorder.record(Utterance("person", self.situation.words))
-        command = self.context.interpreter.command(self.situation.words)
+        self.context.recorder.record(Utterance("person", self.situation.request.words))
+        command = self.context.interpreter.command(self.situation.request.words)
         if command is None:
             return self.fail("this is no command that the grammar knows")
-        self.situation.command = command
+        self.situation.request.command = command
         return self.succeed(f"{command.kind} {command.target}")
 
 
@@ -48,46 +50,11 @@ class HasKnownName(Step):
 
     def update(self) -> Status:
         """Look for the names; a model that writes may still choose another."""
-        names = self.context.knowledge.names_in(self.situation.words)
+        names = self.context.knowledge.names_in(self.situation.request.words)
         if not names:
             return self.fail("no known thing is named")
-        self.situation.guess = " and ".join(names)
-        return self.succeed(self.situation.guess)
-
-
-class RankKinds(ModelAction):
-    """Has the kinds of command scored; what to do it with is what the words name."""
-
-    def start(self) -> int:
-        """Ask for the scores."""
-        return self.model.rank(self.advisor.command_ranking(self.situation.words))
-
-    def ended(self, result: Result) -> Status:
-        """Keep the likeliest."""
-        if not isinstance(result, Scored):
-            return self.failed(result)
-        kind, words = self.advisor.command_ranked(result), self.situation.words
-        self.situation.command = Command(kind, self.situation.guess, words)
-        return self.succeed(f"{kind} {self.situation.guess}")
-
-
-class WriteCommand(ModelAction):
-    """Has the model write kind and object, of which only what exists is taken."""
-
-    def start(self) -> int:
-        """Ask."""
-        return self.model.chat(self.advisor.command_inquiry(self.situation.words))
-
-    def ended(self, result: Result) -> Status:
-        """Read and verify the reply."""
-        if not isinstance(result, Replied):
-            return self.failed(result)
-        read = self.advisor.command_read(result.text)
-        if read is None:
-            return self.fail("the language model named no command with a known thing")
-        kind, name = read
-        self.situation.command = Command(kind, name, self.situation.words)
-        return self.succeed(f"{kind} {name}")
+        self.situation.request.guess = " and ".join(names)
+        return self.succeed(self.situation.request.guess)
 
 
 class ConfirmCommand(AskYesNo):
@@ -95,8 +62,8 @@ class ConfirmCommand(AskYesNo):
 
     def question(self) -> Question:
         """Say what would be done."""
-        assert self.situation.command
-        kind, target = self.situation.command.kind, self.situation.command.target
+        assert self.situation.request.command
+        kind, target = self.situation.request.command.kind, self.situation.request.command.target
         knowledge = self.context.knowledge
         objects = [o for name in knowledge.names_in(target) for o in knowledge.objects_named(name)]
         text = f"Do you mean: {kind} {target}?"
@@ -107,7 +74,7 @@ class ConfirmCommand(AskYesNo):
 
     def unresolved(self) -> str:
         """It is not known what was asked for."""
-        return f"I am not sure what '{self.situation.words}' asks for"
+        return f"I am not sure what '{self.situation.request.words}' asks for"
 
 
 class NotUnderstood(Step):
@@ -115,9 +82,9 @@ class NotUnderstood(Step):
 
     def update(self) -> Status:
         """Say what can be said."""
-        self.situation.command = None
-        self.situation.status = MissionStatus.NOT_UNDERSTOOD
-        words = self.situation.words
+        self.situation.request.command = None
+        self.situation.ending.status = MissionStatus.NOT_UNDERSTOOD
+        words = self.situation.request.words
         said = f"'{words}'" if words.strip() else "what you said"
         return self.fail(
             f"I do not understand {said}; "

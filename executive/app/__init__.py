@@ -1,4 +1,4 @@
-"""The composition root: builds the parts from the settings and runs missions with them."""
+"""The composition root: the only place that knows all rooms of the house."""
 
 from executive.app.session import Session
 

@@ -1,99 +1,175 @@
-"""How a mission is put together: by the session that runs it, and by its replay."""
+"""What missions are made of, and how one is made of it: for all who run, replay or draw them."""
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from executive.config import Settings
 from executive.events import Inbox
-from executive.guards import GuardedPerception, GuardedRecorder, GuardedRobot, GuardedUser
-from executive.interfaces import Advisor, Clock, LanguageModel, Perception, Recorder, Robot, User
+from executive.guards import (
+    GuardedModel,
+    GuardedPerception,
+    GuardedRecorder,
+    GuardedRobot,
+    GuardedSource,
+    GuardedUser,
+)
+from executive.interfaces import (
+    Advice,
+    Clock,
+    Facts,
+    Interpreter,
+    LanguageModel,
+    Perception,
+    PlaceSource,
+    Recorder,
+    Robot,
+    Tree,
+    User,
+)
 from executive.language.grammar import EnglishInterpreter
+from executive.loop import Executive
 from executive.situation import Situation
 from executive.types import DELIVERY, Vector3
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.advisor import advise
 from kb.advice.prompts import Prompts
-from kb.facts import FactStore
 from kb.ontology.ontology import Ontology
 from sim.home.home import Furniture, Home
-from trees.context import MissionContext, Parameters
+from trees.context import MissionContext, NoFacts, Parameters
+from trees.mission import mission
+from trees.tree import MissionTree
 
 OURS = "ours"
 """The policy of those who did not choose another."""
-ANYTHING = "thing"
-"""What the model prepares to be asked for."""
 
 
 @dataclass(frozen=True)
-class Grounds:
-    """What a mission goes by, whoever runs it: the same when it is replayed."""
+class Parts:
+    """Every collaborator of missions; they outlive one, and serve the next.
+
+    To put in another one, `replace(parts, robot=mine)`. What may be anybody's code comes under
+    guard when a mission is made.
+
+    Attributes:
+        settings: what all else was built by.
+        home: the robot's map, with everything where it was at the start.
+        knowledge: the ontology; the adviser looks deeper into it than the tree does.
+        prompts: the texts that the adviser writes with.
+        in_map: whether perception tells where in `map` things are, so that the home's plan says
+            on which furniture.
+        parameters: what the behaviours keep to.
+    """
 
     settings: Settings
     home: Home
-    """With everything where it was at the start."""
+    inbox: Inbox
+    clock: Clock
+    recorder: Recorder
+    robot: Robot
+    perception: Perception
+    user: User
     knowledge: Ontology
-    model: LanguageModel | None
-    prompts: Prompts
-    facts: FactStore
+    model: LanguageModel | None = None
+    advice: Advice | None = None
+    prompts: Prompts | None = None
+    facts: Facts = NoFacts()
+    sources: tuple[PlaceSource, ...] = ()
+    interpreter: Interpreter = EnglishInterpreter()
+    in_map: bool = False
+    blind_to: tuple[str, ...] = ()
+    """Objects of the home that perception would not recognise."""
+    parameters: Parameters = Parameters()
 
 
-Advise = Callable[[Grounds], Advisor | None]
-"""Makes the adviser of a mission; None without a model."""
+Change = Callable[[Parts], Parts]
+"""Puts other parts in, as a policy does."""
 
 
-def build_advisor(grounds: Grounds) -> Advisor | None:
-    """Who puts questions to the model, which begins to prepare for them; None without a model."""
-    if grounds.model is None:
-        return None
-    settings = grounds.settings
-    advisor = PlaceAdvisor(
-        grounds.knowledge,
-        grounds.model,
+def as_they_are(parts: Parts) -> Parts:
+    """Change nothing."""
+    return parts
+
+
+def advised(parts: Parts) -> Parts:
+    """With our adviser, who puts questions to the model; with none if there is no model."""
+    if parts.model is None:
+        return replace(parts, advice=None)
+    model = guarded_model(parts, parts.model)
+    advice = build_advice(parts.settings, parts.knowledge, model, parts.prompts, parts.facts)
+    return replace(parts, advice=advice)
+
+
+def build_advice(
+    settings: Settings,
+    knowledge: Ontology,
+    model: LanguageModel,
+    prompts: Prompts | None,
+    facts: Facts,
+) -> Advice:
+    """Our adviser, as the settings have it."""
+    return advise(
+        knowledge,
+        model,
         remembers=settings.remembers,
         top=settings.top,
-        prompts=grounds.prompts,
-        facts=grounds.facts,
+        prompts=prompts,
+        facts=facts,
     )
-    ask = advisor.ranking if settings.elicitation == "rank" else advisor.inquiry
-    grounds.model.prepare(ask(ANYTHING, ()))
-    return advisor
 
 
-def build_context(
-    grounds: Grounds,
-    advisor: Advisor | None,
-    situation: Situation,
-    *,
-    inbox: Inbox,
-    clock: Clock,
-    recorder: Recorder,
-    robot: Robot,
-    perception: Perception,
-    user: User,
-) -> MissionContext:
-    """The collaborators of one mission; those that may be anybody's code, under guard.
+def guarded_model(parts: Parts, model: LanguageModel) -> LanguageModel:
+    """A model under guard."""
+    return GuardedModel(model, parts.inbox, parts.recorder)
 
-    The model of the `grounds` is under guard already: its adviser asks it, too.
-    """
+
+# --- a mission ---
+
+
+def mission_tree(context: MissionContext) -> Tree:
+    """The tree that missions are run with."""
+    return MissionTree(mission(context))
+
+
+def build_mission(
+    parts: Parts, situation: Situation, build: Callable[[MissionContext], Tree] = mission_tree
+) -> Executive:
+    """One mission of these parts, ready to run; `build` makes the tree."""
+    context = build_context(parts, situation)
+    return Executive(
+        build(context),
+        situation,
+        pending=context.pending,
+        inbox=parts.inbox,
+        clock=parts.clock,
+        robot=parts.robot,
+        recorder=parts.recorder,
+    )
+
+
+def build_context(parts: Parts, situation: Situation) -> MissionContext:
+    """Whom the behaviours of one mission work with: the parts, under guard."""
+    inbox, recorder = parts.inbox, parts.recorder
     return MissionContext(
         situation=situation,
-        clock=clock,
+        clock=parts.clock,
         recorder=GuardedRecorder(recorder),
-        interpreter=EnglishInterpreter(),
-        knowledge=grounds.knowledge,
-        robot=GuardedRobot(robot, inbox, recorder),
-        perception=GuardedPerception(perception, inbox, recorder),
-        user=GuardedUser(user, inbox, recorder),
-        model=grounds.model,
-        advisor=advisor,
-        parameters=parameters(grounds.settings),
-        facts=grounds.facts,
-        place_at=place_at(grounds),
-        near_person=near_person(grounds.home),
+        interpreter=parts.interpreter,
+        knowledge=parts.knowledge,
+        robot=GuardedRobot(parts.robot, inbox, recorder),
+        perception=GuardedPerception(parts.perception, inbox, recorder),
+        user=GuardedUser(parts.user, inbox, recorder),
+        model=guarded_model(parts, parts.model) if parts.model else None,
+        advice=parts.advice,
+        parameters=parts.parameters,
+        facts=parts.facts,
+        sources=tuple(GuardedSource(source, recorder) for source in parts.sources),
+        place_at=place_at(parts),
+        near_person=near_person(parts.home),
+        blind_to=parts.blind_to,
     )
 
 
-def parameters(settings: Settings) -> Parameters:
+def parameters_of(settings: Settings) -> Parameters:
     """What the behaviours keep to."""
     return Parameters(
         elicit=settings.elicitation,
@@ -105,11 +181,11 @@ def parameters(settings: Settings) -> Parameters:
     )
 
 
-def place_at(grounds: Grounds) -> Callable[[Vector3], str | None]:
-    """Where things are by the robot's map; in the instant world they have no true position."""
-    if grounds.settings.world == "fake":
+def place_at(parts: Parts) -> Callable[[Vector3], str | None]:
+    """Where things are by the robot's map, if perception tells their positions in it."""
+    if not parts.in_map:
         return lambda point: None
-    return lambda point: furniture_at(grounds.home, point)
+    return lambda point: furniture_at(parts.home, point)
 
 
 def furniture_at(home: Home, point: Vector3) -> str | None:

@@ -13,6 +13,7 @@ from pathlib import Path
 from executive.campaign.campaign import Campaign
 from executive.campaign.policies import POLICIES
 from executive.config import KnowledgeSystem
+from executive.options import add_setting
 from executive.shell import entry_point
 from executive.usage import Parser
 
@@ -74,20 +75,11 @@ def parser() -> argparse.ArgumentParser:
         metavar="NAME",
         help="who says where to look; may be repeated (default: ours)",
     )
-    p.add_argument("--home", action="append", metavar="NAME or FILE.toml", help="may be repeated")
-    p.add_argument(
-        "--llm",
-        action="append",
-        metavar="embedded, FILE.gguf, http://host:port/v1 or none",
-        help="may be repeated",
-    )
-    p.add_argument(
-        "--elicit",
-        choices=["generate", "rank"],
-        help="default: rank for the embedded model, else generate",
-    )
-    p.add_argument(
-        "--top", type=_count, metavar="N", help="places of a ranking worth a visit (default: 5)"
+    add_setting(p, "home", action="append", help="may be repeated")
+    add_setting(p, "llm", action="append", help="may be repeated")
+    add_setting(p, "elicit", help="default: rank for the embedded model, else generate")
+    add_setting(
+        p, "top", type=_count, metavar="N", help="places of a ranking worth a visit (default: 5)"
     )
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     return p

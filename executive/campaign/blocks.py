@@ -15,7 +15,7 @@ from math import dist
 from pathlib import Path
 from typing import Any
 
-from executive.app.parts import Grounds
+from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.campaign.journal import CRASHED, Entry, Key, Row
 from executive.campaign.observer import Observed
@@ -23,9 +23,11 @@ from executive.campaign.policies import POLICIES
 from executive.campaign.routes import routes_in
 from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.config import KnowledgeSystem, Settings
+from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import Advisor
+from executive.interfaces import SimulatedHome
 from executive.types import ChatRequest, Message, Outcome
+from kb.llm.open import model_for_missions
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +96,7 @@ class _Rest:
         self._policy_name = block.policy
         self._policy = POLICIES[block.policy]
         self._inbox = Inbox()
-        self._model = self._policy.model(self._settings, self._inbox)
+        self._model = model_for_missions(self._settings, self._inbox)
         self._dialogue: list[tuple[str, str]] = []
 
     def recall(self, entry: Entry) -> None:
@@ -103,7 +105,7 @@ class _Rest:
 
     def mission(self, turn: int, key: Key) -> Entry:
         observed = Observed()
-        session = Session(
+        with Session(
             self._settings,
             inbox=self._inbox,
             model=self._model,
@@ -111,40 +113,65 @@ class _Rest:
             recorded=self._recorded,
             sinks=[observed],
             policy=self._policy_name,
-            advise=self._advise,
-        )
-        try:
-            row = _row(turn, key, session.run(key.command), session, observed)
-        except Exception as error:
-            row = crash(turn, key, error, str(session.folder or ""))
-            self._inbox.take_all()  # what the broken mission left
-        finally:
-            session.facts.close()
-            session.world.close()
+            change=self._choose,
+        ) as session:
+            world = truth_of(session)
+            try:
+                row = _row(turn, key, session.run(key.command), session, world, observed)
+            except Exception as error:
+                row = crash(turn, key, error, str(session.folder or ""))
+                self._inbox.take_all()  # what the broken mission left
         entry = Entry(row, observed.exchanges())
         self.recall(entry)
         return entry
 
-    def _advise(self, grounds: Grounds) -> Advisor | None:
-        """The policy's, told the dialogue so far, which it keeps if the system has a memory."""
-        advisor = self._policy.advisor(grounds)
-        if advisor:
+    def _choose(self, parts: Parts) -> Parts:
+        """As the policy does; its adviser is told the dialogue so far.
+
+        It keeps that if the system has a memory.
+        """
+        chosen = self._policy(parts)
+        if chosen.advice:
             for said, reply in self._dialogue:
-                advisor.remember(ChatRequest("recalled", (Message("user", said),)), reply)
-        return advisor
+                request = ChatRequest("recalled", (Message("user", said),))
+                chosen.advice.lister.remember(request, reply)
+        return chosen
 
     def close(self) -> None:
         if self._model:
             self._model.close()
 
 
-def _row(turn: int, key: Key, outcome: Outcome, session: Session, observed: Observed) -> Row:
-    truth = whereabouts(outcome.object or "", session.world)
+def truth_of(session: Session) -> SimulatedHome:
+    """The world that knows what truly came of a mission.
+
+    Raises:
+        InputError: if the robot is not in one.
+    """
+    if session.embodiment.truth is None:
+        raise InputError(
+            "setting 'world'",
+            f"{session.settings.world} is not simulated: nobody knows what truly came of a mission",
+            "run campaigns in physics or fake",
+        )
+    return session.embodiment.truth
+
+
+def _row(
+    turn: int,
+    key: Key,
+    outcome: Outcome,
+    session: Session,
+    world: SimulatedHome,
+    observed: Observed,
+) -> Row:
+    truth = whereabouts(outcome.object or "", world)
     routes = routes_in(session.settings.home)
     usage = [call.usage for call in observed.calls]
-    known = session.knowledge.place_names.exactly
+    parts = session.parts
+    known = parts.knowledge.place_names.exactly
     invented = [n for n in observed.names if not (known(n).furniture or known(n).rooms)]
-    ideal = session.settings.world == "fake"
+    leg_m = routes.length if session.embodiment.jumps else dist
     return Row(
         **_of_key(key),
         turn=turn,
@@ -171,9 +198,9 @@ def _row(turn: int, key: Key, outcome: Outcome, session: Session, observed: Obse
         handling_s=round(observed.seconds["handling"], 3),
         mission_time_s=outcome.mission_time_s,
         wall_time_s=outcome.wall_time_s,
-        path_m=round(observed.path_m(routes.length if ideal else dist), 3),
-        shortest_m=round(shortest_m(outcome, session.home, routes), 3),
-        model=session.model.name if session.model else "",
+        path_m=round(observed.path_m(leg_m), 3),
+        shortest_m=round(shortest_m(outcome, parts.home, routes), 3),
+        model=parts.model.name if parts.model else "",
         run_dir=outcome.run_dir or "",
         model_failure=outcome.model_failure if key.llm != "none" else "",
     )

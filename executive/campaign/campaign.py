@@ -14,7 +14,7 @@ from pathlib import Path
 from types import FrameType
 from typing import TextIO
 
-from executive.app.session import PACKAGES
+from executive.app.recording import PACKAGES
 from executive.campaign import blocks
 from executive.campaign.claim import lock_folder
 from executive.campaign.journal import CRASHED, Entry, Journal, in_order, write_tables

@@ -10,22 +10,6 @@ from executive.types import Replied, Scored
 from logs.recorder import Stamp
 from sim.navigation.grid import Point
 
-ACTIVITIES = {
-    "DriveToCandidate": "driving",
-    "Visit": "driving",
-    "DriveBack": "driving",
-    "DriveToSurface": "driving",
-    "LookAtCandidate": "looking",
-    "SeeTarget": "looking",
-    "LookCloser": "looking",
-    "LookForLost": "looking",
-    "SeeLost": "looking",
-    "PickUp": "handling",
-    "PutDownAt": "handling",
-    "PutDownThere": "handling",
-}
-"""Class of a behaviour -> what the robot does while it is running."""
-
 
 @dataclass
 class Observed:
@@ -38,7 +22,7 @@ class Observed:
     unreached: int = 0
     """Places that the robot could not get to."""
     seconds: defaultdict[str, float] = field(default_factory=lambda: defaultdict(float))
-    """Mission time by activity."""
+    """Mission time by activity, as the behaviours declare it."""
     positions: list[Point] = field(default_factory=list)
     """Where the robot's base was, in `map` (metres)."""
     _activities: dict[str, str] = field(default_factory=dict)
@@ -53,11 +37,7 @@ class Observed:
             case Verified(_, accepted, rooms, dropped):
                 self.names += [*accepted, *rooms, *dropped]
             case TreeShape(nodes):
-                self._activities = {
-                    node.path: ACTIVITIES[node.class_name]
-                    for node in nodes
-                    if node.class_name in ACTIVITIES
-                }
+                self._activities = {n.path: n.activity for n in nodes if n.activity}
             case Tick():
                 self._take_time(stamp.mission_s, record)
                 self.unreached = len(record.situation["unreached"])
@@ -87,8 +67,8 @@ class Observed:
         return sum(leg_m(a, b) for a, b in pairwise(self.positions))
 
     def _take_time(self, now_s: float, tick: Tick) -> None:
-        """What was running after the last tick has run until this one."""
+        """What was running after the last tick has run until this one; the innermost counts."""
         self.seconds[self._doing] += now_s - self._since_s
-        running = (n.path for n in tick.nodes if n.status == "RUNNING")
+        running = (n.path for n in reversed(tick.nodes) if n.status == "RUNNING")
         self._doing = next((a for path in running if (a := self._activities.get(path))), "")
         self._since_s = now_s

@@ -1,7 +1,7 @@
 """Who says where to look: the executive as it is, baselines to hold it against, and ablations.
 
-A policy changes settings, or puts another part in the place of the language model or the adviser,
-at their protocols. The tree, the robot and the person are the same for all.
+A policy changes settings, and puts other parts in the place of some: the language model, the
+adviser. The tree, the robot and the person are the same for all.
 """
 
 import random
@@ -13,12 +13,11 @@ from itertools import chain
 from types import MappingProxyType
 from typing import Any
 
-from executive.app.parts import Advise, Grounds, build_advisor
-from executive.app.session import build_model
+from executive.app.parts import Change, Parts, advised, as_they_are, guarded_model
 from executive.campaign.routes import routes_of
-from executive.config import KnowledgeSystem, Settings
+from executive.config import KnowledgeSystem
 from executive.events import Inbox
-from executive.interfaces import Advisor, LanguageModel
+from executive.interfaces import Advice, LanguageModel
 from executive.types import (
     ChatRequest,
     Failed,
@@ -28,7 +27,10 @@ from executive.types import (
     Usage,
     Verdict,
 )
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.advisor import advise
+from kb.advice.lister import Lister
+from kb.advice.ranker import Ranker
+from kb.advice.reader import Reader
 from kb.advice.verification import Reply
 from kb.ontology.names import unique
 from kb.ontology.ontology import Ontology
@@ -47,19 +49,21 @@ MOST_NAMES = 5
 
 @dataclass(frozen=True)
 class Policy:
-    """One of them.
+    """One of them: a function from parts to parts.
 
     Attributes:
         description: for the person who chooses.
         settings: what it sets, whatever else was set.
-        model: makes the language model, or what stands in for one.
-        advisor: makes the adviser for a mission with that model.
+        change: puts other parts in.
     """
 
     description: str
     settings: Mapping[str, Any] = field(default_factory=dict)
-    model: Callable[[Settings, Inbox], LanguageModel | None] = build_model
-    advisor: Advise = build_advisor
+    change: Change = as_they_are
+
+    def __call__(self, parts: Parts) -> Parts:
+        """The parts as it has them."""
+        return self.change(parts)
 
 
 # --- baselines: an order of places without a language model ---
@@ -103,12 +107,12 @@ class Indifferent:
         """Nothing to free."""
 
 
-class Ordered(PlaceAdvisor):
+class Ordered(Ranker):
     """Names the places in a given order, for a model to which they are all alike."""
 
-    def __init__(self, grounds: Grounds, model: LanguageModel, order: Order) -> None:
+    def __init__(self, parts: Parts, order: Order) -> None:
         """Order the places of the mission's home."""
-        super().__init__(grounds.knowledge, model, remembers=False)
+        super().__init__(parts.knowledge)
         self._order = order
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
@@ -119,12 +123,12 @@ class Ordered(PlaceAdvisor):
         return replace(request, places=places, options=tuple(words[place] for place in places))
 
 
-def nearest(grounds: Grounds) -> Order:
+def nearest(parts: Parts) -> Order:
     """Always go to the place that is nearest to where the robot is, by the map."""
-    routes = routes_of(grounds.home)
+    routes = routes_of(parts.home)
 
     def order(name: str, places: Sequence[str]) -> list[str]:
-        here, left, tour = grounds.home.robot_start[:2], list(places), list[str]()
+        here, left, tour = parts.home.robot_start[:2], list(places), list[str]()
         while left:
             tour.append(min(left, key=lambda place: routes.length(here, routes.stand(place))))
             left.remove(tour[-1])
@@ -134,11 +138,11 @@ def nearest(grounds: Grounds) -> Order:
     return order
 
 
-def by_chance(grounds: Grounds) -> Order:
+def by_chance(parts: Parts) -> Order:
     """Any order; the same for the same seed and object."""
 
     def order(name: str, places: Sequence[str]) -> list[str]:
-        chance = random.Random(f"{grounds.settings.seed} {name}")
+        chance = random.Random(f"{parts.settings.seed} {name}")
         return chance.sample(list(places), len(places))
 
     return order
@@ -150,7 +154,7 @@ def the_survey() -> Ontology:
     return Ontology(defaults=True)
 
 
-def popular(grounds: Grounds | None = None) -> Order:
+def popular(parts: Parts | None = None) -> Order:
     """Where other things usually are, by the survey; equals in the home's order.
 
     The record that the asked object takes its own default locations from is left out, and with it
@@ -160,7 +164,8 @@ def popular(grounds: Grounds | None = None) -> Order:
     recorded = survey.recorded_locations()
 
     def order(name: str, places: Sequence[str]) -> list[str]:
-        own = next((n for n in (name, *survey.classes_of(name)) if n in recorded), None)
+        kinds = survey.classes_of(name) if name in survey.objects() else ()
+        own = next((n for n in (name, *kinds) if n in recorded), None)
         others = (where for other, where in recorded.items() if other != own)
         counts = Counter(chain.from_iterable(others))
         return sorted(places, key=lambda place: -counts[place])
@@ -168,26 +173,28 @@ def popular(grounds: Grounds | None = None) -> Order:
     return order
 
 
-def true_first(grounds: Grounds) -> Order:
+def true_first(parts: Parts) -> Order:
     """The place where the thing truly is, then the others: knows the truth, as no robot does."""
 
     def order(name: str, places: Sequence[str]) -> list[str]:
-        truth = grounds.home.placement.get(name)
+        truth = parts.home.placement.get(name)
         return sorted(places, key=lambda place: place != truth)
 
     return order
 
 
-def baseline(description: str, rule: Callable[[Grounds], Order]) -> Policy:
+def baseline(description: str, rule: Callable[[Parts], Order]) -> Policy:
     """A policy that goes by a rule instead of a language model."""
 
-    def model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
-        return None if settings.knowledge == KnowledgeSystem.OKB else Indifferent(inbox)
+    def change(parts: Parts) -> Parts:
+        if parts.settings.knowledge == KnowledgeSystem.OKB:
+            return parts
+        model = Indifferent(parts.inbox)
+        usual = advise(parts.knowledge, model, remembers=False)
+        advice = replace(usual, ranker=Ordered(parts, rule(parts)))
+        return replace(parts, model=model, advice=advice)
 
-    def advisor(grounds: Grounds) -> Advisor | None:
-        return Ordered(grounds, grounds.model, rule(grounds)) if grounds.model else None
-
-    return Policy(description, {"llm": "none", "elicit": "rank"}, model, advisor)
+    return Policy(description, {"llm": "none", "elicit": "rank"}, change)
 
 
 # --- ablations: a language model that writes, less a part of what is built around it ---
@@ -244,7 +251,7 @@ def no_home(request: ChatRequest) -> ChatRequest:
     return replace(any_names(request), messages=(Message("system", WITHOUT_A_HOME), *told))
 
 
-class Unverified(PlaceAdvisor):
+class Unverified(Lister):
     """Takes every name for a place."""
 
     def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
@@ -252,30 +259,31 @@ class Unverified(PlaceAdvisor):
         return Verdict(unique(names))
 
 
-def reworded(
-    reword: Callable[[ChatRequest], ChatRequest],
-) -> Callable[[Settings, Inbox], LanguageModel | None]:
-    """Makes the model of the settings, to be asked in other words."""
+def reworded(reword: Callable[[ChatRequest], ChatRequest]) -> Change:
+    """Asks the model in other words."""
 
-    def model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
-        inner = build_model(settings, inbox)
-        return Reworded(inner, reword) if inner else None
+    def change(parts: Parts) -> Parts:
+        model = Reworded(parts.model, reword) if parts.model else None
+        return advised(replace(parts, model=model))
 
-    return model
+    return change
 
 
-def unverified(grounds: Grounds) -> Advisor | None:
-    """Makes an adviser without the existence check."""
-    if grounds.model is None:
-        return None
-    settings = grounds.settings
-    return Unverified(
-        grounds.knowledge,
-        grounds.model,
+def unverified(parts: Parts) -> Parts:
+    """With an adviser that makes no existence check."""
+    if parts.model is None:
+        return parts
+    settings = parts.settings
+    lister = Unverified(
+        parts.knowledge,
+        guarded_model(parts, parts.model),
         remembers=settings.remembers,
         top=settings.top,
-        prompts=grounds.prompts,
+        prompts=parts.prompts,
     )
+    reader = Reader(parts.knowledge, prompts=parts.prompts)
+    advice = Advice(lister, Ranker(parts.knowledge, prompts=parts.prompts), reader)
+    return replace(parts, advice=advice)
 
 
 WRITES, HELD = {"elicit": "generate", "grammar": False}, {"elicit": "generate", "grammar": True}
@@ -290,14 +298,12 @@ POLICIES: Mapping[str, Policy] = MappingProxyType(
         "unverified": Policy(
             "generate-form without the verification: the robot sets out for invented places",
             HELD,
-            reworded(any_names),
-            unverified,
+            lambda parts: unverified(reworded(any_names)(parts)),
         ),
         "llm-alone": Policy(
             "unverified, and the model is told nothing of the home, nor of default locations",
             {**HELD, "defaults": False},
-            reworded(no_home),
-            unverified,
+            lambda parts: unverified(reworded(no_home)(parts)),
         ),
         "nearest": baseline("the nearest furniture first", nearest),
         "random": baseline("any order", by_chance),

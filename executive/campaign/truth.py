@@ -1,13 +1,10 @@
 """What truly came of a mission, by the simulator; the robot has no access to it."""
 
-from collections.abc import Mapping
-
 from executive.campaign.routes import Routes
 from executive.interfaces import SimulatedHome
-from executive.types import DELIVERY, CommandKind, MissionStatus, Outcome
-from sim.home.home import PERSON, Home
-
-HAND = "hand"
+from executive.types import HAND, MissionStatus, Outcome
+from sim.home.home import Home
+from trees.deeds import deed_of
 
 
 def whereabouts(name: str, world: SimulatedHome) -> str:
@@ -18,31 +15,13 @@ def whereabouts(name: str, world: SimulatedHome) -> str:
 def completed(outcome: Outcome, truth: str) -> bool:
     """Whether the robot said that it was done, and it was.
 
-    find: the robot went to the furniture that it names, and the thing is there; take: the thing is
-    in its hand; bring: the thing is on the delivery table; put down: it is on some furniture.
-
     Args:
         outcome: what the robot says.
         truth: where the thing is, as `whereabouts` tells when the mission has ended.
     """
-    if outcome.status != MissionStatus.DONE:
+    if outcome.status != MissionStatus.DONE or outcome.kind is None:
         return False
-    match outcome.kind:
-        case CommandKind.FIND:
-            return truth == outcome.location and truth in outcome.visited
-        case CommandKind.TAKE:
-            return truth == HAND
-        case CommandKind.PUT_DOWN:
-            return truth not in (HAND, "")
-        case _:
-            return truth == DELIVERY
-
-
-ENDS: Mapping[CommandKind | None, tuple[str, ...]] = {
-    CommandKind.FIND: (PERSON,),
-    CommandKind.BRING: (DELIVERY,),
-}
-"""Where commands end, beyond the thing: the robot reports to the person, and brings to a table."""
+    return deed_of(outcome.kind).is_true(outcome, truth)
 
 
 def shortest_m(outcome: Outcome, home: Home, routes: Routes) -> float:
@@ -56,6 +35,7 @@ def shortest_m(outcome: Outcome, home: Home, routes: Routes) -> float:
     place = home.placement.get(outcome.object or "")
     if place is None:
         return 0.0
-    stops = (place, *ENDS.get(outcome.kind, ()))
+    end = outcome.kind.means.ends_at if outcome.kind else None
+    stops = (place, end) if end else (place,)
     x, y, _ = home.robot_start
     return routes.tour(((x, y), *map(routes.stand, stops)))

@@ -29,10 +29,12 @@ def control(words: str) -> Control | None:
     Case, punctuation, accents, full-width letters and politeness do not count. These say stop (the
     words are in assets/control.toml):
 
-    - a line that begins with an order: "halt", "wait a moment", "don't move";
+    - a line that begins with an order: "halt", "wait a moment", "don't move"; one in a script
+      without blanks may stand anywhere;
     - an urgent word anywhere ("I want you to stop"), unless it belongs to a name ("Find the stop
       sign"), is denied ("don't stop") or is asked about ("Why did you stop?");
-    - an urgent word alone with two neighbours swapped ("stpo"), or letter by letter ("S T O P").
+    - an urgent word with digits for letters ("st0p"), alone with two neighbours swapped or a letter
+      left out ("stpo", "canel"), or letter by letter ("S T O P").
     """
     clauses = [_words(clause) for clause in _CLAUSE_ENDS.split(_plain(words))]
     said = [word for clause in clauses for word in clause]
@@ -40,7 +42,9 @@ def control(words: str) -> Control | None:
     if tuple(bare) in _QUITS:
         return Control.QUIT
     slip = len(bare) == 1 and bare[0] in _SLIPS
-    if slip or "".join(said) in _URGENT or _is_order(said) or any(map(_is_urgent, clauses)):
+    run_on = "".join(said)
+    shouted = run_on in _URGENT or any(order in run_on for order in _ANYWHERE)
+    if slip or shouted or _is_order(said) or any(map(_is_urgent, clauses)):
         return Control.STOP
     return None
 
@@ -51,7 +55,12 @@ def _plain(words: str) -> str:
     apart = unicodedata.normalize("NFD", compatible.casefold())
     letters = "".join(c for c in apart if unicodedata.category(c) != "Mn")
     said = _SIGNS.sub(". stop. ", re.sub("[’‘`´ʼ]", "'", letters))
-    return _NO_APOSTROPHE.sub(r"\1'\2", said)
+    return _EAGER.sub(" ", _NO_APOSTROPHE.sub(r"\1'\2", _DISGUISED.sub(_undisguised, said)))
+
+
+def _undisguised(found: re.Match[str]) -> str:
+    """An urgent word in plain letters ("st0p"), anything else as it is."""
+    return _SQUEEZED.get(_squeezed(found[0].translate(_LETTERS)), found[0])
 
 
 def _words(clause: str) -> list[str]:
@@ -88,8 +97,9 @@ def _is_urgent(clause: list[str]) -> bool:
     """Whether it has an urgent word in it that is no part of a name."""
     first = next((word for word in clause if word not in _FILLERS), "")
     named = first in _BEFORE_NAMES
-    asked = clause[:1] and clause[0] in _ASKED and not _URGES & set(clause[1:2])
-    return not asked and any(
+    if clause and clause[0] in _ASKED:
+        return bool(_URGES & set(clause[1:4]) and _URGENT & set(clause))
+    return any(
         word in _URGENT and before not in _DENIALS and (not named or before in _TURNS)
         for before, word in zip(["", *clause], clause, strict=False)
     )
@@ -97,29 +107,41 @@ def _is_urgent(clause: list[str]) -> bool:
 
 _SIGNS = re.compile("[\U0001f6d1\u26d4\U0001f6ab\u270b\U0001f590\u23f9\u23f8]")
 """A stop sign, no entry, a raised hand, the buttons stop and pause."""
-_NO_APOSTROPHE = re.compile(r"\b(don|won|can|that|let)(t|s)\b")
-_CLAUSE_ENDS = re.compile(r"[.,;:!?…。、]|--")
+_NO_APOSTROPHE = re.compile(r"\b(don|won|can|that|let)(t|s|ll)\b")
+_EAGER = re.compile(r"\b(?:can't|cannot|can not|can hardly) wait\b")
+"""Who says so does not ask to wait."""
+_CLAUSE_ENDS = re.compile(r"[.,;:!?…。、‒–—―−~|()]|-(?=[-\s])|(?<=\s)-")
+_DISGUISED = re.compile(r"[a-z01345@$]+")
+_LETTERS = str.maketrans("01345@$", "oleasas")
 _WORD = re.compile(r"[^\W\d_]+(?:['_][^\W\d_]+)*")
 
 _FILE = tomllib.loads((Path(__file__).parent / "assets" / "control.toml").read_text("utf-8"))
 
 
 def _phrases(name: str) -> frozenset[tuple[str, ...]]:
-    return frozenset(tuple(_plain(phrase).split()) for phrase in _FILE[name])
+    return frozenset(tuple(_WORD.findall(_plain(phrase))) for phrase in _FILE[name])
 
 
 def _each(name: str) -> frozenset[str]:
     return frozenset(_FILE[name].split())
 
 
-_URGENT = frozenset(_FILE["urgent"])
-_SQUEEZED = {_squeezed(word): word for word in _URGENT}
-_SLIPS = {"stp"} | {
+_URGENT: frozenset[str] = frozenset(_FILE["urgent"])
+_SQUEEZED = {
+    _squeezed(word + ending): word for word in _URGENT for ending in ("", "e", "en", "ing")
+}
+"""In other languages, too: "stoppe", "halten"."""
+_SWAPPED = {
     word[:at] + word[at + 1] + word[at] + word[at + 2 :]
     for word in _URGENT
     for at in range(len(word) - 1)
 }
+_LEFT_OUT = {
+    word[:at] + word[at + 1 :] for word in _URGENT if len(word) > 4 for at in range(len(word))
+}
+_SLIPS = {"stp"} | _SWAPPED | _LEFT_OUT
 _ORDERS, _ALONE, _QUITS = _phrases("orders"), _phrases("alone"), _phrases("quit")
+_ANYWHERE = frozenset("".join(phrase) for phrase in _phrases("anywhere"))
 _FILLERS = _each("fillers")
 _NOTHING_MORE = _FILLERS | _each("after")
 _BEFORE_NAMES, _TURNS = _each("before_names"), _each("turns")

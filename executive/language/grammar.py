@@ -3,59 +3,11 @@
 import re
 
 from executive.language.put_down import to_put_down
+from executive.language.verbs import VERBS
 from executive.text import LONGEST, one_line, too_long
 from executive.types import Command, CommandKind
 
-_VERBS: dict[str, CommandKind] = {
-    "find": CommandKind.FIND,
-    "locate": CommandKind.FIND,
-    "look for": CommandKind.FIND,
-    "search for": CommandKind.FIND,
-    "where is": CommandKind.FIND,
-    "where are": CommandKind.FIND,
-    "take": CommandKind.TAKE,
-    "grab": CommandKind.TAKE,
-    "grasp": CommandKind.TAKE,
-    "pick": CommandKind.TAKE,
-    "pick up": CommandKind.TAKE,
-    "hold": CommandKind.TAKE,
-    "hold on to": CommandKind.TAKE,
-    "hang on to": CommandKind.TAKE,
-    "get hold of": CommandKind.TAKE,
-    "lift": CommandKind.TAKE,
-    "lift up": CommandKind.TAKE,
-    "bring": CommandKind.BRING,
-    "fetch": CommandKind.BRING,
-    "get": CommandKind.BRING,
-    "give": CommandKind.BRING,
-    "deliver": CommandKind.BRING,
-    "hand": CommandKind.BRING,
-    "hand over": CommandKind.BRING,
-    "pass": CommandKind.BRING,
-    "carry": CommandKind.BRING,
-    "let me have": CommandKind.BRING,
-    "where's": CommandKind.FIND,
-    "have you seen": CommandKind.FIND,
-    "i'm looking for": CommandKind.FIND,
-    "i am looking for": CommandKind.FIND,
-    "i'd like": CommandKind.BRING,
-    "i'd like to have": CommandKind.BRING,
-    "i would like": CommandKind.BRING,
-    "i would like to have": CommandKind.BRING,
-    "i want": CommandKind.BRING,
-    "i need": CommandKind.BRING,
-    "can i have": CommandKind.BRING,
-    "could i have": CommandKind.BRING,
-    "may i have": CommandKind.BRING,
-    "can i get": CommandKind.BRING,
-    "could i get": CommandKind.BRING,
-    "may i get": CommandKind.BRING,
-    "i lost": CommandKind.FIND,
-    "i have lost": CommandKind.FIND,
-    "i can't find": CommandKind.FIND,
-    "i cannot find": CommandKind.FIND,
-}
-_LONGEST_FIRST = "|".join(sorted(_VERBS, key=len, reverse=True))
+_LONGEST_FIRST = "|".join(sorted(VERBS, key=len, reverse=True))
 _COMMAND = re.compile(
     r"(?:please |robot |could you |can you |would you |will you |hey |hello "
     r"|(?:i'd like|i would like|i want|i need) you to )*"
@@ -93,7 +45,7 @@ class EnglishInterpreter:
         target = match["target"]
         while target.endswith(_ENDINGS):
             target = target.removesuffix(next(e for e in _ENDINGS if target.endswith(e)))
-        return None if target in _NO_TARGET else Command(_VERBS[match["verb"]], target, words)
+        return None if target in _NO_TARGET else Command(VERBS[match["verb"]], target, words)
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""

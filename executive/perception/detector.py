@@ -120,6 +120,11 @@ class OnnxDetector:
         """The class list."""
         return self._names
 
+    @property
+    def labels(self) -> frozenset[str]:
+        """What it may call what it sees: objects of the ontology."""
+        return frozenset(label for label in self._labels if label)
+
     def _learn_layout(self, metadata: Mapping[str, str]) -> None:
         """See by two pictures how the output is to be read."""
         where, classes = str(self._path), len(self._names)

@@ -7,31 +7,20 @@ is a regression test:
     assert replay(Path("runs/20260101T120000Z-find-an-apple")).parting is None
 """
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import TypeVar
 
-from pydantic import TypeAdapter, ValidationError
-
-from executive.app.parts import OURS, Advise, Grounds, build_advisor, build_context
-from executive.config import Settings, in_words
+from executive.app.parts import build_mission, mission_tree
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import Tree
-from executive.loop import Executive
 from executive.records import Record, Tick, TreeShape
+from executive.replay.recorded import kept, recorded_parts
 from executive.replay.stand_ins import Absent, RecordedTime
 from executive.situation import Situation
 from executive.text import printable
-from executive.types import Place
-from kb.advice.prompts import Prompts
-from kb.facts import FactStore
-from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
-from kb.ontology.owl import parsed
 from logs.questions.difference import (
     ENDED,
     Aspect,
@@ -41,14 +30,7 @@ from logs.questions.difference import (
     tick_aspects,
 )
 from logs.recording.reader import Run
-from sim.home.home import Home, load_home
 from trees.context import MissionContext
-from trees.mission import mission
-from trees.tree import MissionTree
-
-T = TypeVar("T")
-
-_BELIEFS = TypeAdapter(dict[str, list[str]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,11 +59,6 @@ class Replay:
         return self.recorded_s / self.took_s
 
 
-def mission_tree(context: MissionContext) -> Tree:
-    """The tree that missions are run with."""
-    return MissionTree(mission(context))
-
-
 def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree) -> Replay:
     """Feed a recorded mission to a fresh tree.
 
@@ -99,21 +76,8 @@ def replay(folder: Path, build: Callable[[MissionContext], Tree] = mission_tree)
     judge = Judge(clock, ends_early=run.outcome() is None)
     absent = Absent(inbox, situation)
     absent.rests = "policy" not in run.metadata
-    grounds = _grounds(run, absent)
-    context = build_context(
-        grounds,
-        _advise(run)(grounds),
-        situation,
-        inbox=inbox,
-        clock=clock,
-        recorder=judge,
-        robot=absent,
-        perception=absent,
-        user=absent,
-    )
-    executive = Executive(
-        build(context), situation, inbox=inbox, clock=clock, robot=absent, recorder=judge
-    )
+    parts = recorded_parts(run, inbox, absent, clock, judge)
+    executive = build_mission(parts, situation, build)
     clock.wait(None)
     executive.run()
     parting = judge.parting or _late_parting(run, clock, situation)
@@ -177,7 +141,7 @@ class Judge:
 def _situation(run: Run) -> Situation:
     """What was known of the robot before the recorded mission."""
     restless = run.metadata.get("restless") == str(True)
-    return Situation(in_hand=run.metadata.get("in_hand") or None, restless=restless)
+    return Situation.at_start(in_hand=run.metadata.get("in_hand") or None, restless=restless)
 
 
 def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]:
@@ -186,104 +150,11 @@ def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]
     return (path for path in lacking if path.rpartition("/")[0] not in lacking)
 
 
-def _grounds(run: Run, absent: Absent) -> Grounds:
-    """What the recorded mission went by; what was known then."""
-    settings = _settings(run)
-    home = _home(_kept(run, run.attachments, "home.toml")).with_placement(settings.place)
-    names = (HOUSEHOLD.name, DEFAULTS.name, *(file.name for file in settings.kb))
-    files = tuple((name, run.attachments[name]) for name in names if name in run.attachments)
-    if settings.world == "physics":
-        absent.home = home
-    thinks = run.metadata.get("thinks") or str(_kept(run, run.metadata, "model") != "none")
-    return Grounds(
-        settings=settings,
-        home=home,
-        knowledge=_ontology(home.places(), settings.defaults, files, settings.person),
-        model=absent if thinks == str(True) else None,
-        prompts=_prompts(run.attachments.get("prompts.toml")),
-        facts=FactStore.believing(_beliefs(run), learns=settings.learn),
-    )
-
-
-def _advise(run: Run) -> Advise:
-    """The way in which the recorded mission was given an adviser."""
-    name = run.metadata.get("policy", OURS)
-    if name == OURS:
-        return build_advisor
-    from executive.campaign.policies import (
-        POLICIES,  # whose packages a replay of ours does not need
-    )
-
-    if name not in POLICIES:
-        raise InputError(str(run.path), f"was made with the policy {name!r}, unknown here")
-    return POLICIES[name].advisor
-
-
 def _requests_before(run: Run) -> int:
-    number = _kept(run, run.metadata, "requests_before")
+    number = kept(run, run.metadata, "requests_before")
     if not (number.isdecimal() and len(number) < 19):
         raise InputError(str(run.path), f"its 'requests_before' is no number: {number!r}")
     return int(number)
-
-
-def _beliefs(run: Run) -> dict[str, list[str]]:
-    try:
-        return _BELIEFS.validate_json(_kept(run, run.attachments, "facts.json"))
-    except ValidationError as error:
-        what = f"its facts.json does not say what is where: {error.errors()[0]['msg']}"
-        raise InputError(str(run.path), what) from error
-
-
-def _settings(run: Run) -> Settings:
-    """As recorded; what is not recorded was not set, whatever the environment says now."""
-    _kept(run, run.attachments, "config.toml")
-    recorded = run.config()
-    fields = Settings.model_fields.items()
-    unset = {name: field.get_default(call_default_factory=True) for name, field in fields}
-    try:
-        return Settings(**{**unset, **recorded})
-    except ValidationError as error:
-        fault = error.errors()[0]
-        name = ".".join(map(str, fault["loc"]))
-        what = f"its config.toml is not understood any more: {name} {in_words(fault)}"
-        raise InputError(str(run.path), what) from error
-
-
-def _kept(run: Run, kept: Mapping[str, T], name: str) -> T:
-    if name not in kept:
-        raise InputError(str(run.path), f"keeps no {name!r}", "replay needs a newer recording")
-    return kept[name]
-
-
-@cache
-def _home(text: bytes) -> Home:
-    with TemporaryDirectory() as folder:
-        file = Path(folder) / "home.toml"
-        file.write_bytes(text)
-        return load_home(str(file))
-
-
-@cache
-def _prompts(text: bytes | None) -> Prompts:
-    """The recorded texts; ours of today, if none replaced ours."""
-    if text is None:
-        return Prompts.load()
-    with TemporaryDirectory() as folder:
-        file = Path(folder) / "prompts.toml"
-        file.write_bytes(text)
-        return Prompts.load(file)
-
-
-@cache
-def _ontology(
-    places: tuple[Place, ...],
-    defaults: bool,
-    files: tuple[tuple[str, bytes], ...],
-    person: str | None,
-) -> Ontology:
-    """The recorded files, which take the place of those of today."""
-    read = [parsed(Path(name), data) for name, data in files]
-    return Ontology(places, defaults=defaults, files=read, person=person)
 
 
 def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Parting | None:

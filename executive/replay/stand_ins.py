@@ -1,13 +1,12 @@
 """What stands in for time, robot, model and person when a recorded mission is run again."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from executive.events import Ended, Event, Inbox, StopRequested
 from executive.records import Tick
 from executive.situation import Situation
-from executive.types import FLOOR, ChatRequest, Goal, Halt, Question, RankRequest, Succeeded
+from executive.types import ChatRequest, Goal, Halt, Question, RankRequest, Succeeded
 from logs.recording.reader import Turn
-from sim.home.home import FLOOR_VIEWS, Home
 
 
 class RecordedTime:
@@ -96,15 +95,15 @@ class Absent:
         """Open requests in this inbox; the fingers feel what is known in this situation."""
         self._inbox = inbox
         self._situation = situation
-        self.home: Home | None = None
-        """Whose furniture takes several views; None: one is enough."""
+        self.several: Mapping[str, int] = {}
+        """How many views it takes to see the places for which one is not enough."""
         self.rests = False
         """Whether it halts at once, whatever was recorded: that was not judged in earlier days."""
 
     @property
     def holding(self) -> bool | None:
         """What they felt before: what they felt anew is among the recorded events."""
-        return self._situation.felt
+        return self._situation.hand.felt
 
     def start(self, goal: Goal) -> int:
         """Pursue nothing."""
@@ -140,10 +139,8 @@ class Absent:
         self._inbox.drop(request)
 
     def views(self, place: str) -> int:
-        """As many as the simulated robot has."""
-        if self.home and place == FLOOR:
-            return FLOOR_VIEWS
-        return len(self.home.view_targets(place)) if self.home else 1
+        """As many as when it was recorded."""
+        return self.several.get(place, 1)
 
     def count_tokens(self, text: str) -> int:
         """None: prompts are not judged, and memory need not be short."""

@@ -1,32 +1,34 @@
 """A bench for missions in the instant world, with a scripted person and a scripted model."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
-from executive.app.parts import near_person
-from executive.clock import SimulatedClock
+from executive.app.embodiment import Setup
+from executive.app.parts import (
+    Change,
+    Parts,
+    advised,
+    as_they_are,
+    build_mission,
+    mission_tree,
+    parameters_of,
+)
+from executive.app.simulation import fake
+from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Detector, Facts, User
-from executive.language.grammar import EnglishInterpreter
-from executive.loop import Executive
+from executive.interfaces import Detector, Facts, PlaceSource, Tree, User
 from executive.perception.pipeline import CameraPerception
 from executive.records import Record, Tick, Verified
 from executive.situation import Situation
 from executive.types import Goal, Outcome
 from executive.user import Oracle, Scripted
-from kb.advice.advisor import PlaceAdvisor
 from kb.llm.scripted import Scripted as ScriptedModel
 from kb.ontology.ontology import Ontology
-from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
-from sim.faults.fake import FaultyFakeRobot
-from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
-from sim.faults.orders import parse_faults
+from sim.fake import FakeCamera, FakeWorld
 from sim.home.home import Home, load_home
-from trees.context import MissionContext, NoFacts, Parameters
-from trees.mission import mission
-from trees.tree import MissionTree
+from trees.context import MissionContext, NoFacts
 
 
 @cache
@@ -39,6 +41,13 @@ def four_rooms() -> Home:
 def ontology(defaults: bool) -> Ontology:
     """What is known in it, with default locations or without."""
     return Ontology(four_rooms().places(), defaults=defaults)
+
+
+def knowledge_system(llm: bool, remembers: bool) -> KnowledgeSystem:
+    """Which of the paper's systems this is."""
+    if not llm:
+        return KnowledgeSystem.OKB
+    return KnowledgeSystem.OKB_LLM_MEM if remembers else KnowledgeSystem.OKB_LLM
 
 
 @dataclass
@@ -100,26 +109,33 @@ def run_mission(
     first: Iterable[Event] = (),
     notebook: Notebook | None = None,
     facts: Facts | None = None,
-    detector: Callable[[FakeWorld], Detector] = FakeDetector,
+    sources: Iterable[PlaceSource] = (),
+    detector: Callable[[FakeWorld], Detector] | None = None,
+    change: Change = as_they_are,
+    build: Callable[[MissionContext], Tree] = mission_tree,
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
     `mishaps` are ordered as with `--fault`. `during` is called at the start of every goal of the
-    robot, and may post events; `first` are posted before the mission starts.
+    robot, and may post events; `first` are posted before the mission starts. `change` puts in other
+    parts, and `build` makes the tree.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
+    settings = Settings(
+        world="fake",
+        knowledge=knowledge_system(llm, remembers),
+        defaults=defaults,
+        elicit=elicit,
+        fault=tuple(mishaps),
+        seed=seed,
+    )
     home = four_rooms().with_placement(place or {})
-    world = FakeWorld(home, inbox, notebook, fault)
-    clock = SimulatedClock(inbox, world)
-    camera, goals = FakeCamera(world), []
-    recogniser = detector(world)
-    robot = FakeRobot(world)
-    if mishaps:
-        faults = FaultInjector(parse_faults(mishaps, home), notebook, clock.now, seed)
-        robot = FaultyFakeRobot(world, faults)
-        camera = FaultyCamera(camera, faults)  # type: ignore[assignment]
-        recogniser = FaultyDetector(recogniser, faults, tuple(home.objects))
-    start = robot.start
+    knowledge = ontology(defaults)
+    body = fake(Setup(settings, home, inbox, notebook, knowledge))
+    world, goals = body.truth, []
+    assert isinstance(world, FakeWorld)
+    world.fault = fault
+    start = body.robot.start
 
     def start_and_note(goal: Goal) -> int:
         goals.append(goal)
@@ -127,7 +143,7 @@ def run_mission(
         during(goal, inbox)
         return request
 
-    robot.start = start_and_note  # type: ignore[method-assign]
+    body.robot.start = start_and_note  # type: ignore[method-assign]
     user: User
     if person:
         user = person(inbox)
@@ -138,32 +154,28 @@ def run_mission(
     thinker = None
     if llm:
         thinker = model(inbox) if model else ScriptedModel(replies, inbox)
-    knowledge = ontology(defaults)
-    context = MissionContext(
-        situation=situation,
-        clock=clock,
-        recorder=notebook,
-        interpreter=EnglishInterpreter(),
-        knowledge=knowledge,
-        robot=robot,
-        perception=CameraPerception(camera, recogniser, inbox, notebook),
-        user=user,
-        model=thinker,
-        advisor=PlaceAdvisor(knowledge, thinker, remembers=remembers) if thinker else None,
-        parameters=Parameters(elicit=elicit, **(parameters or {})),
-        facts=facts or NoFacts(),
-        near_person=near_person(home),
-    )
-    executive = Executive(
-        MissionTree(mission(context)),
-        situation,
+    perception = body.perception
+    if detector:
+        perception = CameraPerception(FakeCamera(world), detector(world), inbox, notebook)
+    parts = Parts(
+        settings=settings,
+        home=home,
         inbox=inbox,
-        clock=clock,
-        robot=robot,
+        clock=body.clock,
         recorder=notebook,
+        robot=body.robot,
+        perception=perception,
+        user=user,
+        knowledge=knowledge,
+        model=thinker,
+        facts=facts or NoFacts(),
+        sources=tuple(sources),
+        in_map=body.in_map,
+        parameters=replace(parameters_of(settings), **(parameters or {})),
     )
+    executive = build_mission(change(advised(parts)), situation, build)
     for event in (*first, Started(words)):
         inbox.post(event)
     executive.run()
-    outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
+    outcome = situation.outcome(mission_time_s=body.clock.now(), wall_time_s=0.0, run_dir=None)
     return Run(outcome, world, user, thinker, notebook, goals, inbox, situation)

@@ -1,9 +1,9 @@
 r"""JSON as language models write it, read in one pass.
 
 Beside JSON itself: text around it, code fences, trailing commas, comments, single and typographic
-quotes, names without quotes, and escapes that JSON does not know (`counter\_wagon`). Nothing is
-completed or corrected: a value has to have its closing bracket, and no word is returned that is
-not there.
+quotes, names without quotes, tuples, and escapes that JSON does not know (`counter\_wagon`).
+Nothing is completed or corrected: a value has to have its closing bracket, and no word is returned
+that is not there.
 """
 
 import re
@@ -13,8 +13,10 @@ from dataclasses import dataclass, field
 DEEPEST = 16
 """Brackets in brackets; what lies deeper is no answer."""
 
-_WIDE = {wide: chr(ord(wide) - 0xFEE0) for wide in "｛｝［］：，"}
+_WIDE = {wide: chr(ord(wide) - 0xFEE0) for wide in "｛｝［］（）：，"}
 """Marks as they are written among Chinese and Japanese letters."""
+_CLOSES = {"{": "}", "[": "]", "(": ")"}
+"""Round ones, as Python has them, count within others only: text is full of them."""
 _OPENING = re.compile(r"[{\[｛［]")
 _SPACE = re.compile(r"(?:\s+|//[^\n]*|#[^\n]*|/\*[^*]*+\*/|\.{3}|…)+")
 _QUOTES = {
@@ -67,7 +69,7 @@ class _Open:
         """Go on after a comma or a colon; False if it does not belong here."""
         if mark != self.wants:
             return False
-        self.wants = "value" if mark == ":" or self.closes_with == "]" else "key"
+        self.wants = "key" if mark == "," and isinstance(self.value, dict) else "value"
         return True
 
     def closes(self, mark: str) -> bool:
@@ -97,7 +99,7 @@ def values(text: str) -> Iterator[tuple[int, object]]:
         if end is None:
             at += not _OPENING.match(text, at)
             continue
-        if text[at] in "}]｝］":
+        if text[at] in "}])｝］）":
             closed = stack.pop().value
             yield end, closed
             if stack and not stack[-1].take(closed):
@@ -108,12 +110,12 @@ def values(text: str) -> Iterator[tuple[int, object]]:
 def _step(text: str, at: int, stack: list[_Open], unclosed: dict[str, int]) -> int | None:
     """Take in what is here and return where it ends; None, and an empty stack, if it is amiss."""
     mark = _WIDE.get(text[at], text[at])
-    if mark in "{[" and len(stack) < DEEPEST and (not stack or stack[-1].wants == "value"):
-        stack.append(_Open("}", "key", {}) if mark == "{" else _Open("]", "value", []))
+    if mark in _CLOSES and len(stack) < DEEPEST and (not stack or stack[-1].wants == "value"):
+        stack.append(_Open("}", "key", {}) if mark == "{" else _Open(_CLOSES[mark], "value", []))
         return at + 1
     if mark in ",:":
         fits, end = stack[-1].passes(mark), at + 1
-    elif mark in "}]":
+    elif mark in "}])":
         fits, end = stack[-1].closes(mark), at + 1
     else:
         scalar = _scalar(text, at, unclosed)

@@ -10,9 +10,10 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from executive.language.phrases import spoken
 from executive.types import Candidate, Place, Precedent, RankRequest, Scored, Source
 from kb.advice.prompts import Ranking
-from kb.ontology.names import base_name, spoken
+from kb.ontology.names import base_name
 
 MOST_PRECEDENTS = 300
 """More would take the embedded model many seconds, once."""

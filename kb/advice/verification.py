@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from executive.text import writable
-from executive.types import Verdict
+from executive.types import Place, Verdict
 from kb.advice.lenient import Bare, values
 from kb.ontology.names import PlaceNames, unique
 
@@ -20,6 +20,9 @@ MOST_CHARACTERS = 10_000
 """Of a reply, counted from its end: looking through more could take seconds."""
 _OBJECT = re.compile(r"\{(?=\s*[\"}])")
 _BULLET = re.compile(r"^(?:\d{1,2}[.):]|[-*•–])\s+")
+_LISTED = re.compile(r"(?:\d{1,2}[.):]|[-*•–])\s+(\S.*)")
+"""A line of a list without brackets."""
+_MARKUP = "*_`\"',; "
 _BETWEEN = re.compile(r"[,;\n]")
 NAME_KEYS = ("name", "place", "furniture", "location", "room")
 """What a model may call the name of a place, where it gives more than the name."""
@@ -52,7 +55,8 @@ def read(reply: str) -> tuple[str, ...] | None:
 
     The last answer counts: a model that thinks aloud, or corrects itself, ends with what it means.
     An object with `places` comes before a bare list or an object with one place. Each place is a
-    string, or an object that has one as its name. Never raises.
+    string, or an object that has one as its name. Where there are no brackets, a list of lines that
+    are numbered or dotted counts, if there is nothing else. Never raises.
     """
     loose = None
     for value in last_first(reply):
@@ -60,7 +64,16 @@ def read(reply: str) -> tuple[str, ...] | None:
         if names is not None and not _is_a_pattern(names):
             return _tidied(names)
         loose = loose or _loosely(value)
+    loose = loose or _lines(reply)
     return _tidied(loose) if loose else None
+
+
+def _lines(reply: str) -> list[str] | None:
+    """The names in a reply that is a list, one a line, and nothing else."""
+    lines = (line.strip() for line in reply[-MOST_CHARACTERS:].split("\n"))
+    found = [_LISTED.fullmatch(line) for line in lines if line and not line.startswith("```")]
+    names = [line[1].strip(_MARKUP) for line in found if line]
+    return names if len(names) == len(found) and all(names) else None
 
 
 def _is_a_pattern(names: list[str]) -> bool:
@@ -132,6 +145,11 @@ def _name(part: object) -> list[str] | None:
         lower = {key.strip().lower(): value for key, value in part.items()}
         part = next((lower[key] for key in NAME_KEYS if key in lower), None)
     return [part] if isinstance(part, str) else None
+
+
+def allowed(places: Sequence[Place], among: Sequence[str]) -> tuple[Place, ...]:
+    """The places that may be named: those of `among`; all, if that is empty."""
+    return tuple(place for place in places if not among or place.name in among)
 
 
 def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -> Verdict:

@@ -20,10 +20,13 @@ from statistics import fmean
 
 import numpy as np
 
+from executive.config import load_settings
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.geometry import Floats
 from executive.interfaces import LanguageModel
+from executive.language.phrases import words_of
+from executive.options import add_setting
 from executive.shell import DONE, entry_point
 from executive.usage import Parser
 from kb.advice.prompts import Prompts
@@ -32,11 +35,8 @@ from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
 from kb.benchmark.placements import Placements
 from kb.benchmark.questions import DataSet, Item, placements, survey
 from kb.benchmark.trials import Answer, Journal, descending, ranking, writing
-from kb.llm.key import Key
-from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.open import open_model
 from kb.llm.precedents import log_expected, shares, usual
-from kb.llm.server.server import Server
-from kb.ontology.names import words_of
 
 DATA = ("survey", "survey-rest", "placements", "placements-new")
 CHANCE = "chance"
@@ -196,13 +196,8 @@ def _data_set(name: str, given: argparse.Namespace) -> DataSet:
 
 
 def _model(given: argparse.Namespace, inbox: Inbox) -> LanguageModel | None:
-    if given.llm == "none":
-        return None
-    if given.llm.startswith(("http://", "https://")):
-        key = Key.from_environment()
-        return Server(given.llm, inbox, api_key=key, seed=given.seed, grammar=given.grammar)
-    path = embedded_model() if given.llm == "embedded" else Path(given.llm)
-    return LlamaCpp(path, inbox, seed=given.seed, grammar=given.grammar, max_tokens=256)
+    settings = load_settings(llm=given.llm, seed=given.seed, grammar=given.grammar)
+    return open_model(settings, inbox)
 
 
 def _described(given: argparse.Namespace) -> dict[str, object]:
@@ -234,13 +229,17 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--data", action="append", choices=DATA, help="repeatable; default: all")
     p.add_argument("--fold", choices=("valid", "test"), default="test", help="of the placements")
     p.add_argument("--placements", type=Path, metavar="FILE", help="default: as installed")
-    p.add_argument(
-        "--llm", default="embedded", help="embedded, FILE.gguf, http://host:port/v1, or none"
+    add_setting(
+        p,
+        "llm",
+        default="embedded",
+        metavar="LLM",
+        help="embedded, FILE.gguf, http://host:port/v1, or none",
     )
-    p.add_argument("--elicit", choices=("rank", "generate"), help="default: rank, if it can")
+    add_setting(p, "elicit", choices=("rank", "generate"), help="default: rank, if it can")
     p.add_argument("--grammar", action="store_true", help="hold replies to their JSON schema")
-    p.add_argument("--prompts", type=Path, metavar="FILE", help="texts that replace ours")
-    p.add_argument("--seed", type=int, default=0, help="of what a model writes (default: 0)")
+    add_setting(p, "prompts", help="texts that replace ours")
+    add_setting(p, "seed", default=0, metavar="SEED", help="of what a model writes (default: 0)")
     p.add_argument("--objects", type=int, metavar="N", help="only the first N of each data set")
     p.add_argument("--journal", type=Path, metavar="FILE", help="keep answers, and go on from them")
     p.add_argument("--json", action="store_true", help="print JSON")

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
+from executive.language.phrases import spoken, words_of
 from executive.types import Place
 from kb.advice.ranking import Known, answer
 from kb.benchmark.placements import Placements, preposition
-from kb.ontology.names import spoken, words_of
 from kb.ontology.ontology import Ontology
 
 SURVEYED = """

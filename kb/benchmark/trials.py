@@ -14,7 +14,7 @@ from executive.geometry import Floats
 from executive.interfaces import LanguageModel
 from executive.terminal import show_over
 from executive.types import RankRequest, Replied, Scored, Usage
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.lister import Lister
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import rank_request
 from kb.benchmark.questions import DataSet, Item
@@ -80,14 +80,14 @@ def ranking(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts)
 def writing(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts) -> Ask:
     """Have a list written, the paper's way, and keep what exists."""
     ontology = Ontology(data.places, defaults=False)
-    adviser = PlaceAdvisor(ontology, model, remembers=False, prompts=prompts)
+    lister = Lister(ontology, model, remembers=False, prompts=prompts)
 
     def ask(question: Item) -> Answer:
-        model.chat(adviser.inquiry(question.thing.name, ()))
+        model.chat(lister.inquiry(question.thing.name, ()))
         replied = _end(inbox)
         assert isinstance(replied, Replied)
-        names = adviser.read(replied.text) or ()
-        found = list(adviser.verify(names, ()).furniture)
+        names = lister.read(replied.text) or ()
+        found = list(lister.verify(names, ()).furniture)
         tokens = replied.usage.evaluated_tokens + replied.usage.output_tokens
         return Answer(question.thing.name, {WRITTEN: found}, replied.usage.total_s, tokens)
 

@@ -20,9 +20,15 @@ _LINKS = frozenset(
     (RDF.type, RDF.first, RDFS.subClassOf, RDFS.subPropertyOf, RDFS.domain, RDFS.range)
     + (OWL.equivalentClass, OWL.disjointWith, OWL.complementOf, OWL.equivalentProperty)
     + (OWL.onProperty, OWL.onClass, OWL.hasValue, OWL.someValuesFrom, OWL.allValuesFrom)
-    + (OWL.inverseOf, OWL.sameAs, OWL.differentFrom)
+    + (OWL.inverseOf, OWL.sameAs, OWL.differentFrom, OWL.annotatedSource, OWL.annotatedProperty)
+    + (OWL.sourceIndividual, OWL.targetIndividual, OWL.assertionProperty)
 )
 """Relations of OWL itself whose values are entities."""
+_LISTS = frozenset(
+    (OWL.intersectionOf, OWL.unionOf, OWL.oneOf, OWL.disjointUnionOf, OWL.hasKey)
+    + (OWL.propertyChainAxiom, OWL.members, OWL.distinctMembers, OWL.onProperties)
+)
+"""Relations of OWL itself whose values are lists of entities."""
 _FILLERS = frozenset((OWL.hasValue, OWL.someValuesFrom, OWL.allValuesFrom, OWL.onClass))
 _INSIDE_LISTS = frozenset((RDF.first, RDF.rest))
 
@@ -43,6 +49,31 @@ class Link:
         return f"{self.of} {self.relation} {self.to}, which no file declares: {right}"
 
 
+def broken_lists(graph: Graph) -> Iterator[str]:
+    """Lists that are begun and have a part without a member, without an end, or no end at all."""
+    walked = set[Identifier]()
+    for subject, relation, items in graph.triples():
+        walks = relation in _LISTS and isinstance(items, BNode)
+        if walks and (fault := _break(graph, items, walked)):
+            right = "give each part rdf:first and rdf:rest, the last one rdf:nil"
+            yield f"{_title(graph, subject)} {ending(relation)} a list {fault}: {right}"
+
+
+def _break(graph: Graph, part: Identifier, walked: set[Identifier]) -> str | None:
+    """What is wrong with a list; those that were walked before are not told of again."""
+    here = set[Identifier]()
+    while part != RDF.nil and part not in walked:
+        here.add(part)
+        walked.add(part)
+        rest = graph.objects(part, RDF.rest)
+        if not graph.objects(part, RDF.first):
+            return "that has a part without rdf:first"
+        if not rest:
+            return "that has a part without rdf:rest"
+        part = rest[0]
+    return "that comes back to itself" if part in here else None
+
+
 def dangling(graph: Graph, *, strict: bool) -> Iterator[Link]:
     """Every link to nothing.
 
@@ -59,7 +90,7 @@ def dangling(graph: Graph, *, strict: bool) -> Iterator[Link]:
     around = {of: (s, p) for s, p, of in graph.triples() if isinstance(of, BNode)}
     compared = 0
     for subject, relation, of in graph.triples():
-        for end in _missing(graph, spaces, strict, relation, of):
+        for end in _missing(graph, spaces, strict, subject, relation, of):
             nearest = None
             if (compared := compared + 1) <= MOST_COMPARED:
                 nearest = process.extractOne(ending(end), known, score_cutoff=LEAST_LIKENESS)
@@ -72,14 +103,29 @@ def dangling(graph: Graph, *, strict: bool) -> Iterator[Link]:
 
 
 def _missing(
-    graph: Graph, spaces: set[str], strict: bool, relation: Identifier, of: Identifier
+    graph: Graph,
+    spaces: set[str],
+    strict: bool,
+    subject: Identifier,
+    relation: Identifier,
+    of: Identifier,
 ) -> Iterator[Identifier]:
     """Those of the relation and its value that a file has to declare, and none does."""
     if _is_missing(graph, relation) and _space(relation) in spaces:
         yield relation
-    links = relation in _LINKS or OWL.ObjectProperty in graph.objects(relation, RDF.type)
+    if relation == OWL.annotatedTarget:
+        links = any(_is_link(graph, by) for by in graph.objects(subject, OWL.annotatedProperty))
+    elif relation in _LISTS:
+        links = not graph.objects(of, RDF.first)
+    else:
+        links = _is_link(graph, relation)
     if links and _is_missing(graph, of) and (strict or _space(of) in spaces):
         yield of
+
+
+def _is_link(graph: Graph, relation: Identifier) -> bool:
+    """Whether its values are entities."""
+    return relation in _LINKS or OWL.ObjectProperty in graph.objects(relation, RDF.type)
 
 
 def _is_missing(graph: Graph, entity: Identifier) -> bool:

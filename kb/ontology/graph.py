@@ -7,8 +7,9 @@ from rdflib import OWL, RDF, RDFS, SKOS, BNode, Literal, URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
+from executive.language.phrases import words_of
 from executive.text import printable
-from kb.ontology.names import unique, words_of
+from kb.ontology.names import unique
 from kb.ontology.owl import Triple, ending
 
 STANDARDS = "http://www.w3.org/"
@@ -88,6 +89,13 @@ class Graph:
                     self._of[kind].remove(individual)
             self._of.setdefault(value, []).append(individual)
         said[relation] = {value: None}
+
+    def put_class(self, kind: Identifier, above: Identifier, name: str) -> None:
+        """Say of a new class that it is right below another, and what it is called."""
+        said = {RDF.type: OWL.Class, RDFS.subClassOf: above, RDFS.label: Literal(name)}
+        self._about[kind] = {relation: {value: None} for relation, value in said.items()}
+        self._above[kind] = [above]
+        self._below.setdefault(above, []).append(kind)
 
     # --- classes and individuals ---
 

@@ -1,9 +1,9 @@
-"""The furniture of a home as an ontology in RDF/XML, for the log and for other tools."""
+"""What a home adds to the ontology, in RDF/XML, for the log and for other tools."""
 
 from collections.abc import Iterable, Mapping
 from xml.etree import ElementTree
 
-from rdflib import OWL, RDF
+from rdflib import OWL, RDF, RDFS
 from rdflib.term import Identifier
 
 from executive.text import printable
@@ -16,8 +16,9 @@ def home_file(
     places: Iterable[Place],
     furniture: Mapping[str, Identifier],
     rooms: Mapping[str, Identifier],
+    things: Mapping[str, Identifier],
 ) -> bytes:
-    """Each room and each piece of furniture once, as an individual of its class.
+    """Each room and each piece of furniture once, as an individual of its class; things as classes.
 
     Args:
         namespace: where the individuals are, up to the `#`.
@@ -25,6 +26,7 @@ def home_file(
         places: the furniture.
         furniture: furniture classes by name.
         rooms: room classes by name.
+        things: the classes right above the objects that the home declares, by their names.
     """
     root = ElementTree.Element(f"{{{RDF}}}RDF")
     _about(ElementTree.SubElement(root, f"{{{OWL}}}Ontology"), namespace.rstrip("#"))
@@ -35,6 +37,11 @@ def home_file(
         described.add(place.room)
         piece = _individual(root, namespace + place.name, furniture[place.kind])
         _resource(piece, is_in, namespace + place.room)
+    for name, kind in things.items():
+        own = ElementTree.SubElement(root, f"{{{OWL}}}Class")
+        _about(own, namespace + name)
+        _resource(own, RDFS.subClassOf, kind)
+        ElementTree.SubElement(own, f"{{{RDFS}}}label").text = name
     ElementTree.indent(root)
     written: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
     return written + b"\n"

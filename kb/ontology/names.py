@@ -1,61 +1,29 @@
 """Names as people write them, brought to one form, so that "The Sugar-Boxes" finds sugar_box."""
 
 import re
-import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
+from executive.language.phrases import (
+    CLAUSE_ENDS,
+    MOST_WORDS,
+    NEGATION,
+    Words,
+    place_words,
+    spoken,
+    stem,
+    words_of,
+)
 from executive.types import Place
-
-Words = tuple[str, ...]
-"""Stems, as `words_of` makes them."""
-
-MOST_WORDS = 6
-"""Longest name of a place that is looked for in a text."""
 
 SHORTEST_WITH_A_SLIP = 4
 SLIP_LIKENESS = 0.75
 """One letter in four may be wrong, missing, or swapped with the next."""
 
-_DETERMINERS = frozenset(("a", "an", "any", "my", "our", "some", "that", "the", "this", "your"))
-_PREPOSITIONS = frozenset(("at", "by", "from", "in", "inside", "of", "on", "over", "top", "under"))
-_CLAUSE_ENDS = re.compile(r"[,;:.!?\n]|\b(?:or|and|then|but|maybe|perhaps)\b")
 _ENUMERATION = re.compile(r"^\s*(?:\d+\s*[.):]|[-*•])\s*")
-_NEGATION = re.compile(r"\b(?:not|no|never|nowhere|except|neither|nor|cannot)\b|n['’]t\b")
-
-
-def words_of(text: str) -> Words:
-    """The stems of the words, without determiners: "The Sugar-Boxes" -> `("sugar", "box")`.
-
-    Case, underscores, hyphens and all other punctuation do not count.
-    """
-    plain = unicodedata.normalize("NFKC", text).casefold()
-    return tuple(stem(word) for word in re.findall(r"[^\W_]+", plain) if word not in _DETERMINERS)
-
-
-def stem(word: str) -> str:
-    """A form that an English noun shares with its regular plural: "shelves", "shelf" -> "shelf".
-
-    It need not be a word itself: "apples", "apple" -> "appl".
-    """
-    if word.endswith("s") and not word.endswith("ss") and len(word) > 3:
-        word = word.removesuffix("s")
-    if len(word) > 3:
-        word = word.removesuffix("e")
-    if word.endswith("v"):
-        return word.removesuffix("v") + "f"
-    if word.endswith("i"):
-        return word.removesuffix("i") + "y"
-    return word
-
-
-def spoken(name: str) -> str:
-    """A name as one says it: `sugar_box` -> "sugar box", `LivingRoom` -> "living room"."""
-    apart = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name)
-    return " ".join(apart.replace("_", " ").replace("-", " ").split()).lower()
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,13 +57,13 @@ class PlaceNames:
             return (spoken(kind), *called.get(kind, ()))
 
         rooms = (
-            [(_content(p.room), p.room) for p in places],
-            [(_content(name), p.room) for p in places for name in names_of(p.room_kind)],
+            [(place_words(p.room), p.room) for p in places],
+            [(place_words(name), p.room) for p in places for name in names_of(p.room_kind)],
         )
         furniture = (
             [(words, p.name) for p in places for words in _orders(p)],
-            [(_content(base_name(p)), p.name) for p in places],
-            [(_content(name), p.name) for p in places for name in names_of(p.kind)],
+            [(place_words(base_name(p)), p.name) for p in places],
+            [(place_words(name), p.name) for p in places for name in names_of(p.kind)],
         )
         self._rooms, self._furniture = index_by_words(*rooms), index_by_words(*furniture)
         self._vocabulary = {
@@ -109,10 +77,10 @@ class PlaceNames:
         ("dinning table") is read as the word that it is near to.
         """
         found: list[str] = []
-        for clause in _CLAUSE_ENDS.split(text.casefold()):
-            if _NEGATION.search(clause):
+        for clause in CLAUSE_ENDS.split(text.casefold()):
+            if NEGATION.search(clause):
                 continue
-            reading = self._read(map(self._without_slip, _content(clause)))
+            reading = self._read(map(self._without_slip, place_words(clause)))
             found.extend(reading.furniture)
             for room in reading.rooms:
                 found.extend(self._pieces_in[room])
@@ -120,7 +88,7 @@ class PlaceNames:
 
     def exactly(self, name: str) -> Reading:
         """The one piece of furniture or the one room that all of a name fits, else nothing."""
-        reading = self._read(_content(_ENUMERATION.sub("", name)))
+        reading = self._read(place_words(_ENUMERATION.sub("", name)))
         if reading.unknown or len(reading.furniture) + len(reading.rooms) != 1:
             return Reading()
         return reading
@@ -170,14 +138,9 @@ class PlaceNames:
         return 1, (), furniture
 
 
-def _content(text: str) -> Words:
-    """The words that say which place it is: all but the prepositions."""
-    return tuple(w for w in words_of(text) if w not in _PREPOSITIONS)
-
-
 def _orders(place: Place) -> tuple[Words, ...]:
     """A name and, where it says the room, the same with the room first: "kitchen cabinet"."""
-    name, base = _content(place.name), _content(base_name(place))
+    name, base = place_words(place.name), place_words(base_name(place))
     room = tuple(w for w in name if w not in base)
     return name, (*room, *base)
 

@@ -8,14 +8,16 @@ from rdflib import RDF, URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
+from executive.language.phrases import MOST_WORDS, spoken, words_of
 from executive.text import printable
-from executive.types import Place
+from executive.types import Place, Thing
 from kb.ontology.graph import Graph
 from kb.ontology.home_file import home_file
 from kb.ontology.library import Library
-from kb.ontology.names import MOST_WORDS, PlaceNames, index_by_words, spoken, unique, words_of
+from kb.ontology.names import PlaceNames, index_by_words, unique
 from kb.ontology.owl import OwlFile, ending, read
 from kb.ontology.table import Table
+from kb.ontology.things import put_thing
 from kb.ontology.unused import unused
 from kb.ontology.validation import ROOTS, faults
 
@@ -55,6 +57,7 @@ class Ontology:
         self,
         places: Sequence[Place] = (),
         *,
+        things: Sequence[Thing] = (),
         defaults: bool = True,
         files: Sequence[Path | OwlFile] = (),
         person: str | None = None,
@@ -65,6 +68,7 @@ class Ontology:
 
         Args:
             places: the furniture of the home.
+            things: the objects that the home declares, each a class below the one it names.
             defaults: whether to load defaults.owl.
             files: a person's own OWL files, or what was read of them, which add to ours or
                 replace them.
@@ -72,8 +76,9 @@ class Ontology:
 
         Raises:
             InputError: if a file is no ontology or is called like another; if what replaces
-                household.owl lacks a name that every home needs, a place is of a class that the
-                ontology does not have, or nobody knows the person.
+                household.owl lacks a name that every home needs, a place or a thing is of a class
+                that the ontology does not have, a thing is called like something else, or nobody
+                knows the person.
         """
         paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
         read_files = (file if isinstance(file, OwlFile) else read(file) for file in paths)
@@ -84,10 +89,12 @@ class Ontology:
         self._places = {place.name: place for place in places}
         self._order = {name: number for number, name in enumerate(self._places)}
         self._kinds = {
-            root: _by_name(self._graph.downwards(_class(root))) for root in ("Furniture", "Room")
+            root: _by_name(self._graph.downwards(_class(root)))
+            for root in ("Furniture", "Room", "Object")
         }
         for place in places:
             self._add(place)
+        self._added = self._add_things(things)
         label, names = self._graph.label, self._graph.names
         self._things = tuple(self._graph.downwards(_class("Object")))
         self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
@@ -200,7 +207,7 @@ class Ontology:
     def files(self) -> Mapping[str, bytes]:
         """The loaded files by name, and what the home adds to them, to be kept with the log."""
         kinds, rooms = self._kinds["Furniture"], self._kinds["Room"]
-        home = home_file(INDIVIDUALS, _class("isIn"), self.places(), kinds, rooms)
+        home = home_file(INDIVIDUALS, _class("isIn"), self.places(), kinds, rooms, self._added)
         return {**self._library.contents(), "home.owl": home}
 
     def faults(self) -> Iterator[str]:
@@ -294,14 +301,26 @@ class Ontology:
         self._graph.put(piece, _class("isIn"), room)
 
     def _individual(self, name: str, kind: str, root: str) -> Identifier:
+        individual = URIRef(INDIVIDUALS + name)
+        self._graph.put(individual, RDF.type, self._kind(name, kind, root))
+        return individual
+
+    def _kind(self, name: str, kind: str, root: str) -> Identifier:
         class_ = self._kinds[root].get(kind)
         if class_ is None:
             known = ", ".join(self._kinds[root])
             fault = f"is a {printable(kind)!r}, which the ontology lacks"
             raise InputError(printable(name), fault, f"known are {known}")
-        individual = URIRef(INDIVIDUALS + name)
-        self._graph.put(individual, RDF.type, class_)
-        return individual
+        return class_
+
+    def _add_things(self, things: Iterable[Thing]) -> dict[str, Identifier]:
+        """Put the objects of the home in; what no file has, and the class right above it."""
+        added = {}
+        for thing in things:
+            kind = self._kind(f"object {thing.name}", thing.kind, "Object")
+            if put_thing(self._graph, thing.name, kind, URIRef(INDIVIDUALS + thing.name), CLASSES):
+                added[thing.name] = kind
+        return added
 
     def _index(self) -> dict[str, tuple[str, ...]]:
         """Words, run together -> names of the objects that they may mean."""

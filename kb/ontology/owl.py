@@ -19,7 +19,7 @@ from rdflib.term import Identifier
 from executive.errors import ExecutiveError, InputError
 from executive.text import printable
 from kb.ontology.bounds import base_of_bounded
-from kb.ontology.syntax import is_xml, turtle_text
+from kb.ontology.syntax import SAVE, beyond_turtle, is_xml, turtle_text
 
 Triple = tuple[Identifier, Identifier, Identifier]
 """Subject, predicate, object: an IRI, a blank node or a literal, each a str."""
@@ -147,6 +147,8 @@ def _triples(
     except RecursionError:
         raise InputError(where, "is nested too deep", "give what is inside a name") from None
     except Exception as error:  # parsers meet what their authors did not think of
+        if isinstance(content, str) and (other := beyond_turtle(content)):
+            raise InputError(where, f"is in {other}, which is not read", SAVE) from None
         fault = f"cannot be read as {called}: {_reason(error)}"
         raise InputError(where, fault) from None
     return tuple(graph.triples_read)

@@ -15,12 +15,18 @@ MOST_ESCAPES = 100_000
 
 _XML = re.compile(r"<(?:\?xml|!|rdf:RDF\b|[A-Za-z_][\w.:-]*(?:\s|/>)|[A-Za-z_][\w.-]*>)")
 """Turtle may begin with `<urn:x>`, which is no element, because nothing says what `urn` is."""
+_PAGE = re.compile(r"<!doctype\s+html|<html\b", re.IGNORECASE)
 _OTHERS = (
     ("OWL functional syntax", re.compile(r"(?:Prefix|Ontology)\s*\(")),
     ("Manchester syntax", re.compile(r"(?:Prefix|Ontology|Namespace)\s*:")),
-    ("JSON-LD", re.compile(r"\{|\[\s*\{")),
+    ("JSON-LD", re.compile(r"\{\s*[\"}]|\[\s*\{")),
+    ("TriG", re.compile(r"\{|GRAPH\s", re.IGNORECASE)),
     ("OBO", re.compile(r"format-version\s*:|\[Term\]")),
 )
+_BRACES = re.compile(
+    r"^[ \t]*(?:GRAPH[ \t]+)?(?:<[^<>\n]*>|[\w.-]*:[\w.-]*)?[ \t]*\{", re.IGNORECASE | re.MULTILINE
+)
+_QUADS = re.compile(r"^(?:<[^<>\s]*>|_:\S+) <[^<>\s]*> \S.* <[^<>\s]*> \.[ \t]*$", re.MULTILINE)
 _TURTLE = re.compile(r"@?(?:prefix|base)\b|<|_:|\[|\(|\w*:\w", re.IGNORECASE)
 
 
@@ -31,6 +37,8 @@ def is_xml(content: bytes, where: str) -> bool:
         InputError: if it is neither, with what to save it as.
     """
     start = _without_comments(_decoded(content[:START], "replace"))
+    if _PAGE.match(start):
+        raise InputError(where, "is a web page (HTML), no ontology", f"get the file itself; {SAVE}")
     if _XML.match(start):
         return True
     for name, begins in _OTHERS:
@@ -40,6 +48,13 @@ def is_xml(content: bytes, where: str) -> bool:
         begins_with = f"begins with {printable(start[:30])!r}" if start else "is empty"
         raise InputError(where, f"is no ontology: it {begins_with}", SAVE)
     return False
+
+
+def beyond_turtle(text: str) -> str | None:
+    """Which syntax a text is in that begins as Turtle does, and is none."""
+    if _BRACES.search(text):
+        return "Notation3" if "=>" in text else "TriG"
+    return "N-Quads" if _QUADS.search(text) else None
 
 
 def turtle_text(content: bytes, where: str) -> str:

@@ -7,11 +7,11 @@ from itertools import islice
 from rdflib import RDFS, BNode, Literal, URIRef
 from rdflib.term import Identifier
 
-from executive.language.control import control
+from executive.language.naming import heard_as
+from executive.language.phrases import Words, words_of
 from executive.text import printable
-from kb.ontology.dangling import dangling
+from kb.ontology.dangling import broken_lists, dangling
 from kb.ontology.graph import STANDARDS, Graph
-from kb.ontology.names import Words, words_of
 from kb.ontology.owl import ending
 
 ROOTS = ("Object", "Furniture", "Room", "Person")
@@ -34,6 +34,7 @@ def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterato
     roots = {name: URIRef(namespace + name) for name in ROOTS}
     links = list(dangling(graph, strict=imports_met))
     yield from _some(dict.fromkeys(map(str, links)), "links to nothing")
+    yield from _some(broken_lists(graph), "broken lists")
     yield from _some(_cycles(graph), "circles")
     told = {link.subject for link in links}
     yield from _some(_outsiders(graph, list(roots.values()), told), "in no class")
@@ -104,9 +105,8 @@ def _taken(graph: Graph, things: Iterable[Identifier]) -> Iterator[str]:
             if words_of(name) in taken:
                 fault = f"{ending(thing)} is called {name!r}, as the robot calls something else"
                 yield f"{fault}: rename it"
-            elif control(name):
-                fault = f"{ending(thing)} is called {name!r}, which tells the robot to stop"
-                yield f"{fault}: rename it"
+            elif meaning := heard_as(name):
+                yield f"{ending(thing)} is called {name!r}, which {meaning}: rename it"
 
 
 def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:

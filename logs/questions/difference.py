@@ -13,7 +13,7 @@ from logs.recording.reader import At, Run
 
 OF_THE_RUN = ("mission_time_s", "thinking_time_s", "wall_time_s", "run_dir")
 """What an outcome says about this one run, whatever was decided."""
-MEASURED = ("deadlines", "sighting", "unreached", "reason")
+MEASURED = ("deadlines", "sighting", "doubtful", "unreached", "unplaced", "model_failure", "reason")
 """What a situation holds of measured times and places: no two runs share them to a digit."""
 ENDED = "has ended"
 
@@ -110,7 +110,7 @@ def _facts(
 ) -> Iterator[Aspect]:
     """Values that differ, as JSON would keep them."""
     for name, value in one.items():
-        if name in left_out or name not in other:
+        if name in left_out or name not in other or value is other[name]:
             continue
         texts = [json.dumps(v, default=_plain) for v in (value, other[name])]
         if texts[0] != texts[1]:

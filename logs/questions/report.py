@@ -7,7 +7,7 @@ from textwrap import shorten
 from typing import Any
 
 from executive.records import LlmCall, NodeState, Tick, Verified
-from executive.text import printable
+from executive.text import counted, printable
 from executive.types import Replied, Scored
 from logs.recording.events import in_words
 from logs.recording.reader import At, Run
@@ -157,7 +157,7 @@ def summary_text(rows: Sequence[Row]) -> str:
 
 
 def _in_words(row: Row) -> str:
-    size = f"{row['ticks']} ticks, {row['frames']} frames"
+    size = f"{counted(row['ticks'], 'tick')}, {counted(row['frames'], 'frame')}"
     outcome = row["outcome"]
     name = printable(row["run"])
     if outcome is None:
@@ -170,8 +170,9 @@ def _in_words(row: Row) -> str:
         f"{name}: {outcome['command']!r} {outcome['status']}{where}{reason}",
         f"    {outcome['mission_time_s']:.1f} s, "
         f"of them {outcome['thinking_time_s']:.1f} s thinking; "
-        f"{outcome['llm_calls']} calls of the model, {outcome['inquiries']} questions, "
-        f"{len(outcome['visited'])} places visited; {size}",
+        f"{counted(outcome['llm_calls'], 'call')} of the model, "
+        f"{counted(outcome['inquiries'], 'question')}, "
+        f"{counted(len(outcome['visited']), 'place')} visited; {size}",
         f"    seconds by behaviour: {split or 'none'}",
         *(f"    {m['time_s']:.1f} s {m['fault']}: {m['text']}" for m in row["mishaps"]),
     ]

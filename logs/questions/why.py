@@ -4,29 +4,21 @@ Every fallback of the tree is a decision. Its children are the alternatives: the
 was taken, those before it failed and said why, those after it were not needed.
 """
 
+import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 from dataclasses import dataclass, replace
 from heapq import merge
 
-from executive.records import LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
+from executive.records import Activity, LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
 from executive.text import printable
 from executive.types import Scored
 from logs.recording.reader import At, Run
 
-SOURCES = {
-    "ReadCommand": "person",
-    "Ontology": "ontology",
-    "Rank": "llm",
-    "Adopt": "llm",
-    "Ask": "user",
-    "Confirm": "user",
-}
-"""Who speaks through a behaviour whose class name begins so."""
-
 WORLD = "world"
 """Whose doing an ordered fault is."""
 NOT_NEEDED = "not needed"
+_VERB = re.compile(r"\b(is|was|may)\b")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +37,8 @@ class Decision:
         time_s: mission time at which it was settled.
         question: what was to be settled, as the tree names it.
         answer: what came of it.
-        source: `person`, `ontology`, `llm`, `user`, `eyes` or `world`; empty where the tree itself
-            decides.
+        source: as the behaviour declares it: `person`, `ontology`, `llm`, `user`; or `eyes`, or
+            `world`; empty where the tree itself decides.
         by: the behaviour that settled it.
         alternatives: what was not taken.
     """
@@ -79,6 +71,7 @@ class _Chain:
     def __init__(self, run: Run) -> None:
         self._run = run
         self._family = _Family(run.tree())
+        self._searches = {n.path for n in run.tree().nodes if n.activity == Activity.SEARCHING}
         self._reasons: dict[str, str] = {}
         self._thoughts: list[LlmCall | Verified] = []
 
@@ -90,7 +83,7 @@ class _Chain:
                 continue
             at = At(thought.time_s, thought.value)
             states = {node.path: node for node in at.value.nodes}
-            yield from _visits(before, at)
+            yield from _visits(before, at, self._searches)
             earlier = {node.path: node.status for node in before.value.nodes} if before else {}
             yield from _outermost(
                 self._decision(at, fallback, states)
@@ -116,11 +109,16 @@ class _Chain:
         if taken is None:
             return Decision(at.time_s, fallback.name, "nothing worked", "", "", tuple(alternatives))
         last = self._last(taken, lambda leaf: states[leaf.path].status == "SUCCESS") or taken
-        source = _source(last)
-        if source:
+        if last.source:
             alternatives += dict.fromkeys(self._passed_over(at))
-        answer = states[last.path].message or taken.name
-        return Decision(at.time_s, fallback.name, answer, source, last.path, tuple(alternatives))
+        return Decision(
+            time_s=at.time_s,
+            question=fallback.name,
+            answer=states[last.path].message or taken.name,
+            source=last.source,
+            by=last.path,
+            alternatives=tuple(alternatives),
+        )
 
     def _passed_over(self, at: At[Tick]) -> Iterator[Alternative]:
         """What the model named or scored since the last such decision, and did not come through."""
@@ -145,7 +143,7 @@ class _Chain:
             return "did not succeed"
         now = states[leaf.path]
         said = now.message if now.status == "FAILURE" else self._reasons[leaf.path]
-        return said or ("no" if leaf is child else f"not {leaf.name}")
+        return said or ("no" if leaf is child else denied(leaf.name))
 
     def _last(self, node: NodeShape, holds: Callable[[NodeShape], bool]) -> NodeShape | None:
         return next(filter(holds, reversed(self._family.leaves[node.path])), None)
@@ -200,12 +198,11 @@ def _outermost(settled: Iterable[Decision]) -> Iterator[Decision]:
         yield last
 
 
-def _source(leaf: NodeShape) -> str:
-    return next((who for prefix, who in SOURCES.items() if leaf.class_name.startswith(prefix)), "")
+def _visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> Iterator[Decision]:
+    """Where the thing was looked for, told when the robot is through with the place.
 
-
-def _visits(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
-    """Where the thing was looked for, told when the robot is through with the place."""
+    `searches` are the paths of what serves to look for it.
+    """
     if before is None:
         return
     was, now = before.value.situation, at.value.situation
@@ -213,30 +210,21 @@ def _visits(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
         return
     place = was["candidate"]["place"]
     tip = before.value.tip
+    is_left = now.get("candidate") != was.get("candidate") or not _runs(searches, at)
     for lost, why_not in (now.get("unreached") or {}).items():
         if lost not in (was.get("unreached") or {}):
             yield Decision(at.time_s, f"look at {lost}", f"not reached: {why_not}", "", tip)
     if now.get("found"):
         if not was.get("found"):
             yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
-    elif _was_looking(before) and place in (was.get("visited") or ()) and _is_left(was, now, at):
+    elif _runs(searches, before) and place in (was.get("visited") or ()) and is_left:
         why_not = (now.get("unseen") or {}).get(place)
         seen = f"not all of it seen: {why_not}" if why_not else "not seen there"
         yield Decision(at.time_s, f"look at {place}", seen, "eyes", tip)
 
 
-def _was_looking(at: At[Tick]) -> bool:
-    """Whether the robot was at a place to look for the thing, or to look for it once more."""
-    looks = ("/go and look", "/another approach")
-    return any(node.status == "RUNNING" and node.path.endswith(looks) for node in at.value.nodes)
-
-
-def _is_left(was: dict[str, object], now: dict[str, object], at: At[Tick]) -> bool:
-    """Whether the search went on to another place, or ended."""
-    searching = any(
-        node.status == "RUNNING" and node.path.endswith("/go and look") for node in at.value.nodes
-    )
-    return now.get("candidate") != was.get("candidate") or not searching
+def _runs(paths: Container[str], at: At[Tick]) -> bool:
+    return any(node.status == "RUNNING" and node.path in paths for node in at.value.nodes)
 
 
 def _outranked(call: LlmCall) -> list[Alternative]:
@@ -244,6 +232,12 @@ def _outranked(call: LlmCall) -> list[Alternative]:
         return []
     ranked = sorted(zip(call.result.scores, call.result.request.places, strict=True), reverse=True)
     return [Alternative(place, f"scored {score:.2f}") for score, place in ranked]
+
+
+def denied(condition: str) -> str:
+    """The contrary of a condition, named as it reads when true: `in my hand`, `it was there`."""
+    contrary, verbs = _VERB.subn(r"\1 not", condition, count=1)
+    return contrary if verbs else f"not {condition}"
 
 
 def why_text(decisions: Iterable[Decision]) -> str:

@@ -1,7 +1,8 @@
-"""Events to `/event` messages, and back: all that a behaviour may read of them."""
+"""Events to the fields of `/event` messages, and back: all that a behaviour may read of them."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar, assert_never, get_args
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from executive.events import (
     Started,
     StopRequested,
 )
-from executive.records import LlmCall
+from executive.records import EventTaken, LlmCall
 from executive.types import (
     Answered,
     Box,
@@ -26,90 +27,108 @@ from executive.types import (
     Scored,
     Succeeded,
 )
-from logs.recording.messages import llm_call_from_message, llm_call_to_message
-from logs.recording.schema import MESSAGES
+from logs.recording.messages import llm_call_from_message, llm_call_to_fields
 from logs.recording.sound import finite, whole
+
+T = TypeVar("T")
 
 MOST_PIXELS = 100_000
 """Along an edge of a picture."""
 
 
-def event_to_message(event: Event, mission_time_s: float) -> Any:
-    """`/event`: all that a behaviour may read of it, and its gist in words.
+def event_to_fields(taken: EventTaken) -> dict[str, Any]:
+    """`/event`: all that a behaviour may read of it, and its gist in words."""
+    event = taken.event
+    return {"name": type(event).__name__, "text": gist(event), **_beside_its_gist(event)}
 
-    Args:
-        event: as the executive took it.
-        mission_time_s: when it took it, to the last digit.
-    """
-    message = MESSAGES["Event"](
-        name=type(event).__name__, text=gist(event), mission_time_s=mission_time_s
-    )
+
+def _beside_its_gist(event: Event) -> dict[str, Any]:
     match event:
         case DeadlinePassed(time):
-            message.deadline_s = time
+            return {"deadline_s": time}
         case HandFelt(holding):
-            message.holding, message.numb = bool(holding), holding is None
+            return {"holding": bool(holding), "numb": holding is None}
         case Ended(request, result):
-            message.request = request
-            message.result = type(result).__name__
-            match result:
-                case Failed(lost=lost):
-                    message.lost = lost
-                case Saw(number, detections):
-                    message.frame_number = number
-                    for detection in detections:
-                        _add_detection(message.detections, detection)
-                case Replied() | Scored():
-                    message.llm_call.CopyFrom(llm_call_to_message(LlmCall(result)))
-    return message
+            return {"request": request, "result": type(result).__name__, **_result_fields(result)}
+        case Started() | StopRequested() | Broke():
+            return {}
+        case _:
+            assert_never(event)
 
 
-def event_from_message(message: Any) -> Event:
+def _result_fields(result: Result) -> dict[str, Any]:
+    match result:
+        case Failed(lost=lost):
+            return {"lost": lost}
+        case Saw(number, detections):
+            return {"frame_number": number, "detections": [_to_fields(d) for d in detections]}
+        case Replied() | Scored():
+            return {"llm_call": llm_call_to_fields(LlmCall(result))}
+        case Succeeded() | Answered():
+            return {}
+        case _:
+            assert_never(result)
+
+
+_EVENTS: dict[type, Callable[[Any], Event]] = {
+    Started: lambda message: Started(message.text),
+    Ended: lambda message: Ended(whole(message.request), _result(message)),
+    DeadlinePassed: lambda message: DeadlinePassed(finite(message.deadline_s)),
+    StopRequested: lambda message: StopRequested(message.text),
+    HandFelt: lambda message: HandFelt(None if message.numb else message.holding),
+    Broke: lambda message: Broke(message.text),
+}
+_RESULTS: dict[type, Callable[[Any], Result]] = {
+    Succeeded: lambda _: Succeeded(),
+    Failed: lambda message: Failed(message.text, message.lost),
+    Answered: lambda message: Answered(message.text),
+    Saw: lambda message: Saw(message.frame_number, tuple(map(_detection, message.detections))),
+    Replied: lambda message: llm_call_from_message(message.llm_call).result,
+    Scored: lambda message: llm_call_from_message(message.llm_call).result,
+}
+
+
+def by_name(read: Mapping[type, Callable[[Any], T]], union: Any) -> dict[str, Callable[[Any], T]]:
+    """How each type of a union is read, by its name, which is how a recording calls it.
+
+    Raises:
+        TypeError: if one is never read.
+    """
+    if unread := [kind.__name__ for kind in get_args(union) if kind not in read]:
+        what = f"{', '.join(unread)} could be recorded, but not be read"
+        raise TypeError(f"{what}: say how in logs/recording/events.py")
+    return {kind.__name__: how for kind, how in read.items()}
+
+
+_EVENT_NAMED = by_name(_EVENTS, Event)
+_RESULT_NAMED = by_name(_RESULTS, Result)
+
+
+def event_from_message(message: Any) -> EventTaken:
     """The event of an `/event` message; its detections are points without a mask."""
-    match message.name:
-        case "Started":
-            return Started(message.text)
-        case "Ended":
-            return Ended(whole(message.request), _result(message))
-        case "DeadlinePassed":
-            return DeadlinePassed(finite(message.deadline_s))
-        case "StopRequested":
-            return StopRequested(message.text)
-        case "HandFelt":
-            return HandFelt(None if message.numb else message.holding)
-        case "Broke":
-            return Broke(message.text)
-    raise ValueError(f"unknown event {message.name!r}")
+    if message.name not in _EVENT_NAMED:
+        raise ValueError(f"unknown event {message.name!r}")
+    return EventTaken(_EVENT_NAMED[message.name](message))
 
 
 def _result(message: Any) -> Result:
-    match message.result:
-        case "Succeeded":
-            return Succeeded()
-        case "Failed":
-            return Failed(message.text, message.lost)
-        case "Answered":
-            return Answered(message.text)
-        case "Saw":
-            return Saw(message.frame_number, tuple(_detection(d) for d in message.detections))
-        case "Replied" | "Scored":
-            return llm_call_from_message(message.llm_call).result
-    raise ValueError(f"unknown result {message.result!r}")
+    if message.result not in _RESULT_NAMED:
+        raise ValueError(f"unknown result {message.result!r}")
+    return _RESULT_NAMED[message.result](message)
 
 
-def _add_detection(field: Any, detection: Detection) -> None:
-    box = detection.box
-    message = field.add(
-        label=detection.label,
-        confidence=detection.confidence,
-        left=box.left,
-        top=box.top,
-        width=box.width,
-        height=box.height,
-        cut_off=detection.cut_off,
-    )
-    if detection.position is not None:
-        message.position.x, message.position.y, message.position.z = detection.position
+def _to_fields(detection: Detection) -> dict[str, Any]:
+    box, at = detection.box, detection.position
+    return {
+        "label": detection.label,
+        "confidence": detection.confidence,
+        "left": box.left,
+        "top": box.top,
+        "width": box.width,
+        "height": box.height,
+        "cut_off": detection.cut_off,
+        "position": None if at is None else dict(zip("xyz", at, strict=True)),
+    }
 
 
 def _detection(message: Any) -> Detection:

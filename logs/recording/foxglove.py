@@ -1,6 +1,5 @@
 """Records as Foxglove's well-known messages: pictures, frames, the scene, log lines."""
 
-from collections.abc import Iterable
 from mimetypes import guess_type
 from pathlib import Path
 
@@ -22,8 +21,18 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from foxglove_schemas_protobuf.Vector3_pb2 import Vector3 as Vector3Message
 from google.protobuf.timestamp_pb2 import Timestamp
 
-from executive.records import Entity, Note, PlannedPath, Seen, Shape, Transform
-from executive.types import Box, Color, Frame, Pose, Quaternion, Vector3
+from executive.records import (
+    Entity,
+    Note,
+    Picture,
+    PlannedPath,
+    Scene,
+    Seen,
+    Shape,
+    Transform,
+    Transforms,
+)
+from executive.types import Box, Color, Pose, Quaternion, Vector3
 from logs.images import jpeg
 
 CAMERA_FRAME = "camera_optical"
@@ -37,16 +46,16 @@ def timestamp(ns: int) -> Timestamp:
     return Timestamp(seconds=ns // 1_000_000_000, nanos=ns % 1_000_000_000)
 
 
-def compressed_image(frame: Frame, ns: int) -> CompressedImage:
+def compressed_image(picture: Picture, ns: int) -> CompressedImage:
     """The colours as JPEG."""
     return CompressedImage(
-        timestamp=timestamp(ns), frame_id=CAMERA_FRAME, data=jpeg(frame), format="jpeg"
+        timestamp=timestamp(ns), frame_id=CAMERA_FRAME, data=jpeg(picture.frame), format="jpeg"
     )
 
 
-def camera_calibration(frame: Frame, ns: int) -> CameraCalibration:
+def camera_calibration(picture: Picture, ns: int) -> CameraCalibration:
     """The intrinsics of a pinhole camera without distortion."""
-    i = frame.intrinsics
+    i = picture.frame.intrinsics
     return CameraCalibration(
         timestamp=timestamp(ns),
         frame_id=CAMERA_FRAME,
@@ -84,11 +93,17 @@ def image_annotations(seen: Seen, ns: int) -> ImageAnnotations:
     return message
 
 
-def frame_transforms(transforms: Iterable[Transform], ns: int) -> FrameTransforms:
+def camera_transform(picture: Picture, ns: int) -> FrameTransforms:
+    """Where the camera was when it took the picture."""
+    pose = Transform("map", CAMERA_FRAME, picture.frame.pose)
+    return frame_transforms(Transforms((pose,)), ns)
+
+
+def frame_transforms(transforms: Transforms, ns: int) -> FrameTransforms:
     """Where frames are in their parents."""
     time = timestamp(ns)
     message = FrameTransforms()
-    for t in transforms:
+    for t in transforms.transforms:
         message.transforms.add(
             timestamp=time,
             parent_frame_id=t.parent,
@@ -99,9 +114,9 @@ def frame_transforms(transforms: Iterable[Transform], ns: int) -> FrameTransform
     return message
 
 
-def scene_update(entities: Iterable[Entity], ns: int) -> SceneUpdate:
+def scene_update(scene: Scene, ns: int) -> SceneUpdate:
     """Things with their shapes, each fixed in its frame."""
-    return SceneUpdate(entities=[_entity(e, ns) for e in entities])
+    return SceneUpdate(entities=[_entity(e, ns) for e in scene.entities])
 
 
 def path_update(path: PlannedPath, ns: int) -> SceneUpdate:

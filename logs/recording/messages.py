@@ -1,19 +1,13 @@
-"""Records to the messages of `schema.py`, and back: each pair side by side."""
+"""Records to the fields of the messages in `schema.py`, and messages back: each pair side by side.
+
+What is read is checked, for a recording may be a stranger's.
+"""
 
 import json
 from math import isfinite
 from typing import Any
 
-from executive.records import (
-    LlmCall,
-    Mishap,
-    NodeShape,
-    NodeState,
-    Tick,
-    TreeShape,
-    Utterance,
-    Verified,
-)
+from executive.records import Finished, LlmCall, NodeShape, NodeState, Tick, TreeShape
 from executive.types import (
     Candidate,
     ChatRequest,
@@ -25,11 +19,11 @@ from executive.types import (
     RankRequest,
     Replied,
     Scored,
-    Source,
     Usage,
 )
-from logs.recording.schema import MESSAGES, STATUS
+from logs.recording.schema import STATUS
 from logs.recording.sound import MOST, MOST_DEEP, check_situation, finite, json_value, whole
+from logs.recording.undeclared import told_from_names
 
 MOST_BEHAVIOURS = 2000
 _PARAMETERS = ("temperature", "top_p", "top_k", "seed", "max_tokens")
@@ -38,22 +32,27 @@ _PARAMETERS = ("temperature", "top_p", "top_k", "seed", "max_tokens")
 # --- the tree ---
 
 
-def tree_to_message(tree: TreeShape) -> Any:
+def tree_to_fields(tree: TreeShape) -> dict[str, Any]:
     """`/bt/tree`."""
     children: dict[str, list[str]] = {}
     for node in tree.nodes:
         children.setdefault(node.parent, []).append(node.path)
-    message = MESSAGES["BehaviourTree"]()
-    for node in tree.nodes:
-        message.behaviours.add(
-            own_id=node.path,
-            parent_id=node.parent,
-            child_ids=children.get(node.path, ()),
-            name=node.name,
-            class_name=node.class_name,
-            type=node.kind,
-        )
-    return message
+    return {
+        "behaviours": [
+            {
+                "own_id": node.path,
+                "parent_id": node.parent,
+                "child_ids": children.get(node.path, ()),
+                "name": node.name,
+                "class_name": node.class_name,
+                "type": node.kind,
+                "source": node.source,
+                "activity": node.activity,
+                "stage": node.stage,
+            }
+            for node in tree.nodes
+        ]
+    }
 
 
 def tree_from_message(message: Any) -> TreeShape:
@@ -71,29 +70,38 @@ def tree_from_message(message: Any) -> TreeShape:
         levels[b.own_id] = levels[b.parent_id] + 1
         if levels[b.own_id] > MOST_DEEP:
             raise ValueError(f"a tree of more than {MOST_DEEP} levels")
-    return TreeShape(
-        tuple(
-            NodeShape(b.own_id, b.parent_id, b.name, b.type, b.class_name)
-            for b in message.behaviours
-        )
+    return TreeShape(tuple(map(_node_from, message.behaviours)))
+
+
+def _node_from(b: Any) -> NodeShape:
+    """What a recording from before behaviours declared it does not say, their names did."""
+    node = NodeShape(
+        b.own_id, b.parent_id, b.name, b.type, b.class_name, b.source, b.activity, b.stage
     )
+    return node if b.HasField("source") else told_from_names(node)
 
 
-def tick_to_message(tick: Tick) -> Any:
+def tick_to_fields(tick: Tick) -> dict[str, Any]:
     """`/bt/tick`: each behaviour's status, and what the mission knows as JSON values by name."""
-    message = MESSAGES["Tick"](
-        tick=tick.number, cause=tick.cause, tip_id=tick.tip, duration_s=tick.duration_s
-    )
-    for node in tick.nodes:
-        message.behaviours.add(
-            own_id=node.path,
-            status=node.status,
-            message=node.message,
-            is_active=node.status != "INVALID",
-        )
-    for key, value in tick.situation.items():
-        message.situation.add(key=key, value=json.dumps(value, default=str))
-    return message
+    return {
+        "tick": tick.number,
+        "cause": tick.cause,
+        "tip_id": tick.tip,
+        "behaviours": [
+            {
+                "own_id": node.path,
+                "status": node.status,
+                "message": node.message,
+                "is_active": node.status != "INVALID",
+            }
+            for node in tick.nodes
+        ],
+        "situation": [
+            {"key": key, "value": json.dumps(value, default=str)}
+            for key, value in tick.situation.items()
+        ],
+        "duration_s": tick.duration_s,
+    }
 
 
 def tick_from_message(message: Any) -> Tick:
@@ -126,39 +134,54 @@ def _status(number: int) -> str:
 # --- the language model ---
 
 
-def llm_call_to_message(call: LlmCall) -> Any:
+def llm_call_to_fields(call: LlmCall) -> dict[str, Any]:
     """`/llm/call`: what was asked and answered, the parameters, tokens and times."""
     result, usage = call.result, call.result.usage
-    message = MESSAGES["LlmCall"](
-        label=result.request.label,
-        gen_ai_operation_name="chat" if isinstance(result, Replied) else "rank",
-        gen_ai_request_model=usage.model,
-        gen_ai_response_time_to_first_chunk=usage.first_token_s,
-        gen_ai_usage_input_tokens=_figure(usage.input_tokens),
-        gen_ai_usage_cache_read_input_tokens=_figure(usage.input_tokens - usage.evaluated_tokens),
-        gen_ai_usage_output_tokens=_figure(usage.output_tokens),
-        duration_s=usage.total_s,
-        prepared_tokens=_figure(usage.prepared_tokens),
-        prepared_s=usage.prepared_s,
-    )
-    _add_parameters(message, usage)
-    _add_turns(message.gen_ai_input_messages, result.request.messages)
-    if isinstance(result, Replied):
-        message.gen_ai_output_messages.add(role="assistant", content=result.text)
-        message.gen_ai_response_finish_reasons.append(result.finish_reason)
-        if result.request.schema is not None:
-            message.output_schema = json.dumps(result.request.schema)
-    else:
-        request = result.request
-        _add_turns(message.neutral_messages, request.neutral)
-        for text, place, score in zip(request.options, request.places, result.scores, strict=True):
-            message.options.add(text=text, place=place, score=score)
-        for known in request.precedents:
-            message.precedents.add(
-                question=known.messages[-1].content, places=known.places, kind=known.kind
+    return {
+        "label": result.request.label,
+        "gen_ai_request_model": usage.model,
+        **_parameters_to_fields(usage),
+        "gen_ai_input_messages": _turns_to_fields(result.request.messages),
+        "gen_ai_response_time_to_first_chunk": usage.first_token_s,
+        "gen_ai_usage_input_tokens": _figure(usage.input_tokens),
+        "gen_ai_usage_cache_read_input_tokens": _figure(
+            usage.input_tokens - usage.evaluated_tokens
+        ),
+        "gen_ai_usage_output_tokens": _figure(usage.output_tokens),
+        "duration_s": usage.total_s,
+        "prepared_tokens": _figure(usage.prepared_tokens),
+        "prepared_s": usage.prepared_s,
+        **(_reply(result) if isinstance(result, Replied) else _ranking(result)),
+    }
+
+
+def _reply(replied: Replied) -> dict[str, Any]:
+    schema = replied.request.schema
+    return {
+        "gen_ai_operation_name": "chat",
+        "gen_ai_output_messages": [{"role": "assistant", "content": replied.text}],
+        "gen_ai_response_finish_reasons": [replied.finish_reason],
+        "output_schema": None if schema is None else json.dumps(schema),
+    }
+
+
+def _ranking(scored: Scored) -> dict[str, Any]:
+    request = scored.request
+    return {
+        "gen_ai_operation_name": "rank",
+        "neutral_messages": _turns_to_fields(request.neutral),
+        "options": [
+            {"text": text, "place": place, "score": score}
+            for text, place, score in zip(
+                request.options, request.places, scored.scores, strict=True
             )
-        message.kind = request.kind
-    return message
+        ],
+        "precedents": [
+            {"question": p.messages[-1].content, "places": p.places, "kind": p.kind}
+            for p in request.precedents
+        ],
+        "kind": request.kind,
+    }
 
 
 def llm_call_from_message(message: Any) -> LlmCall:
@@ -212,12 +235,14 @@ def _figure(count: float) -> int:
     return int(count) if isfinite(count) and 0 <= count <= MOST else 0
 
 
-def _add_parameters(message: Any, usage: Usage) -> None:
+def _parameters_to_fields(usage: Usage) -> dict[str, Any]:
+    fields, others = dict[str, Any](), list[dict[str, str]]()
     for name, value in usage.parameters.items():
         if name in _PARAMETERS and not isinstance(value, str):
-            setattr(message, f"gen_ai_request_{name}", value)
+            fields[f"gen_ai_request_{name}"] = value
         else:
-            message.other_parameters.add(key=name, value=json.dumps(value))
+            others.append({"key": name, "value": json.dumps(value)})
+    return {**fields, "other_parameters": others}
 
 
 def _parameters(message: Any) -> dict[str, float | int | str]:
@@ -228,94 +253,50 @@ def _parameters(message: Any) -> dict[str, float | int | str]:
     } | {pair.key: json_value(pair.value) for pair in message.other_parameters}
 
 
-def _add_turns(field: Any, messages: tuple[Message, ...]) -> None:
-    for message in messages:
-        field.add(role=message.role, content=message.content)
+def _turns_to_fields(messages: tuple[Message, ...]) -> list[dict[str, str]]:
+    return [{"role": message.role, "content": message.content} for message in messages]
 
 
 def _turns(field: Any) -> tuple[Message, ...]:
     return tuple(Message(turn.role, turn.content) for turn in field)
 
 
-def verified_to_message(verified: Verified) -> Any:
-    """`/llm/verification`."""
-    return MESSAGES["LlmVerification"](
-        label=verified.label,
-        accepted=verified.accepted,
-        rooms=verified.rooms,
-        dropped=verified.dropped,
-    )
-
-
-def verified_from_message(message: Any) -> Verified:
-    """The verification of a `/llm/verification` message."""
-    return Verified(
-        message.label, tuple(message.accepted), tuple(message.rooms), tuple(message.dropped)
-    )
-
-
-# --- talk ---
-
-
-def utterance_to_message(utterance: Utterance) -> Any:
-    """`/dialog`."""
-    return MESSAGES["Utterance"](speaker=utterance.speaker, text=utterance.text)
-
-
-def utterance_from_message(message: Any) -> Utterance:
-    """The utterance of a `/dialog` message."""
-    return Utterance(message.speaker, message.text)
-
-
-# --- what went wrong by order ---
-
-
-def mishap_to_message(mishap: Mishap) -> Any:
-    """`/mishap`."""
-    return MESSAGES["Mishap"](fault=mishap.fault, text=mishap.text)
-
-
-def mishap_from_message(message: Any) -> Mishap:
-    """The mishap of a `/mishap` message."""
-    return Mishap(message.fault, message.text)
-
-
 # --- the end ---
 
 
-def outcome_to_message(outcome: Outcome) -> Any:
+def finished_to_fields(finished: Finished) -> dict[str, Any]:
     """`/outcome`."""
-    message = MESSAGES["Outcome"](
-        **{name: getattr(outcome, name) for name in Outcome.__slots__ if name != "candidates"}
-    )
-    for c in outcome.candidates:
-        message.candidates.add(place=c.place, source=c.source, probability=c.probability)
-    return message
+    outcome = finished.outcome
+    return {
+        **{name: getattr(outcome, name) for name in Outcome.__slots__},
+        "candidates": [
+            {"place": c.place, "source": c.source, "probability": c.probability}
+            for c in outcome.candidates
+        ],
+    }
 
 
-def outcome_from_message(message: Any) -> Outcome:
-    """The outcome of an `/outcome` message."""
+def finished_from_message(message: Any) -> Finished:
+    """The end of an `/outcome` message."""
 
     def optional(name: str) -> str | None:
         return getattr(message, name) if message.HasField(name) else None
 
-    kind, source = optional("kind"), optional("source")
-    return Outcome(
+    kind = optional("kind")
+    outcome = Outcome(
         command=message.command,
         kind=CommandKind(kind) if kind else None,
         target=optional("target"),
         object=optional("object"),
         status=MissionStatus(message.status),
         reason=message.reason,
-        source=Source(source) if source else None,
+        source=optional("source"),
         location=optional("location"),
         inquiries=whole(message.inquiries),
         visited=tuple(message.visited),
         llm_calls=whole(message.llm_calls),
         candidates=tuple(
-            Candidate(
-                c.place, Source(c.source), c.probability if c.HasField("probability") else None
-            )
+            Candidate(c.place, c.source, c.probability if c.HasField("probability") else None)
             for c in message.candidates
         ),
         mission_time_s=finite(message.mission_time_s),
@@ -324,3 +305,4 @@ def outcome_from_message(message: Any) -> Outcome:
         run_dir=optional("run_dir"),
         model_failure=message.model_failure,
     )
+    return Finished(outcome)

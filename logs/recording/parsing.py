@@ -7,10 +7,10 @@ from google.protobuf.message import Message as ProtobufMessage
 from mcap.records import Channel, McapRecord, Message, Schema
 from pydantic import ValidationError
 
+from logs.recording.channels import TOPICS, is_own, most_in
 from logs.recording.mcap_file import MiB
-from logs.recording.schema import recorded_class
+from logs.recording.older import recorded_class
 from logs.recording.sound import in_mission
-from logs.recording.topics import TOPICS, is_own, most_in
 
 MOST_READ = 1024 * MiB
 """Memory that the messages of our own which one question reads may take, by a generous estimate."""

@@ -1,6 +1,6 @@
 """A recorded mission, read back as the records it was made of."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -10,20 +10,31 @@ from mcap.records import Attachment, Channel, McapRecord, Message, Metadata
 
 from executive.errors import InputError
 from executive.events import Event
-from executive.records import LlmCall, Mishap, Tick, TreeShape, Utterance, Verified
+from executive.records import (
+    EventTaken,
+    Finished,
+    LlmCall,
+    Mishap,
+    Record,
+    Tick,
+    TreeShape,
+    Utterance,
+    Verified,
+)
 from executive.text import printable
 from executive.toml_file import parse_toml
 from executive.types import Outcome
-from logs.recording import messages
+from logs.recording.channels import decoder
+from logs.recording.context import nanoseconds
 from logs.recording.events import event_from_message
 from logs.recording.mcap_file import Damage, is_whole, records
 from logs.recording.parsing import MISFITS, Parsing, in_few_words
 from logs.recording.sound import in_mission
-from logs.recording.times import nanoseconds
 
 FILE_NAME = "mission.mcap"
 
 T = TypeVar("T")
+R = TypeVar("R", bound=Record)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,41 +88,49 @@ class Run:
         content = self.attachments.get("config.toml", b"")
         return parse_toml(content, f"{self.path}: its config.toml")
 
+    def records(self, *kinds: type[R]) -> Iterator[At[R]]:
+        """Every record of these kinds, in the order in which they were made.
+
+        Raises:
+            InputError: at what cannot be read.
+            LookupError: if a kind is recorded for the eye only.
+        """
+        return self._read(dict(map(decoder, kinds)))
+
     def tree(self) -> TreeShape:
         """The tree's shape; empty if the mission ended before it was recorded."""
         if self._tree is None:
-            shapes = self._read("/bt/tree", messages.tree_from_message)
+            shapes = self.records(TreeShape)
             self._tree = next((at.value for at in shapes), TreeShape(()))
         return self._tree
 
     def ticks(self) -> Iterator[At[Tick]]:
         """Every tick, with all behaviours' states."""
-        return self._read("/bt/tick", self._tick_from_message)
+        return self.records(Tick)
 
     def llm_calls(self) -> Iterator[At[LlmCall]]:
         """Every call of the language model."""
-        return self._read("/llm/call", messages.llm_call_from_message)
+        return self.records(LlmCall)
 
     def verifications(self) -> Iterator[At[Verified]]:
         """What the verification let through of each reply."""
-        return self._read("/llm/verification", messages.verified_from_message)
+        return self.records(Verified)
 
     def dialog(self) -> Iterator[At[Utterance]]:
         """What was said."""
-        return self._read("/dialog", messages.utterance_from_message)
+        return self.records(Utterance)
 
     def events(self) -> Iterator[At[Event]]:
         """Every event that the executive took; of what was seen, points without masks."""
-        return self._read("/event", event_from_message)
+        return (At(at.time_s, at.value.event) for at in self.records(EventTaken))
 
     def turns(self) -> Iterator[Turn]:
         """Events and ticks as they belong together."""
         time_s, events = 0.0, list[Event]()
-        decoders: dict[str, Callable[[Any], _Exact | Tick]] = {
-            "/event": _exact_event,
-            "/bt/tick": self._tick_from_message,
-        }
-        for _, at in self._read_all(decoders):
+        (event_topic, _), (tick_topic, tick) = decoder(EventTaken), decoder(Tick)
+        decoders: dict[str, Callable[[Any], _Exact | Tick]]
+        decoders = {event_topic: _exact_event, tick_topic: tick}
+        for at in self._read(decoders):
             if isinstance(at.value, Tick):
                 yield Turn(time_s, tuple(events), at.value)
                 events.clear()
@@ -123,37 +142,32 @@ class Run:
 
     def thoughts(self) -> Iterator[At[Tick | LlmCall | Verified]]:
         """Ticks, calls of the model and verifications, in the order in which they were."""
-        decoders: dict[str, Callable[[Any], Tick | LlmCall | Verified]] = {
-            "/bt/tick": self._tick_from_message,
-            "/llm/call": messages.llm_call_from_message,
-            "/llm/verification": messages.verified_from_message,
-        }
-        return (at for _, at in self._read_all(decoders))
+        return self.records(Tick, LlmCall, Verified)
 
     def mishaps(self) -> Iterator[At[Mishap]]:
         """What went wrong in the simulated world, because it was told to."""
-        return self._read("/mishap", messages.mishap_from_message)
+        return self.records(Mishap)
 
     def frames(self) -> Iterator[At[bytes]]:
         """Every camera picture, as JPEG."""
-        return self._read("/camera/image/compressed", lambda message: bytes(message.data))
+        topic = "/camera/image/compressed"
+        return self._read({topic: lambda message: bytes(message.data)})
 
     def outcome(self) -> Outcome | None:
         """How it ended, or None if the recording ends before the mission did."""
-        outcomes = self._read("/outcome", messages.outcome_from_message)
-        return next((at.value for at in outcomes), None)
+        return next((at.value.outcome for at in self.records(Finished)), None)
 
     def last_time_s(self) -> float:
         """Mission time of the last message of all (s)."""
         last = self._origin_ns
-        for _, record in self._records("its end"):
+        for _, record in self._raw("its end"):
             if isinstance(record, Message):
                 last = max(last, record.log_time)
         return (last - self._origin_ns) / 1e9
 
     def _check(self) -> None:
         """Read the facts at the start of the file; refuse what is no mission."""
-        for _, record in self._records("its start"):
+        for _, record in self._raw("its start"):
             if isinstance(record, Metadata) and record.name == "run":
                 self.metadata = record.metadata
             elif isinstance(record, Attachment) and _is_plain(record.name):
@@ -173,30 +187,28 @@ class Run:
             what = "its metadata 'run' names no time 'started'"
             raise InputError(str(self.path), what) from error
 
-    def _tick_from_message(self, message: Any) -> Tick:
-        tick = messages.tick_from_message(message)
-        told = {node.path for node in tick.nodes}
-        if missing := next((n.path for n in self.tree().nodes if n.path not in told), None):
-            raise ValueError(f"a tick that does not tell how {missing!r} is")
-        return tick
-
-    def _read(self, topic: str, decode: Callable[[Any], T]) -> Iterator[At[T]]:
-        return (at for _, at in self._read_all({topic: decode}))
-
-    def _read_all(self, decoders: dict[str, Callable[[Any], T]]) -> Iterator[tuple[str, At[T]]]:
+    def _read(self, decoders: Mapping[str, Callable[[Any], T]]) -> Iterator[At[T]]:
         """What was recorded under these topics, in the order in which it was."""
         parsing = Parsing(tuple(decoders), self._origin_ns)
-        for offset, record in self._records(", ".join(decoders)):
+        for offset, record in self._raw(", ".join(decoders)):
             try:
                 if (found := parsing.take(record)) is None:
                     continue
                 topic, time_s, message = found
                 value = decoders[topic](message)
+                if isinstance(value, Tick):
+                    self._check_tick(value)
             except MISFITS as error:
                 raise self._damaged(parsing.topic, in_few_words(error), offset) from error
-            yield topic, At(time_s, value)
+            yield At(time_s, value)
 
-    def _records(self, wanted: str) -> Iterator[tuple[int, McapRecord]]:
+    def _check_tick(self, tick: Tick) -> None:
+        """See that it tells of every behaviour of the tree."""
+        told = {node.path for node in tick.nodes}
+        if missing := next((n.path for n in self.tree().nodes if n.path not in told), None):
+            raise ValueError(f"a tick that does not tell how {missing!r} is")
+
+    def _raw(self, wanted: str) -> Iterator[tuple[int, McapRecord]]:
         """All records, or those from the start of a file that was never closed to its break.
 
         Raises:
@@ -232,7 +244,7 @@ class _Exact(NamedTuple):
 
 
 def _exact_event(message: Any) -> _Exact:
-    return _Exact(in_mission(message.mission_time_s), event_from_message(message))
+    return _Exact(in_mission(message.mission_time_s), event_from_message(message).event)
 
 
 def _is_plain(name: str) -> bool:

@@ -1,4 +1,4 @@
-"""The mcap messages that no well-known schema covers, as protobuf classes built at run time.
+"""The mcap messages that no well-known schema covers, and how they become protobuf classes.
 
 Names follow py_trees_ros for the tree (`own_id`, `tip_id`, `is_active`, status 1 to 4), Foxglove
 for time (`timestamp`), and OpenTelemetry's conventions for generative AI, dots as underscores
@@ -7,27 +7,32 @@ for time (`timestamp`), and OpenTelemetry's conventions for generative AI, dots 
 """
 
 from collections.abc import Mapping
-from functools import lru_cache
 from typing import Any
 
 from foxglove_schemas_protobuf import KeyValuePair_pb2, Point3_pb2
-from google.protobuf import descriptor_pool, message_factory, timestamp_pb2
+from google.protobuf import message_factory, timestamp_pb2
 from google.protobuf.descriptor_pb2 import (
     DescriptorProto,
     FieldDescriptorProto,
     FileDescriptorProto,
-    FileDescriptorSet,
 )
+from google.protobuf.descriptor_pool import DescriptorPool
+
+Definitions = Mapping[str, Mapping[str, str]]
+"""Messages by name: their fields, as in a .proto file, in the order of their numbers (from 1)."""
 
 PACKAGE = "robot_executive"
 STATUS = ("UNKNOWN", "INVALID", "RUNNING", "SUCCESS", "FAILURE")
 
-_STAMPED = {
+STAMPED = {
     "timestamp": "google.protobuf.Timestamp",
     "wall_time": "google.protobuf.Timestamp",
 }
+"""What every message on a topic begins with."""
 
-_MESSAGES: dict[str, dict[str, str]] = {
+# The messages that are on one topic, and their parts.
+
+TREE: Definitions = {
     "Behaviour": {
         "own_id": "string",
         "parent_id": "string",
@@ -35,8 +40,14 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "name": "string",
         "class_name": "string",
         "type": "string",
+        "source": "optional string",
+        "activity": "optional string",
+        "stage": "optional bool",
     },
-    "BehaviourTree": {**_STAMPED, "behaviours": "repeated Behaviour"},
+    "BehaviourTree": {**STAMPED, "behaviours": "repeated Behaviour"},
+}
+
+TICK: Definitions = {
     "BehaviourState": {
         "own_id": "string",
         "status": "Status",
@@ -44,7 +55,7 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "is_active": "bool",
     },
     "Tick": {
-        **_STAMPED,
+        **STAMPED,
         "tick": "uint64",
         "cause": "string",
         "tip_id": "string",
@@ -52,11 +63,14 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "situation": "repeated foxglove.KeyValuePair",
         "duration_s": "double",
     },
+}
+
+LLM_CALL: Definitions = {
     "ChatMessage": {"role": "string", "content": "string"},
     "Option": {"text": "string", "place": "string", "score": "double"},
     "Precedent": {"question": "string", "places": "repeated string", "kind": "string"},
     "LlmCall": {
-        **_STAMPED,
+        **STAMPED,
         "label": "string",
         "gen_ai_operation_name": "string",
         "gen_ai_request_model": "string",
@@ -82,14 +96,9 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "precedents": "repeated Precedent",
         "kind": "string",
     },
-    "LlmVerification": {
-        **_STAMPED,
-        "label": "string",
-        "accepted": "repeated string",
-        "rooms": "repeated string",
-        "dropped": "repeated string",
-    },
-    "Utterance": {**_STAMPED, "speaker": "string", "text": "string"},
+}
+
+EVENT: Definitions = {
     "Detection": {
         "label": "string",
         "confidence": "double",
@@ -101,7 +110,7 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "cut_off": "bool",
     },
     "Event": {
-        **_STAMPED,
+        **STAMPED,
         "name": "string",
         "request": "optional uint64",
         "result": "string",
@@ -115,10 +124,12 @@ _MESSAGES: dict[str, dict[str, str]] = {
         "holding": "bool",
         "numb": "bool",
     },
-    "Mishap": {**_STAMPED, "fault": "string", "text": "string"},
+}
+
+OUTCOME: Definitions = {
     "Candidate": {"place": "string", "source": "string", "probability": "optional double"},
     "Outcome": {
-        **_STAMPED,
+        **STAMPED,
         "command": "string",
         "kind": "optional string",
         "target": "optional string",
@@ -181,7 +192,7 @@ def _add_field(message: DescriptorProto, name: str, spec: str, number: int) -> N
         field.type_name = f".{kind}" if "." in kind else f".{PACKAGE}.{kind}"
 
 
-def _describe(numbers: Numbers) -> FileDescriptorProto:
+def _describe(definitions: Definitions, numbers: Numbers) -> FileDescriptorProto:
     file = FileDescriptorProto(
         name=f"{PACKAGE}.proto",
         package=PACKAGE,
@@ -191,68 +202,29 @@ def _describe(numbers: Numbers) -> FileDescriptorProto:
     status = file.enum_type.add(name="Status")
     for number, name in enumerate(STATUS):
         status.value.add(name=name, number=number)
-    for name, fields in _MESSAGES.items():
+    for name, fields in definitions.items():
         message = file.message_type.add(name=name)
         for place, (field, spec) in enumerate(fields.items()):
             _add_field(message, field, spec, numbers.get((name, field), _UNUSED + place))
     return file
 
 
-def _classes(pool: descriptor_pool.DescriptorPool, numbers: Numbers) -> dict[str, Any]:
-    pool.AddSerializedFile(_describe(numbers).SerializeToString())
-    return {
-        name: message_factory.GetMessageClass(pool.FindMessageTypeByName(f"{PACKAGE}.{name}"))
-        for name in _MESSAGES
-    }
-
-
-NUMBERS: Numbers = {
-    (message, field): number
-    for message, fields in _MESSAGES.items()
-    for number, field in enumerate(fields, start=1)
-}
-"""As they are written today."""
-
-MESSAGES = _classes(descriptor_pool.Default(), NUMBERS)
-"""The message classes by name: `MESSAGES["Tick"](tick=3)`."""
-
-
-@lru_cache(maxsize=64)
-def recorded_class(name: str, definition: bytes) -> Any:
-    """The class that reads a recorded message; of an older recording, other numbers for its fields.
-
-    Of the definition in the file, only the numbers of the fields that we know are taken: names and
-    types are ours, and nothing else of it is built.
-
-    Args:
-        name: of the message, as in `MESSAGES`.
-        definition: a serialized FileDescriptorSet, as mcap keeps it.
+def classes(pool: DescriptorPool, definitions: Definitions, numbers: Numbers) -> dict[str, Any]:
+    """The messages' classes by name, with these numbers of their fields.
 
     Raises:
-        ValueError: if the definition does not read, or lacks the message.
-        google.protobuf.message.DecodeError: if it is no FileDescriptorSet.
+        TypeError: if the pool cannot hold them.
     """
-    numbers = {
-        (message.name, field.name): field.number
-        for file in FileDescriptorSet.FromString(definition).file
-        if file.package == PACKAGE
-        for message in file.message_type
-        for field in message.field
+    pool.AddSerializedFile(_describe(definitions, numbers).SerializeToString())
+    return {
+        name: message_factory.GetMessageClass(pool.FindMessageTypeByName(f"{PACKAGE}.{name}"))
+        for name in definitions
     }
-    if not any(message == name for message, _ in numbers):
-        raise ValueError(f"its definition lacks the message {name}")
-    known = {key: number for key, number in numbers.items() if key in NUMBERS}
-    if all(NUMBERS[key] == number for key, number in known.items()):
-        return MESSAGES[name]
-    return _older(tuple(sorted(known.items())))[name]
 
 
-@lru_cache(maxsize=8)
-def _older(numbers: tuple[tuple[tuple[str, str], int], ...]) -> dict[str, Any]:
-    pool = descriptor_pool.DescriptorPool()
+def fresh_pool() -> DescriptorPool:
+    """A pool of its own, for classes that are not those of today."""
+    pool = DescriptorPool()
     for module in _DEPENDENCIES:
         pool.AddSerializedFile(module.DESCRIPTOR.serialized_pb)
-    try:
-        return _classes(pool, dict(numbers))
-    except TypeError as error:
-        raise ValueError(f"its definition numbers fields as none can be: {error}") from None
+    return pool

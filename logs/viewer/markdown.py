@@ -6,7 +6,7 @@ from textwrap import shorten
 from typing import Any
 
 from executive.records import LlmCall, Verified
-from executive.text import printable
+from executive.text import counted, printable
 from executive.types import Candidate, Message, Outcome, Replied, Scored
 from logs.viewer.states import State, states
 
@@ -77,7 +77,8 @@ def outcome(outcome: Outcome) -> str:
         parts.append(f"Found: **{plain(outcome.location)}** (says {outcome.source})")
     parts.append(
         f"{outcome.mission_time_s:.1f} s, of them {outcome.thinking_time_s:.1f} s thinking · "
-        f"{outcome.llm_calls} calls of the model · {outcome.inquiries} questions"
+        f"{counted(outcome.llm_calls, 'call')} of the model · "
+        f"{counted(outcome.inquiries, 'question')}"
     )
     marks = dict.fromkeys(outcome.visited, _MARKS[State.EMPTY])
     if outcome.location:

@@ -3,6 +3,7 @@
 import atexit
 import threading
 from pathlib import Path
+from typing import assert_never
 
 import rerun as rr
 
@@ -121,6 +122,8 @@ class RerunSink:
                 scene.log_path(self._stream, record)
             case Finished(outcome):
                 self._stream.log(blueprint.BELIEF, _document(markdown.outcome(outcome)))
+            case _:
+                assert_never(record)
 
     def flush(self) -> None:
         """Bring everything to the file and the viewer."""

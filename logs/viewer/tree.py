@@ -41,9 +41,9 @@ class TreeView:
         """Draw nothing yet."""
         self._stream = stream
         self._tree = tree
-        stages = [node for node in tree.nodes if node.path.count("/") == 2]
+        stages = [node for node in tree.nodes if node.stage]
         self._lanes = {node.path: _lane(LANES, i, node) for i, node in enumerate(stages, start=1)}
-        """The parts of the mission: the second level below the root."""
+        """The parts of the mission."""
         self._every = {node.path: _lane(EVERY, i, node) for i, node in enumerate(tree.nodes)}
         self._shown: dict[str, str] = {}
         """What each lane says."""

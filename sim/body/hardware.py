@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pybullet as p
-from pybullet_utils.bullet_client import BulletClient
 
 from executive.geometry import Floats
 from executive.types import Pose
 from sim.body.description import write_description
+from sim.engine import BulletClient
+from sim.engine import pybullet as p
 
 ARM = ("lift", *(f"panda_joint{i}" for i in range(1, 8)))
 """The joints that move the hand: the lift (metres), then the arm's seven (radians)."""

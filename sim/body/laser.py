@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from pybullet_utils.bullet_client import BulletClient
 
 from executive.geometry import Floats
 from sim.body.hardware import Hardware
+from sim.engine import BulletClient
 
 RAYS = 180
 RANGE_M = 3.5

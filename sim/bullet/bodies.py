@@ -4,15 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
-import pybullet as p
-from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Shape
 from executive.types import Color, Pose, Vector3
+from sim.engine import BulletClient
+from sim.engine import pybullet as p
 from sim.home.furniture import box
 from sim.home.home import PERSON, Home
-from sim.objects.objects import ObjectModel, packaged_mesh
+from sim.objects.objects import ObjectModel
 
 MAP = "map"
 WALL_COLOR: Color = (0.93, 0.91, 0.86, 1.0)
@@ -152,7 +152,7 @@ def home_entities(home: Home, models: Mapping[str, ObjectModel]) -> tuple[Entity
     """The home for the viewer: what is fixed in `map`, each object in a frame of its own name."""
     low = home.model_copy(update={"wall_height": min(home.wall_height, VIEWED_WALL_HEIGHT_M)})
     fixed = [Entity(name, MAP, _moved(shapes, pose)) for name, shapes, pose in _fixtures(low)]
-    movable = [Entity(name, name, (packaged_mesh(name, "glb"),)) for name in home.objects]
+    movable = [Entity(name, name, models[name].shown) for name in home.objects]
     return (*fixed, *movable)
 
 

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from itertools import count
 
 import numpy as np
-import pybullet as p
 from numpy.typing import NDArray
-from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
 from executive.types import Box, Detection, Frame, Intrinsics, Pose, Vector3
+from sim.engine import BulletClient
+from sim.engine import pybullet as p
 
 NEAR_M, FAR_M = 0.05, 15.0
 BACKGROUND = -1

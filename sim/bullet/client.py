@@ -5,8 +5,8 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import pybullet as p
-from pybullet_utils.bullet_client import BulletClient
+from sim.engine import BulletClient
+from sim.engine import pybullet as p
 
 GRAVITY_M_S2 = 9.81
 
@@ -34,8 +34,14 @@ def aim_window(client: BulletClient, corners: tuple[float, float, float, float])
 @contextmanager
 def _without_stdout() -> Iterator[None]:
     """PyBullet's C code prints its arguments: send the descriptor nowhere meanwhile."""
-    sys.stdout.flush()
-    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    if sys.stdout is not None:
+        sys.stdout.flush()
+    try:
+        kept = os.dup(1)
+    except OSError:  # it is closed
+        yield
+        return
+    nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     try:
         yield

@@ -8,8 +8,9 @@ the wrong way round: the fingers cannot open any more. So contacts are found ane
 from collections.abc import Collection
 
 import numpy as np
-from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
+
+from sim.engine import BulletClient
 
 _TURN = np.radians(10.0)
 """A contact whose thing has turned by more is found anew."""

@@ -58,9 +58,11 @@ class FaultyFakeRobot(FakeRobot):
     def _shut_out(self, place: str) -> Failed | None:
         """Whether shut doors leave no way; where the robot comes by, they count as struck."""
         shut = self._injector.active(Blocked)
+        if not shut or not self._knows(place):
+            return None
         here = self._room_at(self._world.pose[:2])
         there = self._room_at(self._world.home.stand(place)[:2])
-        if not shut or there in self._rooms_from(here, shut):
+        if there in self._rooms_from(here, shut):
             return None
         for fault in shut:
             self._injector.strike(fault, f"the door {fault.value} is shut")

@@ -1,11 +1,11 @@
 """A robot whose joints get stuck, whose fingers slip, and whose hand lets go."""
 
 import numpy as np
-from pybullet_utils.bullet_client import BulletClient
 
 from executive.geometry import Floats
 from sim.body.base import CARRYING, CREEPING
 from sim.body.hardware import FINGER_TRAVEL, Hardware
+from sim.engine import BulletClient
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import Drop, Slip, Stuck
 

@@ -102,6 +102,11 @@ class FaultyDetector:
         self._injector = injector
         self._names = names
 
+    @property
+    def labels(self) -> frozenset[str] | None:
+        """What it may call what it sees; None: anything."""
+        return getattr(self._detector, "labels", None)
+
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
         """What it makes of the picture."""
         if self._injector.active(Blind):

@@ -13,7 +13,7 @@ from typing import ClassVar, Self
 
 from executive.errors import InputError
 from executive.types import Pose
-from sim.home.arrangement import NoRoomError, Spot
+from sim.home.arrangement import NoRoomError
 from sim.home.floorplan import doors_between
 from sim.home.home import DELIVERY, Home
 
@@ -137,7 +137,7 @@ class Moved(Fault):
             NoRoomError: if there is none.
         """
         others = {name: spot for name, spot in home.objects.items() if name != self.thing}
-        objects = {**others, self.thing: Spot(furniture=self.place)}
+        objects = {**others, self.thing: home.objects[self.thing].moved(self.place)}
         return home.model_copy(update={"objects": objects}).object_pose(self.thing)
 
 

@@ -3,14 +3,13 @@
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-import pybullet
-from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Shape
 from executive.types import Color, Pose
 from sim.body.skill import CONTROL_S
 from sim.bullet.bodies import create_body, frame_pose
+from sim.engine import BulletClient, pybullet
 from sim.faults.hardware import FaultyHardware
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import Blocked, Crate, Moved

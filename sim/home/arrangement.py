@@ -4,7 +4,7 @@ import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, NonNegativeInt
 
@@ -36,6 +36,11 @@ class Spot(BaseModel):
     """From the middle of the surface to the front and to the left (metres)."""
     yaw: Annotated[Degrees, AfterValidator(math.radians)] = 0.0
     """Turn of the object (degrees in the file, radians here)."""
+
+    def moved(self, furniture: str) -> Self:
+        """The same on other furniture, wherever there is room."""
+        there = {"furniture": furniture, "surface": None, "at": None, "yaw": 0.0}
+        return self.model_copy(update=there)
 
 
 @dataclass(frozen=True, slots=True)

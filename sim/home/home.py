@@ -10,19 +10,20 @@ from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError
 from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.files import decoded, read_bytes
 from executive.toml_file import MOST_BYTES, parse_toml
-from executive.types import DELIVERY, Place, Pose, Vector3
+from executive.types import DELIVERY, PERSON, Place, Pose, Thing, Vector3
 from sim.home.arrangement import Spot, Standing, arrange
 from sim.home.floorplan import Door, Length, Room, Wall, walls
 from sim.home.furniture import Furniture, PlanarPose, PoseInDegrees, Surface
-from sim.home.naming import PERSON, usable
-from sim.home.validation import home_flaws, object_flaws, spot_flaws
-from sim.objects.objects import load_objects
+from sim.home.naming import usable
+from sim.home.own import Entry, OwnObject, is_declaration
+from sim.home.validation import home_flaws, mesh_flaws, object_flaws, spot_flaws
+from sim.objects.objects import ObjectModel, load_objects
 
 __all__ = ["DELIVERY", "PERSON", "Furniture", "Home", "PlanarPose", "Surface", "load_home"]
 
@@ -43,10 +44,6 @@ VIEW_HEIGHT_M = 0.06
 """Above a surface, where the camera looks."""
 
 
-def _as_spot(value: Any) -> Any:
-    return {"furniture": value} if isinstance(value, str) else value
-
-
 class Home(BaseModel):
     """A home as its file describes it; made by `load_home`."""
 
@@ -63,7 +60,40 @@ class Home(BaseModel):
     furniture: Annotated[tuple[Furniture, ...], Field(max_length=5000)]
     delivery: Furniture
     """The table where brought things go; it is not searched."""
-    objects: dict[str, Annotated[Spot, BeforeValidator(_as_spot)]] = Field(default_factory=dict)
+    objects: Annotated[dict[str, Entry], Field(max_length=200)] = Field(default_factory=dict)
+    """Where things are; those of one's own are declared there, too."""
+    _folder: Path | None = PrivateAttr(None)
+    """Where its meshes are; None: nowhere, and things look like their forms."""
+
+    @property
+    def own(self) -> dict[str, OwnObject]:
+        """The objects that the file declares, in its order."""
+        return {name: one for name, one in self.objects.items() if isinstance(one, OwnObject)}
+
+    def things(self) -> tuple[Thing, ...]:
+        """The objects that the file declares, for who knows only those of the ontology."""
+        return tuple(Thing(name, one.kind) for name, one in self.own.items())
+
+    def models(self) -> dict[str, ObjectModel]:
+        """All things that there may be: those of the package, and those that the file declares."""
+        return {**load_objects(), **{name: one.model(name) for name, one in self.own.items()}}
+
+    def drawn_models(self) -> dict[str, ObjectModel]:
+        """The same, those with meshes looking like them.
+
+        Raises:
+            InputError: if a mesh is not there any more.
+        """
+        return {**load_objects(), **{name: self.drawn_model(name) for name in self.own}}
+
+    def drawn_model(self, name: str) -> ObjectModel:
+        """One of those that the file declares, looking like its mesh if it has one.
+
+        Raises:
+            InputError: if the mesh is elsewhere, or cannot be used.
+        """
+        one = self.own[name]
+        return one.drawn_model(name, self._folder) if self._folder else one.model(name)
 
     @property
     def placement(self) -> dict[str, str]:
@@ -151,7 +181,8 @@ class Home(BaseModel):
         Raises:
             InputError: if an object or a piece of furniture is unknown, or there is no room for it.
         """
-        spots = {name: Spot(furniture=where) for name, where in placement.items()}
+        nowhere = Spot(furniture="")
+        spots = {n: self.objects.get(n, nowhere).moved(place) for n, place in placement.items()}
         home = self.model_copy(update={"objects": {**self.objects, **spots}})
         for flaw in (*object_flaws(home), *spot_flaws(home)):
             raise InputError("--place", *flaw)
@@ -160,7 +191,7 @@ class Home(BaseModel):
     def arrangement(self) -> dict[str, Standing]:
         """Where each object's frame is in the frame of its furniture at the start."""
         surfaces = {f.name: f.surfaces() for f in (*self.furniture, self.delivery)}
-        return arrange(self.objects, surfaces, load_objects())
+        return arrange(self.objects, surfaces, self.models())
 
 
 def load_home(name_or_path: str) -> Home:
@@ -182,13 +213,32 @@ def inspect_home(name_or_path: str) -> tuple[Home | None, tuple[InputError, ...]
         InputError: if there is no such home or it is not TOML.
     """
     content, where = _read(name_or_path)
+    return _inspect(content, where, Path(where).parent)
+
+
+def recorded_home(content: bytes) -> Home:
+    """The home of a recording, whose meshes may be elsewhere.
+
+    Raises:
+        InputError: if something in it is wrong.
+    """
+    home, faults = _inspect(content, "home.toml", None)
+    if home is None or faults:
+        raise faults[0]
+    return home
+
+
+def _inspect(
+    content: bytes, where: str, folder: Path | None
+) -> tuple[Home | None, tuple[InputError, ...]]:
     data = {"name": usable(Path(where).stem), **parse_toml(content, where)}
     try:
         home = Home.model_validate(data)
     except ValidationError as error:
         found = islice(error.errors(include_url=False), MOST_TOLD)
         return None, tuple(_input_error(where, data, fault) for fault in found)
-    flaws = islice(home_flaws(home), MOST_TOLD)
+    home._folder = folder
+    flaws = list(islice(home_flaws(home), MOST_TOLD)) or list(islice(mesh_flaws(home), MOST_TOLD))
     return home, tuple(InputError(where, *flaw) for flaw in flaws)
 
 
@@ -222,10 +272,14 @@ def _read(name_or_path: str) -> tuple[bytes, str]:
 def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
     """One of pydantic's complaints, with the key as the file has it."""
     key = _key(data, fault["loc"])
+    example = "see sim/homes/four_rooms.toml"
+    match fault["loc"]:
+        case ("objects", name, _, *_) if is_declaration(data["objects"][name]):
+            example = "see docs/own-home.md"
     if fault["type"] == "extra_forbidden":
-        return InputError(where, f"there is no key {key}", "see sim/homes/four_rooms.toml")
+        return InputError(where, f"there is no key {key}", example)
     if fault["type"] == "missing":
-        return InputError(where, f"{key} is missing", "see sim/homes/four_rooms.toml")
+        return InputError(where, f"{key} is missing", example)
     return InputError(where, f"{key} is {_shown(fault['input'])}", fault["msg"].lower())
 
 

@@ -3,27 +3,27 @@
 import re
 import unicodedata
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 
-from executive.language.control import control
-from executive.types import DELIVERY, FLOOR
+from executive.language.naming import Fault, place_fault
+from executive.language.phrases import place_words, spoken
+from executive.types import DELIVERY, FLOOR, HAND, PERSON
 
 LONGEST = 64
 """Characters of a name."""
-PERSON = "person"
 TAKEN = frozenset(
-    {PERSON, DELIVERY, FLOOR, "hand", "gripper", "robot", "map", "base_link", "world", "home"}
+    {PERSON, DELIVERY, FLOOR, HAND, "gripper", "robot", "map", "base_link", "world", "home"}
     | {"camera", "everywhere", "nowhere", "nothing", "none", "here", "there", "yes", "no", "stop"}
-    | {"quit", "exit", "unknown"}
+    | {"quit", "exit", "unknown", "me", "him", "her", "it", "them", "us", "you", "one", "other"}
+    | {"another", "both", "all", "anything", "anywhere", "something", "somewhere", "everything"}
 )
-"""What already means something, in answers or as a frame."""
+"""What already means something, in commands, in answers or as a frame."""
 _BETWEEN = frozenset("_-' ")
 _UNSEEN = re.compile(
     "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]"
 )
 """What counts as letters and marks, and shows nothing (Unicode: Default_Ignorable_Code_Point)."""
-_DETERMINERS = re.compile(r"\A(?:(?:a|an|any|my|our|some|that|the|this|your)_)+(?=.)")
-"""What is left out where an answer is read."""
 RULE = f"use up to {LONGEST} letters, digits, and single _ - ' or blanks between them"
 
 
@@ -47,21 +47,30 @@ def name_fault(name: str) -> str | None:
 
 
 def folded(name: str) -> str:
-    """The same for names that nobody would keep apart: `The Side Table` is side_table."""
-    plain = re.sub(r"[\s_'-]+", "_", unicodedata.normalize("NFKC", name).casefold())
-    return _DETERMINERS.sub("", plain)
+    """The same for names that nobody would keep apart: `The Side Tables` is side_table."""
+    return "".join(place_words(spoken(name)))
 
 
-def is_taken(name: str) -> bool:
-    """Whether the name already means something else, such as a word that stops the robot."""
-    return folded(name) in TAKEN or control(name) is not None
+def taken_fault(name: str) -> Fault | None:
+    """Why the name is no name for a place, as it means something else; None if it is one."""
+    if folded(name) in _TAKEN:
+        return "this name has a meaning of its own", "give another name"
+    if DELIVERY in re.findall(r"[a-z]+", spoken(name)):
+        return f"an answer with {DELIVERY!r} in it names the delivery table", "give another name"
+    return place_fault(name)
 
 
-def alike(names: Iterable[str]) -> Iterator[tuple[str, ...]]:
-    """Names that are the same or would not be kept apart, each such set once."""
+def alike(names: Sequence[str], rooms: Sequence[str] = ()) -> Iterator[tuple[str, ...]]:
+    """Names that are the same or would not be kept apart, each such set once.
+
+    In a room (`rooms` has what the room of each is called), the name may be said with the room
+    first: `cabinet_kitchen` is the "kitchen cabinet".
+    """
     groups = defaultdict(list)
-    for name in names:
-        groups[folded(name)].append(name)
+    for name, room in zip_longest(names, rooms, fillvalue=""):
+        of_room = set(place_words(spoken(room)))
+        words = sorted(place_words(spoken(name)), key=lambda word: word not in of_room)
+        groups["".join(words)].append(name)
     yield from (tuple(group) for group in groups.values() if len(group) > 1)
 
 
@@ -74,3 +83,6 @@ def usable(text: str) -> str:
 def _is_of_words(character: str) -> bool:
     """Whether it is a letter, a digit, or a mark on one, of any script, that can be seen."""
     return unicodedata.category(character)[0] in "LMN" and not _UNSEEN.match(character)
+
+
+_TAKEN = frozenset(map(folded, TAKEN))

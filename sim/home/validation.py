@@ -4,11 +4,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING
 
+from executive.errors import InputError
 from executive.types import DELIVERY
 from sim.home.arrangement import NoRoomError
 from sim.home.floorplan import wall_axis, wall_lines
 from sim.home.furniture import FORM_OF_KIND
-from sim.home.naming import LONGEST, RULE, alike, folded, is_taken, name_fault
+from sim.home.naming import LONGEST, RULE, alike, folded, name_fault, taken_fault
 from sim.home.overlaps import overlapping
 from sim.objects.objects import load_objects
 
@@ -33,6 +34,7 @@ def home_flaws(home: "Home") -> Iterator[Flaw]:
     unbuildable = [*_room_flaws(home), *_furniture_flaws(home)]
     yield from unbuildable
     yield from _layout_flaws(home)
+    yield from _own_flaws(home)
     yield from object_flaws(home)
     if not unbuildable:
         yield from spot_flaws(home)
@@ -46,6 +48,8 @@ def _name_flaws(home: "Home") -> Iterator[Flaw]:
     named += [("room", "kind", room.kind) for room in home.rooms]
     named += [("furniture", "name", piece.name) for piece in pieces]
     named += [("furniture", "kind", piece.kind) for piece in pieces]
+    named += [("object", "name", name) for name in home.own]
+    named += [("object", "kind", one.kind) for one in home.own.values()]
     for what, key, name in named:
         if fault := name_fault(name):
             yield f"{what} {_cut(name)}: its {key} {fault}", RULE
@@ -70,15 +74,21 @@ def _room_flaws(home: "Home") -> Iterator[Flaw]:
             yield f"{who}: ({x:g}, {y:g}) is outside of all rooms", "give a point in a room"
 
 
-def _taken(what: str, names: Sequence[str]) -> Iterator[Flaw]:
-    """Names that mean something else already, or that more than one goes by."""
+def _taken(what: str, names: Sequence[str], rooms: Sequence[str] = ()) -> Iterator[Flaw]:
+    """Names that mean something else already, or that more than one goes by.
+
+    Args:
+        what: what has these names.
+        names: what each is called.
+        rooms: what the room of each is called, if it is in one.
+    """
     things = {folded(name) for name in load_objects()}
     for name in names:
-        if is_taken(name):
-            yield f"{what} {name!r}: this name has a meaning of its own", "give another name"
+        if fault := taken_fault(name):
+            yield f"{what} {name!r}: {fault[0]}", fault[1]
         elif folded(name) in things:
             yield f"{what} {name!r}: this is the name of an object", "give another name"
-    for same in alike(names):
+    for same in alike(names, rooms):
         right = "give each its own name"
         if len(set(same)) == 1:
             yield f"{what} {same[0]!r} is there twice", right
@@ -89,8 +99,14 @@ def _taken(what: str, names: Sequence[str]) -> Iterator[Flaw]:
 
 def _furniture_flaws(home: "Home") -> Iterator[Flaw]:
     rooms = {room.name for room in home.rooms}
-    spoken = {folded(name): name for name in rooms}
-    yield from _taken("furniture", [piece.name for piece in home.furniture])
+    spoken = {folded(room.kind): room.name for room in home.rooms}
+    spoken |= {folded(name): name for name in rooms}
+    kinds = {room.name: room.kind for room in home.rooms}
+    yield from _taken(
+        "furniture",
+        [piece.name for piece in home.furniture],
+        [f"{piece.room} {kinds.get(piece.room, '')}" for piece in home.furniture],
+    )
     if home.delivery.name != DELIVERY:
         yield f"the delivery table is named {home.delivery.name}", f"name it {DELIVERY}"
     for piece in (*home.furniture, home.delivery):
@@ -126,13 +142,34 @@ def _layout_flaws(home: "Home") -> Iterator[Flaw]:
         yield f"furniture {names} overlap", "move one of them"
 
 
+def _own_flaws(home: "Home") -> Iterator[Flaw]:
+    """Objects that the file declares under a name that something else has."""
+    yield from _taken("object", list(home.own))
+    called = {folded(room.name): f"room {room.name}" for room in home.rooms}
+    called |= {folded(piece.name): f"furniture {piece.name}" for piece in home.furniture}
+    for name in home.own:
+        if other := called.get(folded(name)):
+            yield f"object {name}: {other} is called the same", "give another name"
+
+
+def mesh_flaws(home: "Home") -> Iterator[Flaw]:
+    """Meshes that are not there, are elsewhere, or cannot be used."""
+    for name in home.own:
+        try:
+            home.drawn_model(name)
+        except InputError as error:
+            where, what, right = error.args
+            yield f"objects.{name}.mesh: {where} {what}", right
+
+
 def object_flaws(home: "Home") -> Iterator[Flaw]:
     """Objects that do not exist, or are on furniture that does not."""
-    models = load_objects()
+    models = home.models()
     furniture = _surfaces_of(home)
     for name, spot in home.objects.items():
         if name not in models:
-            yield f"there is no object {_cut(name)}", f"objects: {', '.join(models)}"
+            right = f"objects: {', '.join(models)}; or say its kind, its form and its mass"
+            yield f"there is no object {_cut(name)}", right
         if spot.furniture not in furniture:
             what = f"{_cut(name)}: there is no furniture {_cut(spot.furniture)}"
             yield what, f"furniture: {_some(furniture)}"
@@ -140,7 +177,7 @@ def object_flaws(home: "Home") -> Iterator[Flaw]:
 
 def spot_flaws(home: "Home") -> Iterator[Flaw]:
     """Objects for which there is no room; those named otherwise are left out."""
-    furniture, models = _surfaces_of(home), load_objects()
+    furniture, models = _surfaces_of(home), home.models()
     left = {n: s for n, s in home.objects.items() if n in models and s.furniture in furniture}
     while True:
         try:

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 from PIL import Image
-from pybullet_utils.bullet_client import BulletClient
 
 from executive.types import Color
 from sim.bullet.camera import Light
+from sim.engine import BulletClient
 
 PATTERN = 64
 """Side of a pattern (pixels); the renderer stretches it over each face."""

@@ -4,13 +4,13 @@ Computed on a second robot in a PyBullet world of its own, where nothing moves b
 """
 
 import numpy as np
-from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
 from executive.computing import still_wanted
 from executive.geometry import Floats
 from sim.body.hardware import ARM, BASE, Hardware
 from sim.bullet.client import connect
+from sim.engine import BulletClient
 from sim.manipulation.grasps import HandPose
 
 POSITION_TOLERANCE = 0.002

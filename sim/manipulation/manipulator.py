@@ -38,7 +38,7 @@ from sim.manipulation.reaching import (
 )
 from sim.manipulation.registration import fit_fallen_pose
 from sim.manipulation.surroundings import Surroundings, support
-from sim.objects.objects import ObjectModel
+from sim.objects.objects import ObjectModel, why_not_taken
 from sim.objects.solids import sample_surface
 
 APPROACH_M = (0.12, 0.05, 0.025)
@@ -205,6 +205,8 @@ class Manipulator:
             raise CannotError(f"I do not know how to grasp the {name}")
         if len(detection.points) < FEWEST_POINTS:
             raise CannotError(f"I could not see the {name} well enough")
+        if why := why_not_taken(self._models[name]):
+            raise CannotError(f"I cannot grasp the {name} as it lies: {why}")
         return self._models[name]
 
     def _face(self, point: Floats) -> Skill:

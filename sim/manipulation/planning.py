@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
-import pybullet as p
 
 from executive.geometry import Floats
 from executive.records import Shape
 from executive.types import Pose
 from sim.body.hardware import FOLDED
 from sim.bullet.bodies import build_home, create_body
+from sim.engine import pybullet as p
 from sim.home.home import Home
 from sim.manipulation.clutter import CELL_M, Column
 from sim.manipulation.grasps import HandPose

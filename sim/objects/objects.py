@@ -1,16 +1,18 @@
 """The things in the home: their mass, shape and how a two-finger hand takes them."""
 
 import math
+import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, TypeAdapter
+from pydantic import AfterValidator, BaseModel, ConfigDict, TypeAdapter
+from pydantic_core import PydanticCustomError
 from scipy.spatial.transform import Rotation
 
 from executive.records import Shape
@@ -23,6 +25,22 @@ ASSETS = Path(__file__).parents[1] / "assets" / "objects"
 """A folder for each object, with its mesh as `textured.obj` and as `textured.glb`."""
 WHITE: Color = (1.0, 1.0, 1.0, 1.0)
 """Leaves the colours of a texture as they are."""
+OPENING_M = 0.0755
+"""The widest that the robot's hand gets its fingers around: `sim.manipulation.grasps.WIDEST`."""
+PAYLOAD_KG = 3.0
+"""The heaviest that its arm may lift, by the maker's data sheet."""
+GREY: Color = (0.6, 0.6, 0.6, 1.0)
+"""Of what nobody gave a colour."""
+
+
+def _as_the_web_has_it(color: str) -> str:
+    if not re.fullmatch("#[0-9a-fA-F]{6}", color, re.ASCII):
+        raise PydanticCustomError("color", "write red, green and blue as in #336699")
+    return color
+
+
+HexColor = Annotated[str, AfterValidator(_as_the_web_has_it)]
+"""Red, green and blue, as the web has it: #336699."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +55,8 @@ class ObjectModel:
             inside) or `handle`.
         shapes: what it collides with, in the object frame, whose origin is the middle of the
             resting base.
-        look: the textured mesh that is drawn of it, in the object frame.
+        look: the textured mesh that is drawn of it, in the object frame; None: the shapes are.
+        shown: what a recording shows of it, in the object frame.
         lower: lowest corner of the bounding box in the object frame (metres).
         upper: highest corner of the bounding box.
         center_of_mass: in the object frame, all shapes taken as equally dense.
@@ -48,7 +67,8 @@ class ObjectModel:
     friction: float
     grasp: Grasp
     shapes: tuple[Shape, ...]
-    look: Shape
+    look: Shape | None
+    shown: tuple[Shape, ...]
     lower: Vector3
     upper: Vector3
     center_of_mass: Vector3
@@ -62,10 +82,31 @@ class ObjectModel:
 
 @cache
 def load_objects() -> dict[str, ObjectModel]:
-    """The objects of the paper (objects.toml), by name."""
-    content = files("sim").joinpath("objects.toml").read_bytes()
-    rows = TypeAdapter(dict[str, _Row]).validate_python(parse_toml(content, "objects.toml"))
-    return {name: row.model(name) for name, row in rows.items()}
+    """The objects of the package (objects.toml), by name."""
+    return {name: row.model(name) for name, row in _rows().items()}
+
+
+def rooms_of_objects() -> dict[str, tuple[str, ...]]:
+    """The kinds of rooms that each object of the package belongs into."""
+    return {name: row.rooms for name, row in _rows().items()}
+
+
+def drawings() -> dict[str, str]:
+    """The module of `sim.modelling` that draws it, of each object that is drawn."""
+    return {name: row.drawn_by for name, row in _rows().items() if row.drawn_by}
+
+
+def why_not_taken(model: ObjectModel) -> str | None:
+    """Why a hand could not take it, however it lies, as the end of a sentence; None if it may."""
+    if model.grasp == "top" and min(model.size) > OPENING_M:
+        return "it is wider than my hand opens"
+    return "it is heavier than my arm may lift" if model.mass_kg > PAYLOAD_KG else None
+
+
+def rgba(color: HexColor) -> Color:
+    """A colour as the web writes it, such as #336699."""
+    red, green, blue = bytes.fromhex(color[1:])
+    return red / 255, green / 255, blue / 255, 1.0
 
 
 def packaged_mesh(name: str, form: Literal["obj", "glb"]) -> Shape:
@@ -110,23 +151,56 @@ class _Row(BaseModel):
     friction: float
     grasp: Grasp
     shapes: tuple[_Part, ...]
+    rooms: tuple[str, ...]
+    drawn_by: str | None = None
+    color: HexColor | None = None
 
     def model(self, name: str) -> ObjectModel:
+        paint = GREY if self.color is None else rgba(self.color)
         shapes = tuple(shape for part in self.shapes for shape in part.shapes())
-        reach = np.array([_half_extent(shape) for shape in shapes])
-        middle = np.array([shape.pose.position for shape in shapes])
-        volume = np.array([_volume(shape) for shape in shapes])
-        return ObjectModel(
+        return object_model(
             name,
-            self.mass_kg,
-            self.friction,
-            self.grasp,
-            shapes,
-            packaged_mesh(name, "obj"),
-            lower=_vector((middle - reach).min(axis=0)),
-            upper=_vector((middle + reach).max(axis=0)),
-            center_of_mass=_vector(volume @ middle / volume.sum()),
+            tuple(replace(shape, color=paint) for shape in shapes),
+            mass_kg=self.mass_kg,
+            friction=self.friction,
+            grasp=self.grasp,
+            look=packaged_mesh(name, "obj") if self.drawn_by else None,
+            shown=(packaged_mesh(name, "glb"),) if self.drawn_by else (),
         )
+
+
+def object_model(
+    name: str,
+    shapes: tuple[Shape, ...],
+    *,
+    mass_kg: float,
+    friction: float = 0.7,
+    grasp: Grasp = "top",
+    look: Shape | None = None,
+    shown: tuple[Shape, ...] = (),
+) -> ObjectModel:
+    """A thing of these shapes, which the recording shows if it is told nothing else."""
+    reach = np.array([_half_extent(shape) for shape in shapes])
+    middle = np.array([shape.pose.position for shape in shapes])
+    volume = np.array([_volume(shape) for shape in shapes])
+    return ObjectModel(
+        name,
+        mass_kg,
+        friction,
+        grasp,
+        shapes,
+        look,
+        shown or shapes,
+        lower=_vector((middle - reach).min(axis=0)),
+        upper=_vector((middle + reach).max(axis=0)),
+        center_of_mass=_vector(volume @ middle / volume.sum()),
+    )
+
+
+@cache
+def _rows() -> dict[str, _Row]:
+    content = files("sim").joinpath("objects.toml").read_bytes()
+    return TypeAdapter(dict[str, _Row]).validate_python(parse_toml(content, "objects.toml"))
 
 
 def _vector(values: Sequence[float] | NDArray[np.float64]) -> Vector3:

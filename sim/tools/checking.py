@@ -16,7 +16,7 @@ from sim.manipulation.manipulator import APPROACH_M
 from sim.manipulation.planning import PlanningWorld
 from sim.manipulation.reaching import Approach, choose_approach, plan_stance, standing_poses
 from sim.navigation.grid import FOOTPRINT_M, OccupancyGrid, Unreachable, reachable
-from sim.objects.objects import ObjectModel, load_objects
+from sim.objects.objects import ObjectModel, why_not_taken
 
 GRASPS_TRIED = 4
 """Of a thing, for each way to hold the hand."""
@@ -68,9 +68,11 @@ def way_faults(home: Home) -> Iterator[Flaw]:
 def _reach_faults(home: Home) -> Iterator[Flaw]:
     """Objects that the arm would not get hold of, were each alone on its furniture."""
     world = PlanningWorld(_around_objects(home))
-    models = load_objects()
+    models = home.models()
     for name, spot in home.objects.items():
-        if not _reaches(world, home, models[name]):
+        if why := why_not_taken(models[name]):
+            yield f"{name}: it can be found, not brought: {why}", "make it smaller or lighter"
+        elif not _reaches(world, home, models[name]):
             right = "put it nearer to the front of its furniture, or on another board"
             yield f"{name}: it is out of the arm's reach on {spot.furniture}", right
     world.close()

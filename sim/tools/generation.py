@@ -18,7 +18,7 @@ from sim.home.arrangement import NoRoomError, Spot, arrange
 from sim.home.home import DELIVERY, STAND_OFF_M, Home
 from sim.home.validation import home_flaws
 from sim.navigation.grid import FOOTPRINT_M
-from sim.objects.objects import load_objects
+from sim.objects.objects import load_objects, rooms_of_objects
 from sim.tools.checking import way_faults
 
 MOST_ROOMS, LEAST_FURNITURE, MOST_IN_A_ROOM = 60, 8, 40
@@ -59,19 +59,8 @@ FURNITURE_OF_ROOM = {
 }
 """What stands in a room of each kind; small homes have the first rooms and the first pieces."""
 
-ROOMS_OF_OBJECTS = (
-    (("apple", "banana", "orange", "peach", "pear", "strawberry"), ("Kitchen", "DiningRoom")),
-    (("cracker_box", "sugar_box", "pudding_box", "mustard_bottle"), ("Kitchen", "StorageRoom")),
-    (("tomato_soup_can", "potted_meat_can"), ("Kitchen", "StorageRoom")),
-    (("mug", "pitcher_base", "spatula"), ("Kitchen", "DiningRoom")),
-    (("bleach_cleanser",), ("Bathroom", "LaundryRoom")),
-    (("hammer", "power_drill", "adjustable_wrench"), ("Garage", "StorageRoom", "Lobby")),
-    (("scissors",), ("Office", "Bedroom")),
-    (("tennis_ball", "colored_wood_blocks"), ("Playroom", "Bedroom", "LivingRoom")),
-)
-"""In which kinds of rooms things are, as long as there are such rooms with a free spot."""
-TURNED = {"hammer", "spatula"}
-"""What is too long to lie across the front; they come last, as TOML has tables after values."""
+LONGEST_ACROSS_M = 0.25
+"""What is longer is turned, not to lie across the front."""
 
 DOOR_M = 1.1
 SMALLEST_ROOM_M = 4.4
@@ -262,13 +251,14 @@ def _objects(rng: Random, home: Home) -> Table | None:
     models = load_objects()
     surfaces = {piece.name: piece.surfaces()[:1] for piece in home.furniture}
     kinds = {room.name: room.kind for room in home.rooms}
-    wanted = {name: rooms for names, rooms in ROOMS_OF_OBJECTS for name in names}
+    wanted = rooms_of_objects()
+    turned = {name for name, model in models.items() if model.size[1] > LONGEST_ACROSS_M}
     spots: dict[str, Spot] = {}
-    for name in sorted(models, key=TURNED.__contains__):
+    for name in sorted(models, key=turned.__contains__):  # TOML has tables after values
         pieces = rng.sample(home.furniture, len(home.furniture))
         pieces.sort(key=lambda p: (p.kind in ("Bed", "Sofa"), kinds[p.room] not in wanted[name]))
         for piece in pieces:
-            turn = 90.0 if name in TURNED else 0.0
+            turn = 90.0 if name in turned else 0.0
             spot = Spot(furniture=piece.name, yaw=turn)
             try:
                 arrange({**spots, name: spot}, surfaces, models)
@@ -279,7 +269,7 @@ def _objects(rng: Random, home: Home) -> Table | None:
         else:
             return None
     return {
-        name: {"furniture": spot.furniture, "yaw": 90} if name in TURNED else spot.furniture
+        name: {"furniture": spot.furniture, "yaw": 90} if name in turned else spot.furniture
         for name, spot in spots.items()
     }
 

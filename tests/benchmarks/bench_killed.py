@@ -38,7 +38,7 @@ made = os.open(sys.argv[2], os.O_WRONLY | os.O_CREAT)
 def note(entry):
     record(entry)
     if isinstance(entry, EventTaken | Tick | Transforms):
-        os.write(made, b"%d %.9f\n" % (time.time_ns(), session.clock.now()))
+        os.write(made, b"%d %.9f\n" % (time.time_ns(), session.parts.clock.now()))
     if isinstance(entry, Tick) and entry.number == 0:
         print("ticked", flush=True)
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from mcap.reader import make_reader
 
-from executive.app import session
+from executive.app import recording, session
 from executive.config import Settings
 from executive.records import Record
 from logs.recorder import Sink
@@ -44,14 +44,13 @@ def settings(runs: Path) -> Settings:
 
 def mission(runs: Path, *, logged: bool) -> tuple[float, dict[str, list[float]], Path]:
     """Wall time (s), time of each record by kind (s), and the run's folder."""
-    working = session.open_sinks
+    working = recording.open_sinks
     if not logged:
-        session.open_sinks = lambda *makers: list[Sink]()
-    ours = session.Session(settings(runs), out=io.StringIO())
-    watch = RecordTimes(ours)
-    outcome = ours.run(COMMAND)
-    ours.close()
-    session.open_sinks = working
+        recording.open_sinks = lambda *makers: list[Sink]()
+    with session.Session(settings(runs), out=io.StringIO()) as ours:
+        watch = RecordTimes(ours)
+        outcome = ours.run(COMMAND)
+    recording.open_sinks = working
     return outcome.wall_time_s, watch.seconds, Path(outcome.run_dir or "")
 
 

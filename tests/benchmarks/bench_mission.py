@@ -35,7 +35,7 @@ def parts(words: str, runs: Path) -> tuple[dict[str, float], float]:
     watch.around(sim.bullet.camera, "render", "rendering")
     watch.around(OnnxDetector, "detect", "recognition")
     session = Session(load_settings(user="oracle", runs=runs))
-    watch.around(session.world._client, "stepSimulation", "physics")
+    watch.around(session.embodiment.truth._client, "stepSimulation", "physics")
     watch.around(session.recorder, "record", "logging, ticking thread")
     watch.seconds["start-up"] = time.perf_counter() - STARTED
     outcome = session.run(words)

@@ -20,7 +20,8 @@ from pathlib import Path
 from executive.errors import ModelError
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, RankRequest, Usage
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.lister import Lister
+from kb.advice.ranker import Ranker
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
@@ -99,17 +100,17 @@ def main() -> None:
         inbox, knowledge = Inbox(), Ontology(places, defaults=recorded)
         with closing(LlamaCpp(path, inbox, threads=given.threads, max_tokens=256)) as model:
             model.count_tokens("wait until it is loaded")
-            adviser = PlaceAdvisor(knowledge, model, remembers=False)
+            ranker, lister = Ranker(knowledge), Lister(knowledge, model, remembers=False)
 
             def rank(name: str) -> int:
-                return model.rank(adviser.ranking(name, ()))  # noqa: B023 - called at once
+                return model.rank(ranker.ranking(name, ()))  # noqa: B023 - called at once
 
             def write(name: str) -> int:
-                return model.chat(adviser.inquiry(name, ()))  # noqa: B023 - called at once
+                return model.chat(lister.inquiry(name, ()))  # noqa: B023 - called at once
 
             known = "default locations" if recorded else "nothing"
             title = f"{'generate' if writes else 'rank'}, {known} recorded{', cold' * cold}"
-            asks = adviser.inquiry if writes else adviser.ranking
+            asks = lister.inquiry if writes else ranker.ranking
             ahead = (0.0, 0.0, 0.0) if cold else prepare(model, asks("thing", ()))
             report(title, write if writes else rank, inbox, knowledge.objects(), ahead)
 

@@ -10,13 +10,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from pybullet_utils.bullet_client import BulletClient
 from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
 from sim.bullet.bodies import build_home, create_body
 from sim.bullet.camera import pinhole, render
 from sim.bullet.client import connect
+from sim.engine import BulletClient
 from sim.home.home import load_home
 from sim.objects.objects import ObjectModel, load_objects
 from sim.objects.ycb import with_scans

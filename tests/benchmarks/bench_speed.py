@@ -31,22 +31,22 @@ def tour(logged: bool, camera_hz: float, runs: Path) -> str:
     render, scan = sim.bullet.camera.render, Laser.scan
     watch.around(sim.bullet.camera, "render", "rendering")
     watch.around(Laser, "scan", "laser")
-    watch.around(session.world._client, "stepSimulation", "physics")
+    watch.around(session.embodiment.truth._client, "stepSimulation", "physics")
     watch.around(session.recorder, "record", "handing to the logs")
     started = datetime.now(UTC)
     logs = session._logs(new_folder(runs, started, "tour"), started) if logged else []
     session.recorder.open(logs, started)
-    session.world.describe()
+    session.embodiment.truth.describe()
     wall, cpu = time.perf_counter(), time.process_time()
     for place in TOUR:
-        session.robot.start(DriveTo(place))
-        session.clock.wait(session.clock.now() + 120.0)
+        session.parts.robot.start(DriveTo(place))
+        session.parts.clock.wait(session.parts.clock.now() + 120.0)
         session.inbox.take_all()
     wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
     session.recorder.close()
     session.close()
     sim.bullet.camera.render, Laser.scan = render, scan  # type: ignore[method-assign]
-    mission = session.clock.now()
+    mission = session.parts.clock.now()
     parts = ", ".join(f"{part} {1e3 * s / mission:.1f}" for part, s in watch.seconds.items())
     name = f"{'logs' if logged else 'no logs'}, {camera_hz:g} pictures/s"
     return (

@@ -12,7 +12,7 @@ from pathlib import Path
 from executive.events import Ended, Inbox
 from executive.language.grammar import EnglishInterpreter
 from executive.types import CommandKind, Scored
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.reader import Reader
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.ontology.ontology import Ontology
 
@@ -90,15 +90,15 @@ def main() -> None:
     given = parser.parse_args()
     inbox = Inbox()
     model = LlamaCpp(given.model or embedded_model(), inbox)
-    adviser, grammar = PlaceAdvisor(Ontology(), model, remembers=False), EnglishInterpreter()
+    reader, grammar = Reader(Ontology()), EnglishInterpreter()
 
     def by_model(words: str) -> CommandKind:
-        model.rank(adviser.command_ranking(words))
+        model.rank(reader.ranking(words))
         inbox.wait(None)
         [event] = inbox.take_all()
         assert isinstance(event, Ended)
         assert isinstance(event.result, Scored), event.result
-        return adviser.command_ranked(event.result)
+        return reader.ranked(event.result)
 
     lists = {"dev": DEV} if given.dev else {"dev": DEV, "held out": HELD_OUT}
     for title, sentences in lists.items():

@@ -21,12 +21,12 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from executive.events import Ended, Inbox
+from executive.language.phrases import spoken
 from executive.types import ChatRequest, Replied
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.lister import Lister
 from kb.advice.verification import Reply
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.scripted import Scripted
-from kb.ontology.names import spoken
 from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
 
@@ -56,15 +56,15 @@ class Tally:
     def add(self, text: str, among: tuple[str, ...]) -> None:
         """Read and verify one reply; fail if anything unknown passes."""
         began = time.thread_time()
-        names = ADVISER.read(text)
-        verdict = ADVISER.verify(names or (), among)
+        names = LISTER.read(text)
+        verdict = LISTER.verify(names or (), among)
         self.slowest_s = max(self.slowest_s, time.thread_time() - began)
         assert set(verdict.furniture) <= (set(among) or FURNITURE), (text, verdict)
         assert set(verdict.rooms) <= ROOMS, (text, verdict)
         self.counts["replies"] += 1
         self.counts["in the format"] += names is not None
         self.counts["names"] += len(names or ())
-        self.counts["invented"] += len(ADVISER.verify(verdict.dropped, ()).dropped)
+        self.counts["invented"] += len(LISTER.verify(verdict.dropped, ()).dropped)
         self.counts["nothing left"] += not (verdict.furniture or verdict.rooms)
         for name in {*(names or ())} - {*verdict.dropped}:
             if spoken(name) not in map(spoken, FURNITURE | ROOMS):
@@ -80,17 +80,17 @@ class Tally:
         )
 
 
-ADVISER = PlaceAdvisor(KNOWN, Scripted([], Inbox()), remembers=False)
+LISTER = Lister(KNOWN, Scripted([], Inbox()), remembers=False)
 
 
 def requests() -> Iterator[tuple[str, ChatRequest, tuple[str, ...]]]:
     """Each object and prompt, and the places that are allowed (none given: all)."""
     for name in KNOWN.objects():
         usual = TOLD.usual_places(name) or ("desk", "sofa")
-        yield name, ADVISER.inquiry(name, ()), ()
-        yield name, ADVISER.inquiry(name, usual), usual
-        yield name, ADVISER.furniture(name, ROOM, ()), ()
-        yield name, ADVISER.again(name, ()), ()
+        yield name, LISTER.inquiry(name, ()), ()
+        yield name, LISTER.inquiry(name, usual), usual
+        yield name, LISTER.furniture(name, ROOM, ()), ()
+        yield name, LISTER.again(name, ()), ()
 
 
 def ask(model: LlamaCpp, inbox: Inbox, request: ChatRequest) -> str:
@@ -205,7 +205,7 @@ def main() -> None:
     report_garbage(given_.garbage)
     print("\npassed, though written otherwise than the home file has it:")
     for name, times in everything.otherwise.most_common():
-        print(f"  {times:4} {name!r}: {ADVISER.verify((name,), ())}")
+        print(f"  {times:4} {name!r}: {LISTER.verify((name,), ())}")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -72,7 +73,7 @@ class _Typing:
     def stopped_by(self) -> str:
         return self.house.session.stopped_by
 
-    def next_command(self, prompt: str) -> str | None:
+    def next_command(self, console: None, prompt: str) -> str | None:
         return self.left.pop(0) if self.left else None
 
     def run(self, words: str) -> Outcome:
@@ -87,9 +88,9 @@ def test_a_signal_that_comes_as_all_is_done_ends_the_conversation(
         if text.startswith("The mug is at"):
             house.inbox.post(StopRequested(by))
 
-    house.session.user.tell = tell  # type: ignore[method-assign]
+    house.session.parts.user.tell = tell  # type: ignore[method-assign]
     typing = _Typing(house)
-    code = converse(typing, as_json=False)  # type: ignore[arg-type]
+    code = converse(typing, None, as_json=False)  # type: ignore[arg-type]
     assert (code, typing.left) == (130 if left else 0, left)
 
 
@@ -151,7 +152,7 @@ def test_what_fails_before_anything_began_has_an_outcome_too(
     def fail(**parts: object) -> None:
         raise error
 
-    monkeypatch.setattr("executive.app.session.build_context", lambda *a, **k: fail())
+    monkeypatch.setattr("executive.app.session.build_mission", lambda *a, **k: fail())
     if isinstance(error, Exception):
         assert house.session.run("Find the mug").status == MissionStatus.NOT_DONE
     else:
@@ -168,7 +169,7 @@ def test_what_fails_before_anything_began_has_an_outcome_too(
 
 def stands_in(house: House, kind: type[Goal], *, grips: bool = False, ends: Any = None) -> None:
     """For goals of this kind: they may grip the thing, and end so, or never."""
-    start = house.session.robot.start
+    start = house.session.parts.robot.start
 
     def other(goal: Goal) -> int:
         if not isinstance(goal, kind):
@@ -181,7 +182,7 @@ def stands_in(house: House, kind: type[Goal], *, grips: bool = False, ends: Any 
             house.inbox.end(request, ends)
         return request
 
-    house.session.robot.start = other  # type: ignore[method-assign]
+    house.session.parts.robot.start = other  # type: ignore[method-assign]
 
 
 def hand_is_known(house: House) -> bool:
@@ -215,7 +216,7 @@ def test_what_the_fingers_do_not_let_go_of_was_not_brought(house: House) -> None
 
 @pytest.mark.parametrize("number", range(1, 7))
 def test_fingers_that_cannot_tell_any_more_are_not_asked_what_they_felt(
-    number: int, house: House
+    number: int, tmp_path: Path
 ) -> None:
     asked = 0
 
@@ -231,7 +232,7 @@ def test_fingers_that_cannot_tell_any_more_are_not_asked_what_they_felt(
                 raise ConnectionError("no touch")
             return house.world.held is not None
 
-    house.session.robot = Numb(house.session.robot)
+    house = House(tmp_path, lambda parts: replace(parts, robot=Numb(parts.robot)))
     assert house.run("Bring the mug").status == MissionStatus.DONE
     assert hand_is_known(house)
 
@@ -243,7 +244,7 @@ def test_with_no_room_anywhere_it_says_what_it_still_holds(house: House) -> None
 
 
 @pytest.mark.parametrize("views", [0, -1, None, "many"])
-def test_a_place_has_at_least_one_view(views: Any, house: House) -> None:
+def test_a_place_has_at_least_one_view(views: Any, tmp_path: Path) -> None:
     class Odd:
         def __init__(self, robot: Any) -> None:
             self.start, self.cancel, self.holding = robot.start, robot.cancel, None
@@ -251,13 +252,13 @@ def test_a_place_has_at_least_one_view(views: Any, house: House) -> None:
         def views(self, place: str) -> Any:
             return views
 
-    house.session.robot = Odd(house.session.robot)
+    house = House(tmp_path, lambda parts: replace(parts, robot=Odd(parts.robot)))
     assert house.run("Find the mug").status == MissionStatus.DONE
 
 
 def test_what_was_let_go_of_too_late_is_said_to_be_out_of_the_hand(house: House) -> None:
     house.run("Take the mug")
-    start = house.session.robot.start
+    start = house.session.parts.robot.start
 
     def lets_go_and_hangs(goal: Goal) -> int:
         if not isinstance(goal, PutDown):
@@ -265,7 +266,7 @@ def test_what_was_let_go_of_too_late_is_said_to_be_out_of_the_hand(house: House)
         house.world.things["mug"], house.world.held = goal.place, None
         return house.inbox.open()
 
-    house.session.robot.start = lets_go_and_hangs  # type: ignore[method-assign]
+    house.session.parts.robot.start = lets_go_and_hangs  # type: ignore[method-assign]
     assert house.run("Put it down").reason == (
         "I could not put it down on the delivery table: it took longer than 120 s; "
         "the mug is not in my hand any more"

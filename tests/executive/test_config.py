@@ -5,10 +5,10 @@ from typing import Any
 
 import pytest
 
-from executive.app import session
 from executive.config import KnowledgeSystem, load_settings
 from executive.errors import InputError
 from executive.events import Inbox
+from kb.llm import open as opening
 
 
 def file_with(tmp_path: Path, text: str) -> Path:
@@ -52,9 +52,9 @@ def test_a_fault_is_named_with_what_would_be_right(
 @pytest.mark.parametrize("maker", ["LlamaCpp", "Server"])
 def test_the_settings_reach_the_model(maker: str, monkeypatch: pytest.MonkeyPatch) -> None:
     given: dict[str, Any] = {}
-    monkeypatch.setattr(session, maker, lambda *_, **settings: given.update(settings))
+    monkeypatch.setattr(opening, maker, lambda *_, **settings: given.update(settings))
     llm = {"LlamaCpp": "my.gguf", "Server": "http://127.0.0.1:1/v1"}[maker]
-    session.build_model(
+    opening.model_for_missions(
         load_settings(llm=llm, grammar=True, threads=3, gpu_layers=-1, temperature=0.5), Inbox()
     )
     assert (given["grammar"], given["temperature"]) == (True, 0.5)

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from executive.events import THE_PERSON, Ended, Inbox, StopRequested
 from executive.language.control import Control, control
-from executive.language.grammar import _VERBS, EnglishInterpreter
+from executive.language.grammar import EnglishInterpreter
+from executive.language.verbs import VERBS
 from executive.text import LONGEST, one_line, printable, too_long
 from executive.types import Answered
 
@@ -22,6 +23,24 @@ MORE = (
     *("you are hitting the cat stop", "stopit", "stooooop", "stpo", "S T O P", "s.t.o.p", "st op"),
     *("\uff33\uff34\uff2f\uff30\uff01", "stóp", "s\u200btop", "\u202estop", "¡stop!", "«halt»"),
     *("\x1b[Astop", "\x1b[200~stop\x1b[201~", "\x1bstop", "don’t move", "停止！", "Arrêtez !"),
+    *("Find the mug - stop", "Find the mug \N{EN DASH} stop!", "Find the mug \N{EM DASH}halt"),
+    *("Find the mug... stop", "Find the mug \u2026 stop", "Find the mug (stop)"),
+    *("why aren't you stopping?", "Why are you not stopping", "why didn't you stop"),
+    *("canel", "cancl", "abrt", "st0p", "5T0P!", "c4ncel", "stoppe", "Stoppen!", "aborting"),
+    *("I changed my mind", "Actually, I've changed my mind", "I don't want it anymore"),
+    *("I don't need the mug any more", "that will do", "That'll do.", "thatll do"),
+    *("no no no", "No, no, no!", "nonono", "I can't wait, stop", "I can't, wait!"),
+    *(
+        "¡Para!",
+        "pare",
+        "Ferma!",
+        "hör auf",
+        "хватит",
+        "Стоп!",
+        "やめて",
+        "止まってください",
+        "멈춰요",
+    ),
 )
 NEVER = (
     *("Bring me the doorstop", "Find the stop sign", "Bring me the door stop, please"),
@@ -41,6 +60,9 @@ NEVER = (
         "nothing",
     ),
     *("Don't bring me the apple", "Put that down", "the second", "any", "", "?", "..."),
+    *("I can't wait, bring the apple", "I cannot wait to see the mug", "Bring the stop sign"),
+    *("no no", "no no no, the mug", "the t-shirt by the bus-stop", "topping", "shopping", "about"),
+    *("shelf_4", "shelf 1a", "Bring the mug - the red one", "Find the stop-sign"),
 )
 
 politeness = st.sampled_from(["", "please ", "hey robot, ", "OK ", "Oh no! ", "could you ", "and "])
@@ -72,7 +94,7 @@ def test_names_answers_and_plain_commands_are_no_stop(words: str) -> None:
     assert control(words) is None
 
 
-@pytest.mark.parametrize("verb", _VERBS)
+@pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize("thing", ["the door stop", "a stop sign", "the emergency stop, please"])
 def test_a_command_about_a_thing_that_is_called_stop_is_a_command(verb: str, thing: str) -> None:
     assert control(f"{verb} {thing}") is None

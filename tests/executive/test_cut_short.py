@@ -56,14 +56,14 @@ def test_a_stop_before_the_mission_stops_it_before_anything_is_done(house: House
 
 
 def test_a_stop_after_all_is_done_undoes_nothing_and_stops_no_other_mission(house: House) -> None:
-    tell = house.session.user.tell
+    tell = house.session.parts.user.tell
 
     def told(text: str) -> None:
         tell(text)
         if text.startswith("I took"):
             house.inbox.post(StopRequested("the person"))
 
-    house.session.user.tell = told  # type: ignore[method-assign]
+    house.session.parts.user.tell = told  # type: ignore[method-assign]
     assert house.run().status == MissionStatus.DONE
     assert isinstance(house.events()[-1], StopRequested)
     assert house.run("Bring the power_drill").status == MissionStatus.DONE
@@ -80,7 +80,7 @@ def test_what_an_earlier_mission_asked_for_is_not_delivered_to_the_next(house: H
 
 
 def test_where_the_driver_cannot_call_off_the_robot_is_halted(house: House) -> None:
-    house.session.robot.cancel = broken  # type: ignore[method-assign]
+    house.session.parts.robot.cancel = broken  # type: ignore[method-assign]
     house.stop_at(DriveTo)
     assert house.run().reason == "stopped by the person"
     assert house.goals[-1] == Halt()
@@ -147,8 +147,8 @@ def test_time_that_does_not_pass_any_more_is_borne(
             raise RuntimeError("no time")
         wait(deadline)
 
-    wait = house.session.clock.wait
-    monkeypatch.setattr(house.session.clock, "wait", stuck)
+    wait = house.session.parts.clock.wait
+    monkeypatch.setattr(house.session.parts.clock, "wait", stuck)
     assert house.run().reason == "internal error: RuntimeError: no time; I may not be at rest"
 
 
@@ -156,8 +156,8 @@ def test_what_a_behaviour_did_before_it_raised_counts_for_nothing(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def halfway(self: SeeTarget, result: object) -> Any:
-        self.situation.inquiries = 17
-        self.situation.looks.reached("the moon")
+        self.situation.dialogue.inquiries = 17
+        self.situation.search.looks.reached("the moon")
         raise ValueError("oops")
 
     monkeypatch.setattr(SeeTarget, "ended", halfway)
@@ -174,7 +174,7 @@ def test_a_question_that_was_put_before_the_tree_broke_is_withdrawn(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     withdrawn: list[int] = []
-    monkeypatch.setattr(house.session.user, "cancel", withdrawn.append)
+    monkeypatch.setattr(house.session.parts.user, "cancel", withdrawn.append)
     monkeypatch.setattr("trees.person.AskWhere.update", broken)
     house.session.run("Take an apple")
     assert len(withdrawn) == 1
@@ -220,6 +220,13 @@ def test_a_world_that_cannot_be_drawn_costs_no_mission(
 # --- all of it, at random ---
 
 CALLS = ["robot.start", "robot.cancel", "robot.views", "eyes.see", "eyes.cancel", "user.ask"]
+OWNERS: dict[str, Callable[[Session], Any]] = {
+    "robot": lambda session: session.parts.robot,
+    "eyes": lambda session: session.parts.perception,
+    "user": lambda session: session.parts.user,
+    "world": lambda session: session.embodiment.truth,
+    "knowledge": lambda session: session.parts.knowledge,
+}
 CALLS += ["user.tell", "user.cancel", "world.advance", "world.describe", "knowledge.usual_places"]
 WORDS = ["Bring an apple", "Take a power_drill", "Find the mug", "Bring the hammer", "Nonsense"]
 
@@ -248,7 +255,7 @@ def mischief(house: House, plan: dict[int, str]) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         for path in CALLS:
             part, name = path.split(".")
-            owner = getattr(house.session, part)
+            owner = OWNERS[part](house.session)
             patch.setattr(owner, name, troubled(getattr(owner, name)))
         yield
 

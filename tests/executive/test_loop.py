@@ -10,6 +10,7 @@ from executive.clock import SimulatedClock
 from executive.errors import ExecutiveError
 from executive.events import Inbox, StopRequested
 from executive.loop import Executive
+from executive.pending import Pending
 from executive.records import EventTaken, Note, Tick, TreeShape
 from executive.situation import Situation
 from executive.testing.bench import Notebook, run_mission
@@ -209,6 +210,7 @@ def executive_of(update: Callable[[], None]) -> tuple[Executive, Situation, Note
     executive = Executive(
         MissionTree(Faulty()),
         situation,
+        pending=Pending(),
         inbox=inbox,
         clock=SimulatedClock(inbox, world),
         robot=FakeRobot(world),
@@ -223,7 +225,7 @@ def test_a_behaviour_that_raises_ends_the_mission_with_the_traceback_in_the_log(
 
     executive, situation, notebook = executive_of(broken)
     executive.run()
-    assert situation.reason == "internal error: ValueError: oops"
+    assert situation.ending.reason == "internal error: ValueError: oops"
     assert "Traceback" in notebook.all(Note)[0].text
     assert isinstance(notebook.records[0], TreeShape)
 
@@ -234,4 +236,4 @@ def test_an_error_for_the_person_is_told_as_it_is() -> None:
 
     executive, situation, _ = executive_of(broken)
     executive.run()
-    assert situation.reason == "the model file is broken"
+    assert situation.ending.reason == "the model file is broken"

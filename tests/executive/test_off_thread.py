@@ -215,7 +215,7 @@ def hang(frame):
     inbox.post(StopRequested("the person"))
     threading.Event().wait()
 
-session.perception._detector.detect = hang
+session.parts.perception._detector.detect = hang
 print(session.run("Find the mug").status)
 session.close()
 """

@@ -2,6 +2,7 @@ import io
 from collections.abc import Callable
 from pathlib import Path
 
+from executive.app.parts import Change, as_they_are
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, StopRequested
@@ -16,17 +17,18 @@ OKB = {"world": "fake", "llm": "none", "knowledge": KnowledgeSystem.OKB, "user":
 class House:
     """A session in the instant world whose parts can be told to misbehave."""
 
-    def __init__(self, runs: Path) -> None:
+    def __init__(self, runs: Path, change: Change = as_they_are) -> None:
         self.inbox = Inbox()
         self.session = Session(
             Settings(**{**OKB, "runs": runs}),  # type: ignore[arg-type]
             inbox=self.inbox,
             out=io.StringIO(),
+            change=change,
         )
         self.goals: list[Goal] = []
         self.during: Callable[[Goal], None] = lambda goal: None
-        self._start = self.session.robot.start
-        self.session.robot.start = self._noted  # type: ignore[method-assign]
+        self._start = self.session.parts.robot.start
+        self.session.parts.robot.start = self._noted  # type: ignore[method-assign]
 
     def _noted(self, goal: Goal) -> int:
         self.goals.append(goal)
@@ -35,8 +37,8 @@ class House:
 
     @property
     def world(self) -> FakeWorld:
-        assert isinstance(self.session.world, FakeWorld)
-        return self.session.world
+        assert isinstance(self.session.embodiment.truth, FakeWorld)
+        return self.session.embodiment.truth
 
     def stop_at(self, *kinds: type[Goal], by: str = "the person") -> None:
         def stop(goal: Goal) -> None:

@@ -2,7 +2,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from executive.testing.bench import four_rooms
-from executive.types import CommandKind, MissionStatus, Source
+from executive.types import SEARCHING, CommandKind, MissionStatus, Source
 
 ALL = tuple(place.name for place in four_rooms().places())
 
@@ -295,7 +295,7 @@ CASES = [
     Case(
         "what the grammar cannot read is ranked, and done if the person agrees",
         "Come with the hammer!",
-        {"answers": ["yes"], "replies": [(0.0, 0.5, 2.0)]},
+        {"answers": ["yes"], "replies": [favouring("bring", among=SEARCHING)]},
         object="hammer",
         kind=CommandKind.BRING,
         inquiries=1,
@@ -313,7 +313,7 @@ CASES = [
     Case(
         "of several things in words that no grammar reads the person chooses one",
         "Has anyone seen hammer and drill?",
-        {"answers": ["yes", "drill"], "replies": [(2.0, 0.5, 0.0)]},
+        {"answers": ["yes", "drill"], "replies": [favouring("find", among=SEARCHING)]},
         object="power_drill",
         kind=CommandKind.FIND,
         inquiries=2,

@@ -45,16 +45,16 @@ def recorded(
         model=ScriptedModel(replies, inbox) if llm else None,
         out=io.StringIO(),
     )
-    assert isinstance(session.world, FakeWorld)
-    session.world.fault = fault
-    start = session.robot.start
+    assert isinstance(session.embodiment.truth, FakeWorld)
+    session.embodiment.truth.fault = fault
+    start = session.parts.robot.start
 
     def start_and_note(goal: Goal) -> int:
         request = start(goal)
         during(goal, inbox)
         return request
 
-    session.robot.start = start_and_note  # type: ignore[method-assign]
+    session.parts.robot.start = start_and_note  # type: ignore[method-assign]
     outcome = session.run(words)
     session.close()
     return Path(outcome.run_dir or "")

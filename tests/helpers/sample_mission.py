@@ -61,8 +61,16 @@ TREE = TreeShape(
     (
         NodeShape("mission", "", "mission", "sequence", "Sequence"),
         NodeShape("mission/which places", "mission", "which places", "selector", "Selector"),
-        NodeShape("mission/which places/ask", "mission/which places", "ask", "behaviour", "Ask"),
-        NodeShape("mission/drive", "mission", "drive", "behaviour", "Visit"),
+        NodeShape(
+            "mission/which places/ask",
+            "mission/which places",
+            "ask",
+            "behaviour",
+            "Ask",
+            source="user",
+            activity="asking",
+        ),
+        NodeShape("mission/drive", "mission", "drive", "behaviour", "Visit", stage=True),
         NodeShape("mission/see", "mission", "see", "behaviour", "SeeTarget"),
     )
 )

@@ -24,6 +24,11 @@ BOTH = ("counter_wagon", "desk")
         "{\N{LEFT DOUBLE QUOTATION MARK}places\N{RIGHT DOUBLE QUOTATION MARK}: "
         "[\N{LEFT SINGLE QUOTATION MARK}counter_wagon\N{RIGHT SINGLE QUOTATION MARK}, `desk`]}",
         "{places: [counter_wagon, desk]}",
+        "{'places': ('counter_wagon', 'desk',),}",
+        "{'places': [('counter_wagon', 0.9), ('desk', 0.1)]}",
+        "1. counter_wagon\n2. desk",
+        "```\n1) **counter_wagon**,\n2) `desk`\n```\n",
+        "- counter_wagon\n- desk\n",
         '{"Places": ["counter_wagon", "desk", null, ...]}',
         '{"places": [\n  "counter_wagon",  // sugar, too\n  /* or */ "desk"  # at last\n]}',
         '{"places": [{"name": "counter_wagon", "why": "kitchen"}, {"Place": "desk"}]}',
@@ -54,6 +59,14 @@ def test_names_are_read_as_models_write_them(reply: str) -> None:
 @pytest.mark.parametrize("reply", ['{"places": "desk"}', '{"place": "desk"}', '{"places": [desk]}'])
 def test_one_place_may_stand_alone(reply: str) -> None:
     assert read(reply) == ("desk",)
+
+
+@pytest.mark.parametrize(
+    "reply",
+    ["It is here:\n1. counter_wagon\n2. desk", "1. desk\nI am sure.", "2. ", "desk", "(desk, bed)"],
+)
+def test_prose_and_a_list_among_it_are_no_answer(reply: str) -> None:
+    assert read(reply) is None
 
 
 @pytest.mark.parametrize(
@@ -110,7 +123,7 @@ def test_a_quote_that_nothing_closes_is_looked_for_once_a_line(
 pieces = st.lists(
     st.sampled_from(
         [
-            *"{}[],:\"'`#/* \n1a«“„”：，｛［］｝",
+            *"{}[](),:\"'`#/* \n1a.«“„”：，｛［］｝",
             "places",
             '"desk"',
             '"places":',
@@ -131,7 +144,7 @@ def test_no_name_is_read_that_is_not_written_there(text: str) -> None:
 
 @given(pieces)
 def test_a_value_ends_where_a_bracket_closes(text: str) -> None:
-    assert all(text[end - 1] in "]}］｝" for end, _ in values(text))
+    assert all(text[end - 1] in ")]}）］｝" for end, _ in values(text))
 
 
 @pytest.mark.parametrize(
@@ -148,6 +161,9 @@ def test_a_value_ends_where_a_bracket_closes(text: str) -> None:
         "[#",
         '["\\',
         "[1,",
+        "[(",
+        "(1,",
+        "1. ",
         "[...",
         "{}",
     ],

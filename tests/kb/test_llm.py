@@ -19,7 +19,8 @@ from executive.types import (
     Replied,
     Scored,
 )
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.lister import Lister
+from kb.advice.ranker import Ranker
 from kb.advice.verification import Reply
 from kb.llm.context import Context
 from kb.llm.gguf import Gguf
@@ -134,9 +135,9 @@ def test_the_model_writes_and_says_what_it_cost(real, capfd):
 @pytest.mark.llm
 def test_the_shared_prefix_is_evaluated_once(real):
     model, inbox = real
-    adviser = PlaceAdvisor(ontology(True), model, remembers=False)
-    first = end_of(inbox, model.chat(adviser.inquiry("mug", ()))).usage
-    second = end_of(inbox, model.chat(adviser.inquiry("hammer", ()))).usage
+    lister = Lister(ontology(True), model, remembers=False)
+    first = end_of(inbox, model.chat(lister.inquiry("mug", ()))).usage
+    second = end_of(inbox, model.chat(lister.inquiry("hammer", ()))).usage
     assert second.input_tokens > 300
     assert second.evaluated_tokens < 40 < first.input_tokens
 
@@ -266,14 +267,12 @@ def test_the_same_seed_and_prompt_give_the_same_reply_whatever_was_asked_before(
 @pytest.mark.llm
 def test_scores_do_not_depend_on_what_was_asked_before(real):
     model, inbox = real
-    adviser = PlaceAdvisor(ontology(True), model, remembers=False)
+    ranker = Ranker(ontology(True))
     for name in ("mug", "hammer"):
-        asked_late = end_of(inbox, model.rank(adviser.ranking(name, ())))
+        asked_late = end_of(inbox, model.rank(ranker.ranking(name, ())))
     fresh_inbox = Inbox()
     fresh = LlamaCpp(embedded_model(), fresh_inbox, n_ctx=1024)
-    assert (
-        end_of(fresh_inbox, fresh.rank(adviser.ranking("hammer", ()))).scores == asked_late.scores
-    )
+    assert end_of(fresh_inbox, fresh.rank(ranker.ranking("hammer", ()))).scores == asked_late.scores
     fresh.close()
 
 

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 from executive.events import Inbox
 from executive.testing.bench import ontology
 from executive.types import Message
-from kb.advice.advisor import PlaceAdvisor
 from kb.advice.history import DialogueHistory, history_budget
+from kb.advice.lister import Lister
 from kb.llm.scripted import Scripted
 
 
@@ -15,9 +15,9 @@ def words(text: str) -> int:
     return len(text.split())
 
 
-def advisor(remembers: bool, context_tokens: int = 4096) -> PlaceAdvisor:
+def lister(remembers: bool, context_tokens: int = 4096) -> Lister:
     model = Scripted([], Inbox(), context_tokens=context_tokens)
-    return PlaceAdvisor(ontology(True), model, remembers=remembers)
+    return Lister(ontology(True), model, remembers=remembers)
 
 
 def test_the_budget_is_the_papers():
@@ -54,22 +54,22 @@ def test_the_history_keeps_to_the_budget_and_to_whole_exchanges(budget, exchange
 
 
 def test_with_a_memory_the_next_prompt_holds_the_exchange():
-    adviser = advisor(remembers=True)
-    first = adviser.inquiry("mug", ())
-    adviser.remember(first, "a reply")
-    second = adviser.inquiry("hammer", ())
+    asks = lister(remembers=True)
+    first = asks.inquiry("mug", ())
+    asks.remember(first, "a reply")
+    second = asks.inquiry("hammer", ())
     assert second.messages[:3] == (*first.messages, Message("assistant", "a reply"))
 
 
 def test_without_a_memory_it_does_not():
-    adviser = advisor(remembers=False)
-    adviser.remember(adviser.inquiry("mug", ()), "a reply")
-    assert [m.role for m in adviser.inquiry("hammer", ()).messages] == ["system", "user"]
+    asks = lister(remembers=False)
+    asks.remember(asks.inquiry("mug", ()), "a reply")
+    assert [m.role for m in asks.inquiry("hammer", ()).messages] == ["system", "user"]
 
 
 def test_a_small_context_window_forgets_sooner():
-    small, large = advisor(True, context_tokens=512), advisor(True, context_tokens=4096)
-    for adviser in (small, large):
+    small, large = lister(True, context_tokens=512), lister(True, context_tokens=4096)
+    for asks in (small, large):
         for _ in range(9):
-            adviser.remember(adviser.inquiry("mug", ()), "word " * 20)
+            asks.remember(asks.inquiry("mug", ()), "word " * 20)
     assert len(small.inquiry("mug", ()).messages) < len(large.inquiry("mug", ()).messages) == 20

@@ -429,7 +429,7 @@ def test_a_key_is_sent_and_told_nobody(
 def test_a_refusal_that_repeats_the_key_does_not_tell_it() -> None:
     words = {"error": {"message": f"Incorrect API key provided: {SECRET}"}}
     with talking(refuses(401, words), api_key=Key(SECRET)) as talk:
-        said = "HTTP 401: Incorrect API key provided: ***; is EXECUTIVE_LLM_API_KEY right?"
+        said = "HTTP 401: Incorrect API key provided: ***; check EXECUTIVE_LLM_API_KEY"
         assert talk.reason() == said
 
 

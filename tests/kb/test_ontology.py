@@ -13,10 +13,11 @@ from rdflib import OWL as OWL_
 from rdflib import RDF, RDFS
 
 from executive.errors import InputError
+from executive.language.phrases import stem, words_of
 from executive.testing.bench import four_rooms, ontology
 from executive.types import Place
 from kb.__main__ import main
-from kb.ontology.names import PlaceNames, stem, words_of
+from kb.ontology.names import PlaceNames
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
 from sim.home.home import home_text
 
@@ -56,8 +57,8 @@ def owl_file(folder: Path, content: str) -> Path:
     return path
 
 
-def test_the_objects_are_those_of_the_paper():
-    assert sorted(KNOWN.objects()) == PAPERS_OBJECTS
+def test_the_objects_of_the_paper_are_known():
+    assert set(KNOWN.objects()) >= set(PAPERS_OBJECTS)
 
 
 @pytest.mark.parametrize(("name", "places"), SURVEY.items())
@@ -241,7 +242,7 @@ def test_an_unknown_thing_has_no_class():
     [
         ("this is none", "more.owl: is no ontology: it begins with 'this is none'; save it as RDF"),
         ("<rdf:RDF>", "more.owl: is not XML: unbound prefix"),
-        ("<html></html>", "more.owl: begins with <html>; save it as RDF/XML or Turtle"),
+        ("<htm></htm>", "more.owl: begins with <htm>; save it as RDF/XML or Turtle"),
     ],
 )
 def test_a_broken_file_is_refused(tmp_path, content, fault):

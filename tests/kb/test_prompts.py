@@ -9,16 +9,17 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.testing.bench import four_rooms, ontology
 from executive.types import ChatRequest, Message
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.lister import Lister
 from kb.advice.prompts import TEXTS, Prompts
+from kb.advice.ranker import Ranker
 from kb.advice.verification import Reply
 from kb.llm.scripted import Scripted
 
 PLACES = four_rooms().places()
 
 
-def advisor(remembers: bool = False) -> PlaceAdvisor:
-    return PlaceAdvisor(ontology(True), Scripted([], Inbox()), remembers=remembers)
+def lister(remembers: bool = False) -> Lister:
+    return Lister(ontology(True), Scripted([], Inbox()), remembers=remembers)
 
 
 def question(request: ChatRequest) -> str:
@@ -32,14 +33,14 @@ def edited(tmp_path, old: str, new: str):
 
 
 def test_the_system_prompt_holds_all_rooms_furniture_and_pairs():
-    system = advisor().inquiry("mug", ()).messages[0]
+    system = lister().inquiry("mug", ()).messages[0]
     assert system.role == "system"
     for place in PLACES:
         assert f"{place.name}: {place.room}" in system.content
 
 
 def test_the_system_prompt_holds_the_output_format_and_every_request_its_schema():
-    request = advisor().inquiry("mug", ())
+    request = lister().inquiry("mug", ())
     assert json.dumps(Reply.model_json_schema()) in request.messages[0].content
     assert request.schema["properties"]["places"]["maxItems"] == 5
 
@@ -47,10 +48,10 @@ def test_the_system_prompt_holds_the_output_format_and_every_request_its_schema(
 @pytest.mark.parametrize(
     ("request_", "choice"),
     [
-        (advisor().inquiry("mug", ()), [place.name for place in PLACES]),
-        (advisor().inquiry("mug", ("desk", "sofa")), ["desk", "sofa"]),
-        (advisor().furniture("mug", "lobby", ()), ["shelf_lobby", "sideboard"]),
-        (advisor().again("mug", ("desk", "sofa")), ["sofa", "desk"]),
+        (lister().inquiry("mug", ()), [place.name for place in PLACES]),
+        (lister().inquiry("mug", ("desk", "sofa")), ["desk", "sofa"]),
+        (lister().furniture("mug", "lobby", ()), ["shelf_lobby", "sideboard"]),
+        (lister().again("mug", ("desk", "sofa")), ["sofa", "desk"]),
     ],
 )
 def test_a_model_that_can_be_held_to_a_schema_can_only_name_allowed_places(request_, choice):
@@ -58,33 +59,33 @@ def test_a_model_that_can_be_held_to_a_schema_can_only_name_allowed_places(reque
 
 
 def test_without_default_locations_the_question_is_general():
-    request = advisor().inquiry("mug", ())
+    request = lister().inquiry("mug", ())
     assert request.label == "general_pos"
     assert "mug" in question(request)
     assert "5" in question(request)
 
 
 def test_several_default_locations_narrow_the_question():
-    request = advisor().inquiry("mug", ("desk", "sofa"))
+    request = lister().inquiry("mug", ("desk", "sofa"))
     assert request.label == "multiple_pos"
     assert "desk, sofa" in question(request)
 
 
 def test_a_room_is_expanded_into_its_furniture():
-    request = advisor().furniture("mug", "kitchen", ())
+    request = lister().furniture("mug", "kitchen", ())
     assert request.label == "furniture"
     assert "cabinet_kitchen, counter_wagon, high_table, refrigerator" in question(request)
 
 
 def test_a_room_is_expanded_into_its_allowed_furniture_only():
-    asked = question(advisor().furniture("mug", "kitchen", ("high_table", "desk")))
+    asked = question(lister().furniture("mug", "kitchen", ("high_table", "desk")))
     assert "high_table" in asked
     assert "cabinet_kitchen" not in asked
     assert "desk" not in asked
 
 
 def test_asking_again_offers_the_allowed_places():
-    request = advisor().again("mug", ("desk", "sofa"))
+    request = lister().again("mug", ("desk", "sofa"))
     assert request.label == "again"
     assert "mug" in question(request)
     assert "sofa, desk" in question(request)
@@ -92,20 +93,21 @@ def test_asking_again_offers_the_allowed_places():
 
 @pytest.mark.parametrize("remembers", [False, True])
 def test_a_summary_follows_the_reply_that_it_is_about(remembers):
-    adviser = advisor(remembers)
-    adviser.remember(adviser.inquiry("mug", ()), "try the desk")
-    request = adviser.summarize("mug", "try the desk")
+    asks = lister(remembers)
+    asks.remember(asks.inquiry("mug", ()), "try the desk")
+    request = asks.summarize("mug", "try the desk")
     assert request.label == "summarize"
     assert request.messages[-2] == Message("assistant", "try the desk")
     assert [m.role for m in request.messages] == ["system", "user", "assistant", "user"]
 
 
 def test_no_placeholder_is_left_in_any_prompt():
-    adviser = advisor()
+    asks = lister()
     requests = [
-        *(adviser.inquiry("mug", ()), adviser.inquiry("mug", ("desk", "sofa"))),
-        *(adviser.furniture("mug", "kitchen", ()), adviser.again("mug", ())),
-        *(adviser.summarize("mug", "reply"), adviser.ranking("mug", ())),
+        *(asks.inquiry("mug", ()), asks.inquiry("mug", ("desk", "sofa"))),
+        *(asks.furniture("mug", "kitchen", ()), asks.again("mug", ())),
+        asks.summarize("mug", "reply"),
+        Ranker(ontology(True)).ranking("mug", ()),
     ]
     texts = [message.content for request in requests for message in request.messages]
     assert not [text for text in texts if re.search(r"#\w", text)]

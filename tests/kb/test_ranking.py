@@ -6,22 +6,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.events import Inbox
+from executive.language.phrases import spoken
 from executive.testing.bench import four_rooms, ontology
 from executive.types import Place, RankRequest, Scored, Source, Usage
-from kb.advice.advisor import PlaceAdvisor
 from kb.advice.prompts import Prompts
+from kb.advice.ranker import Ranker
 from kb.advice.ranking import MOST_PRECEDENTS, Known, answer, rank_request, ranked
 from kb.facts import FactStore
-from kb.llm.scripted import Scripted
-from kb.ontology.names import spoken
 
 PLACES = four_rooms().places()
 
 
 def ranking(name: str, among: tuple[str, ...] = ()) -> RankRequest:
-    adviser = PlaceAdvisor(ontology(True), Scripted([], Inbox()), remembers=False)
-    return adviser.ranking(name, among)
+    return Ranker(ontology(True)).ranking(name, among)
 
 
 def scored(*scores: float) -> Scored:
@@ -83,16 +80,14 @@ def test_where_a_thing_was_seen_counts_and_not_where_it_usually_is():
     facts = FactStore()
     facts.saw(["hammer"], "desk")
     facts.saw(["colored_wood_blocks"], "bed")
-    adviser = PlaceAdvisor(ontology(True), Scripted([], Inbox()), remembers=False, facts=facts)
-    known = precedents(adviser.ranking("mug", ()))
+    known = precedents(Ranker(ontology(True), facts=facts).ranking("mug", ()))
     assert known["Where is the hammer?"] == ("desk",)
     assert known["Where is the colored wood blocks?"] == ("bed",)
     facts.close()
 
 
 def test_without_default_locations_and_facts_there_are_no_precedents():
-    adviser = PlaceAdvisor(ontology(False), Scripted([], Inbox()), remembers=False)
-    assert adviser.ranking("mug", ()).precedents == ()
+    assert Ranker(ontology(False)).ranking("mug", ()).precedents == ()
 
 
 def test_a_thing_and_its_precedents_are_told_with_their_class():

@@ -14,7 +14,7 @@ from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, MissionStatus, Replied, Result
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.lister import Lister
 from kb.llm.server import asking
 from kb.llm.server.server import Server
 from kb.ontology.ontology import Ontology
@@ -29,12 +29,12 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield server.url
 
 
-def advisor(model: Server) -> PlaceAdvisor:
-    return PlaceAdvisor(Ontology(load_home("four_rooms").places()), model, remembers=True)
+def lister(model: Server) -> Lister:
+    return Lister(Ontology(load_home("four_rooms").places()), model, remembers=True)
 
 
 def answer(model: Server, inbox: Inbox, *among: str) -> Result:
-    request = model.chat(advisor(model).inquiry("mug", among))
+    request = model.chat(lister(model).inquiry("mug", among))
     assert inbox.wait(120)
     [event] = inbox.take_all()
     assert isinstance(event, Ended)
@@ -58,10 +58,10 @@ def test_a_real_server_is_held_to_the_schema(url: str) -> None:
     inbox = Inbox()
     model = Server(url, inbox, max_tokens=100, grammar=True)
     result = answer(model, inbox, "desk", "sofa")
-    adviser = advisor(model)
+    asks = lister(model)
     model.close()
     assert isinstance(result, Replied)
-    names = adviser.read(result.text)
+    names = asks.read(result.text)
     assert names
     assert set(names) <= {"desk", "sofa"}
 
@@ -69,7 +69,7 @@ def test_a_real_server_is_held_to_the_schema(url: str) -> None:
 def test_a_real_server_that_is_hung_up_on_answers_the_next(url: str) -> None:
     inbox = Inbox()
     model = Server(url, inbox, max_tokens=8)
-    model.cancel(model.chat(advisor(model).inquiry("apple", ())))
+    model.cancel(model.chat(lister(model).inquiry("apple", ())))
     result = answer(model, inbox)
     model.close()
     assert isinstance(result, Replied)

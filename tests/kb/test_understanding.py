@@ -6,29 +6,27 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.events import Inbox
 from executive.testing.bench import ontology
 from executive.types import SEARCHING, CommandKind, Scored, Usage
 from kb.advice import commands
-from kb.advice.advisor import PlaceAdvisor
-from kb.llm.scripted import Scripted
+from kb.advice.reader import Reader
 
-ADVISOR = PlaceAdvisor(ontology(True), Scripted([], Inbox()), remembers=False)
+READER = Reader(ontology(True))
 
 
 def test_the_model_can_choose_among_the_kinds_and_the_known_objects_only() -> None:
-    request = ADVISOR.command_inquiry("Come with the hammer!")
+    request = READER.inquiry("Come with the hammer!")
     assert request.schema
-    assert request.schema["properties"]["kind"]["enum"] == ["find", "take", "bring"]
+    assert request.schema["properties"]["kind"]["enum"] == list(SEARCHING)
     assert request.schema["properties"]["object"]["enum"] == list(ontology(True).objects())
     assert "Come with the hammer!" in request.messages[-1].content
 
 
 def test_the_likeliest_kind_is_taken() -> None:
-    request = ADVISOR.command_ranking("Come with the hammer!")
+    request = READER.ranking("Come with the hammer!")
     assert request.options[1] == "I take it in my hand."
     assert request.places == SEARCHING
-    assert ADVISOR.command_ranked(Scored(request, (0.1, 0.3, 0.2), Usage())) == CommandKind.TAKE
+    assert READER.ranked(Scored(request, (0.1, 0.3, 0.2), Usage())) == CommandKind.TAKE
 
 
 @pytest.mark.parametrize(
@@ -50,7 +48,7 @@ def test_the_likeliest_kind_is_taken() -> None:
 def test_only_a_known_kind_with_one_known_object_is_read(
     reply: str, command: tuple[CommandKind, str] | None
 ) -> None:
-    assert ADVISOR.command_read(reply) == command
+    assert READER.read(reply) == command
 
 
 @given(
@@ -60,6 +58,6 @@ def test_only_a_known_kind_with_one_known_object_is_read(
     )
 )
 def test_whatever_the_model_writes_nothing_is_raised_or_invented(reply: str) -> None:
-    command = ADVISOR.command_read(reply)
+    command = READER.read(reply)
     assert command is None or command[1] in ontology(True).objects()
     commands.read(reply)

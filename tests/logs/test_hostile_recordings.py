@@ -34,10 +34,12 @@ from executive.types import Outcome, Saw
 from logs.__main__ import main
 from logs.questions import export
 from logs.recording import mcap_file, parsing
+from logs.recording.channels import MESSAGES
 from logs.recording.mcap_file import MiB
+from logs.recording.older import recorded_class
 from logs.recording.reader import Run
 from logs.recording.recovery import recover
-from logs.recording.schema import MESSAGES, PACKAGE, recorded_class
+from logs.recording.schema import PACKAGE
 
 QUESTIONS = ("why", "summary", "ticks", "timeline", "llm", "dialog", "frames", "export", "replay")
 

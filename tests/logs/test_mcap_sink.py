@@ -24,7 +24,8 @@ from executive.records import (
 )
 from executive.types import Pose
 from logs.recorder import Stamp
-from logs.recording.sink import TOPICS, McapSink
+from logs.recording.channels import TOPICS
+from logs.recording.sink import McapSink
 
 START_NS = int(STARTED.timestamp()) * 10**9
 

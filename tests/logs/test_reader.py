@@ -38,9 +38,18 @@ from pathlib import Path
 from rerun.chunk import RrdReader
 from rerun.error_utils import RerunWarning
 from sample_mission import STARTED, TREE, tick
+from executive.errors import InputError
 from logs import recorder
+from logs.recording.reader import Run
 from logs.recording.sink import McapSink
 from logs.viewer.sink import RerunSink
+
+def ticks_on_the_disk():
+    try:
+        return sum(1 for _ in Run(path).ticks())
+    except InputError:
+        return 0
+
 recorder.FLUSH_S = 0.05
 path = Path(sys.argv[1])
 sinks = [McapSink(path, STARTED, {"a.toml": b"x = 1"}, {"seed": "7"})]
@@ -52,7 +61,8 @@ fan_out.record(TREE)
 for number in itertools.count():
     fan_out.record(tick(number, "mission/drive", *["RUNNING"] * len(TREE.nodes)))
     if number == 200:
-        time.sleep(0.5)
+        while ticks_on_the_disk() <= 200:
+            time.sleep(0.05)
         print("ready", flush=True)
 """
 

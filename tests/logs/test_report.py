@@ -4,6 +4,7 @@ import json
 import shutil
 import sys
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -20,7 +21,7 @@ from logs.questions import report
 from logs.questions.comparison import compare
 from logs.questions.difference import parting
 from logs.questions.pictures import write_video
-from logs.questions.why import Alternative, why, why_text
+from logs.questions.why import Alternative, denied, why, why_text
 from logs.recorder import Stamp
 from logs.recording.reader import At, Run
 from logs.recording.recovery import damaged_at, recover
@@ -98,16 +99,26 @@ def test_what_failed_on_the_way_to_a_decision_says_why(tmp_path: Path) -> None:
     assert decision.alternatives == (Alternative("ask", "no"),)
 
 
+@pytest.mark.parametrize(
+    ("condition", "contrary"),
+    [
+        ("in my hand", "not in my hand"),
+        ("it was there", "it was not there"),
+        ("person may help", "person may not help"),
+        ("perhaps it is", "perhaps it is not"),
+    ],
+)
+def test_a_condition_that_did_not_hold_reads_as_a_sentence(condition: str, contrary: str) -> None:
+    assert denied(condition) == contrary
+
+
 def test_of_a_recording_without_ticks_it_says_that_nothing_was_decided(tmp_path: Path) -> None:
     assert "no ticks" in why_text(why(Run(record(tmp_path, [(0.0, TREE)]))))
 
 
 def test_what_the_model_named_in_vain_is_an_alternative(tmp_path: Path) -> None:
     shape = tuple(
-        type(node)(node.path, node.parent, node.name, node.kind, "RankPlaces")
-        if node.name == "ask"
-        else node
-        for node in TREE.nodes
+        replace(node, source="llm") if node.name == "ask" else node for node in TREE.nodes
     )
     decided = tick(0, "mission/drive", "RUNNING", "SUCCESS", "SUCCESS", "RUNNING", "INVALID")
     records = [
@@ -175,6 +186,7 @@ def test_a_folder_of_runs_is_one_table_in_which_a_broken_one_has_its_row(
         ("why", "2.000  which places: ask  [user]"),
         ("ticks", "RUNNING  mission/drive  (on the way)"),
         ("summary", "seconds by behaviour: drive 4.0, ask 2.0"),
+        ("summary", "2 calls of the model, 0 questions, 1 place visited"),
     ],
 )
 def test_questions_are_answered_in_words_and_as_json(

@@ -183,6 +183,13 @@ def test_every_behaviour_has_a_lane_from_when_it_first_does_something(recording:
     assert "/behaviours/3_drive" not in rows(half)
 
 
+def test_what_is_declared_a_stage_has_a_lane_among_the_parts_of_the_mission(
+    recording: Path,
+) -> None:
+    lanes = {path for path in rows(recording) if path.startswith("/mission/")}
+    assert lanes == {"/mission/0_doing", "/mission/0_place", "/mission/1_drive"}
+
+
 def test_the_scene_is_logged_once_and_only_frames_move(tmp_path: Path) -> None:
     moves = [(float(t), robot_at(float(t))) for t in range(10)]
     logged = rows(write(tmp_path / "a.rrd", (0.0, scene()), *moves))

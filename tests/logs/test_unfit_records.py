@@ -30,10 +30,10 @@ from executive.records import (
 )
 from executive.types import Answered, Pose
 from logs.recorder import FanOut
+from logs.recording.channels import MOST_IN_A_MESSAGE
 from logs.recording.reader import Run
 from logs.recording.recovery import recover
 from logs.recording.sink import McapSink
-from logs.recording.topics import MOST_IN_A_MESSAGE
 from logs.viewer.sink import RerunSink
 
 LATE = "and on it goes"

@@ -49,8 +49,8 @@ def test_what_is_sure_at_the_second_look_is_found() -> None:
     assert aimed == LookAt("dining_table")
     assert closer.place == "dining_table"
     assert closer.point is not None
-    assert mission.situation.detection
-    assert mission.situation.detection.confidence == 0.8
+    assert mission.situation.search.detection
+    assert mission.situation.search.detection.confidence == 0.8
 
 
 def test_what_is_sure_at_once_is_looked_at_once() -> None:
@@ -106,5 +106,5 @@ def test_what_is_cut_off_in_the_picture_is_looked_at_straight() -> None:
     assert mission.outcome.status == MissionStatus.DONE
     assert (aimed.point, closer.place) == (None, aimed.place)
     assert closer.point is not None
-    assert mission.situation.detection
-    assert not mission.situation.detection.cut_off
+    assert mission.situation.search.detection
+    assert not mission.situation.search.detection.cut_off

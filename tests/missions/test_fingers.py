@@ -2,27 +2,29 @@
 
 import io
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from executive.app.parts import Change, as_they_are
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import HandFelt, Inbox, StopRequested
 from executive.replay.replaying import replay
-from executive.situation import Situation
+from executive.situation import Hand
 from executive.types import SOMETHING, Failed, Goal, MissionStatus, Outcome, Pick, PutDown, Result
 from logs.recording.reader import Run
 from sim.fake import FakeWorld
 
-Change = Callable[[FakeWorld, Result], Result]
+Ending = Callable[[FakeWorld, Result], Result]
 
 
 class House:
     """A session in the instant world in which goals can be made to end otherwise."""
 
-    def __init__(self, runs: Path) -> None:
+    def __init__(self, runs: Path, change: Change = as_they_are) -> None:
         self.inbox = Inbox()
         self.session = Session(
             Settings(
@@ -30,12 +32,13 @@ class House:
             ),
             inbox=self.inbox,
             out=io.StringIO(),
+            change=change,
         )
-        assert isinstance(self.session.world, FakeWorld)
-        self.world = self.session.world
-        self.changes: dict[type[Goal], Change] = {}
-        self._start = self.session.robot.start
-        self.session.robot.start = self._changed  # type: ignore[method-assign]
+        assert isinstance(self.session.embodiment.truth, FakeWorld)
+        self.world = self.session.embodiment.truth
+        self.changes: dict[type[Goal], Ending] = {}
+        self._start = self.session.parts.robot.start
+        self.session.parts.robot.start = self._changed  # type: ignore[method-assign]
 
     def _changed(self, goal: Goal) -> int:
         """Start a goal; if its kind is to end otherwise, it does so once."""
@@ -144,12 +147,12 @@ def test_what_someone_put_into_the_hand_is_something(house: House) -> None:
 def test_what_is_felt_is_what_was_held_or_else_reached_for(
     before: str | None, reached_for: str, holding: bool, after: str | None
 ) -> None:
-    situation = Situation(in_hand=before, reached_for=reached_for)
-    situation.fold(HandFelt(holding))
-    assert situation.in_hand == after
+    hand = Hand(in_hand=before, reached_for=reached_for)
+    hand.feel(holding)
+    assert hand.in_hand == after
 
 
-def test_a_robot_that_cannot_feel_is_believed(house: House) -> None:
+def test_a_robot_that_cannot_feel_is_believed(tmp_path: Path) -> None:
     class Numb:
         def __init__(self, robot: Any) -> None:
             self._robot = robot
@@ -159,7 +162,7 @@ def test_a_robot_that_cannot_feel_is_believed(house: House) -> None:
         def holding(self) -> None:
             return None
 
-    house.session.robot = Numb(house.session.robot)
+    house = House(tmp_path, lambda parts: replace(parts, robot=Numb(parts.robot)))
     assert house.run("Take the hammer").status == MissionStatus.DONE
     assert house.felt() == []
     assert house.run("Bring the hammer").reason == "Here is the hammer."
@@ -183,7 +186,7 @@ def test_in_physics_what_is_believed_is_true(fault: tuple[str, ...], tmp_path: P
     )
     for words in ("Bring a mustard_bottle", "Take a pitcher_base"):
         session.run(words)
-        assert session._in_hand == session.world.held
+        assert session._in_hand == session.embodiment.truth.held
         assert session.folder
         assert replay(session.folder).parting is None
     session.close()

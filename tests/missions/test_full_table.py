@@ -42,5 +42,5 @@ def test_three_things_are_brought_to_one_table() -> None:
     things = ("banana", "hammer", "apple")
     outcomes = [session.run(f"Bring a {thing}") for thing in things]
     assert [outcome.status for outcome in outcomes] == [MissionStatus.DONE] * len(things)
-    assert {session.world.resting_place(thing) for thing in things} == {"delivery"}
+    assert {session.embodiment.truth.resting_place(thing) for thing in things} == {"delivery"}
     session.close()

@@ -31,7 +31,7 @@ def test_a_held_thing_is_handed_over_without_a_search(session: Session) -> None:
     session.run("Take the hammer")
     outcome = session.run("Bring the hammer")
     assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ())
-    assert session.world.resting_place("hammer") == "delivery"
+    assert session.embodiment.truth.resting_place("hammer") == "delivery"
     assert session.run("Take the mug").status == MissionStatus.DONE
 
 
@@ -59,7 +59,7 @@ def test_a_thing_at_the_delivery_place_stays_there(session: Session) -> None:
     outcome = session.run("Bring the hammer")
     assert (outcome.status, outcome.location) == (MissionStatus.DONE, "delivery")
     assert "is here already" in outcome.reason
-    assert session.world.resting_place("hammer") == "delivery"
+    assert session.embodiment.truth.resting_place("hammer") == "delivery"
 
 
 def test_a_mission_that_began_with_a_thing_in_the_hand_is_replayed(tmp_path: Path) -> None:

@@ -23,7 +23,7 @@ session = Session(
     Settings(world="fake", knowledge="okb", user="oracle", runs=Path(sys.argv[1])),
     out=io.StringIO(),
 )
-advance, record = session.world.advance, session.recorder.record
+advance, record = session.embodiment.truth.advance, session.recorder.record
 made = os.open(sys.argv[2], os.O_WRONLY | os.O_CREAT)  # survives, as no buffer holds it
 
 def slowly(at_most):
@@ -37,7 +37,7 @@ def note(entry):
     if isinstance(entry, Tick) and entry.number == 0:
         print("ticked", flush=True)
 
-session.world.advance, session.recorder.record = slowly, note
+session.embodiment.truth.advance, session.recorder.record = slowly, note
 session.run("Bring an apple")
 time.sleep(60)
 """

@@ -6,8 +6,9 @@ import pytest
 
 from executive.events import Inbox
 from executive.types import Place, Scored, Usage
-from kb.advice.advisor import PlaceAdvisor
 from kb.advice.large_homes import BYTES_PER_TOKEN, MOST_OPTIONS, Alike
+from kb.advice.lister import Lister
+from kb.advice.ranker import Ranker
 from kb.llm.scripted import Scripted
 from kb.ontology.ontology import Ontology
 
@@ -20,14 +21,14 @@ CONTEXT = 4096
 
 
 @pytest.fixture(scope="module")
-def advisor() -> PlaceAdvisor:
+def lister() -> Lister:
     model = Scripted([], Inbox(), context_tokens=CONTEXT)
-    return PlaceAdvisor(Ontology(PLACES), model, remembers=False)
+    return Lister(Ontology(PLACES), model, remembers=False)
 
 
-def test_it_is_asked_about_by_rooms_and_each_prompt_fits(advisor: PlaceAdvisor) -> None:
-    first, again = advisor.inquiry("mug", ()), advisor.again("mug", ())
-    furniture = advisor.furniture("mug", "room_3", ())
+def test_it_is_asked_about_by_rooms_and_each_prompt_fits(lister: Lister) -> None:
+    first, again = lister.inquiry("mug", ()), lister.again("mug", ())
+    furniture = lister.furniture("mug", "room_3", ())
     for request in (first, again, furniture):
         size = sum(len(message.content) for message in request.messages)
         assert size / BYTES_PER_TOKEN < CONTEXT - 256
@@ -38,11 +39,11 @@ def test_it_is_asked_about_by_rooms_and_each_prompt_fits(advisor: PlaceAdvisor) 
     assert "shelf_3," not in again.messages[-1].content
 
 
-def test_rooms_that_are_named_lead_to_their_furniture(advisor: PlaceAdvisor) -> None:
-    names = advisor.read(json.dumps({"places": ["room_3", "attic"]}))
+def test_rooms_that_are_named_lead_to_their_furniture(lister: Lister) -> None:
+    names = lister.read(json.dumps({"places": ["room_3", "attic"]}))
     assert names
-    assert advisor.verify(names, ()).rooms == ("room_3",)
-    asked = advisor.furniture("mug", "room_3", ()).messages[-1].content
+    assert lister.verify(names, ()).rooms == ("room_3",)
+    asked = lister.furniture("mug", "room_3", ()).messages[-1].content
     assert asked.count("_") > 50
     assert "desk_3" in asked
     assert "table_5," not in asked
@@ -52,15 +53,16 @@ def test_of_a_room_that_is_too_large_some_of_each_kind_are_told() -> None:
     places = [Place(f"desk_{i}", "Desk", "hall", "Lobby") for i in range(1500)]
     places += [Place(f"sofa_{i}", "Sofa", "hall", "Lobby") for i in range(1500, 1600)]
     model = Scripted([], Inbox(), context_tokens=512)
-    asked = PlaceAdvisor(Ontology(places), model, remembers=False).furniture("mug", "hall", ())
+    asked = Lister(Ontology(places), model, remembers=False).furniture("mug", "hall", ())
     assert 4 < asked.messages[-1].content.count("sofa_") < 100
 
 
-def test_places_that_differ_by_their_number_only_are_scored_once(advisor: PlaceAdvisor) -> None:
-    request = advisor.ranking("mug", ())
+def test_places_that_differ_by_their_number_only_are_scored_once() -> None:
+    ranker = Ranker(Ontology(PLACES))
+    request = ranker.ranking("mug", ())
     assert request.options[0] == "on the table in the bedroom"
     assert len(request.options) == len(KINDS)
-    ranked = advisor.ranked(Scored(request, (0.0, 9.0, 0.0, 1.0, 0.0), Usage()))
+    ranked = ranker.ranked(Scored(request, (0.0, 9.0, 0.0, 1.0, 0.0), Usage()))
     assert [c.place for c in ranked[:2]] == ["cabinet_1", "cabinet_6"]
     assert len(ranked) == len(PLACES)
     assert sum(c.probability or 0.0 for c in ranked) == pytest.approx(1.0)

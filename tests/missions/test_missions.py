@@ -56,14 +56,14 @@ def test_a_command_of_the_paper_is_done(session: Session, words: str) -> None:
 def the_thing_is_where_it_belongs(session: Session, outcome: Outcome) -> bool:
     """By the simulator's truth: untouched, between the fingers, or on the delivery table."""
     assert outcome.object
-    resting = session.world.resting_place(outcome.object)
+    resting = session.embodiment.truth.resting_place(outcome.object)
     match outcome.kind:
         case CommandKind.FIND:
             return resting == outcome.location
         case CommandKind.TAKE:
-            return resting is None and session.robot.holding
+            return resting is None and session.parts.robot.holding
         case _:
-            return resting == "delivery" and not session.robot.holding
+            return resting == "delivery" and not session.parts.robot.holding
 
 
 def test_the_same_seed_gives_the_same_ticks_and_times(tmp_path: Path) -> None:
@@ -86,22 +86,22 @@ def test_the_same_seed_gives_the_same_ticks_and_times(tmp_path: Path) -> None:
 def test_stop_leaves_the_robot_at_rest(
     session: Session, when_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    advance = session.world.advance
+    advance = session.embodiment.truth.advance
 
     def advance_and_stop(at_most: float) -> float:
-        if session.clock.now() >= when_s:
+        if session.parts.clock.now() >= when_s:
             session.inbox.post(StopRequested("the person"))
-            monkeypatch.setattr(session.world, "advance", advance)
+            monkeypatch.setattr(session.embodiment.truth, "advance", advance)
         return advance(at_most)
 
-    monkeypatch.setattr(session.world, "advance", advance_and_stop)
+    monkeypatch.setattr(session.embodiment.truth, "advance", advance_and_stop)
     outcome = session.run("Bring a sugar_box.")
     assert outcome.status == MissionStatus.STOPPED
     assert when_s < outcome.mission_time_s < when_s + 2.0
     assert not session.inbox.awaits_anything
     before = where_the_robot_is(session)
     for _ in range(30):
-        session.world.advance(1 / 60)
+        session.embodiment.truth.advance(1 / 60)
     assert where_the_robot_is(session) == pytest.approx(before, abs=2e-3)
 
 
@@ -110,10 +110,10 @@ def where_the_robot_is(session: Session) -> tuple[float, ...]:
     notebook = Notebook()
     record = session.recorder.record
     session.recorder.record = notebook.record  # type: ignore[method-assign]
-    session.world.describe()
+    session.embodiment.truth.describe()
     session.recorder.record = record  # type: ignore[method-assign]
     [transforms] = notebook.all(Transforms)
-    things = set(session.home.placement)
+    things = set(session.parts.home.placement)
     return tuple(
         value for t in transforms.transforms if t.child not in things for value in t.pose.position
     )

@@ -3,10 +3,10 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from outcome_cases import ALL, CASES, GENERATE, OKB, Case, listing
+from outcome_cases import ALL, CASES, GENERATE, OKB, Case, favouring, listing
 
 from executive.testing.bench import run_mission
-from executive.types import DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
+from executive.types import SEARCHING, DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
 
 FAILURES = [
     Case("empty words", "", status=MissionStatus.NOT_UNDERSTOOD, reason="I do not understand"),
@@ -14,7 +14,7 @@ FAILURES = [
     Case(
         "the model's reading of the words is not what was meant",
         "Come with the hammer!",
-        {"answers": ["no"], "replies": [(0.0, 0.5, 2.0)]},
+        {"answers": ["no"], "replies": [favouring("bring", among=SEARCHING)]},
         status=MissionStatus.NOT_UNDERSTOOD,
         inquiries=1,
         llm_calls=1,
@@ -23,7 +23,7 @@ FAILURES = [
     Case(
         "nobody confirms the model's reading of the words",
         "Come with the hammer!",
-        {"answers": [None], "replies": [(0.0, 0.5, 2.0)]},
+        {"answers": [None], "replies": [favouring("bring", among=SEARCHING)]},
         status=MissionStatus.NOT_UNDERSTOOD,
         inquiries=1,
         llm_calls=1,

@@ -5,7 +5,6 @@ from math import dist
 from typing import Any
 
 import numpy as np
-import pybullet
 import pytest
 
 from executive.clock import SimulatedClock
@@ -15,6 +14,7 @@ from executive.records import Mishap, PlannedPath, Scene, Transforms
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
 from executive.types import Detection, DriveTo, Failed, LookAt, Pick, PutDown, Succeeded
+from sim.engine import pybullet
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_faults
 from sim.objects.objects import load_objects
@@ -31,11 +31,11 @@ class Haunted(Bench):
     def __init__(self, *texts: str, at: str = WAGON) -> None:
         home = four_rooms().model_copy(update={"robot_start": four_rooms().stand(at)})
         self.notes, inbox = Notebook(), Inbox()
-        mishaps = FaultInjector(
+        injector = FaultInjector(
             parse_faults(texts, home), self.notes, lambda: self.clock.now(), seed=1
         )
         self.world = PhysicsWorld(
-            home, load_objects(), inbox, self.notes, camera_hz=0.0, mishaps=mishaps
+            home, load_objects(), inbox, self.notes, camera_hz=0.0, injector=injector
         )
         self.clock = SimulatedClock(inbox, self.world)
         super().__init__(self.world.robot, inbox, self.pass_time, at)

@@ -13,7 +13,8 @@ from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.testing.bench import ontology
 from executive.types import ChatRequest, Message, RankRequest, Replied, Scored, Usage
-from kb.advice.advisor import PlaceAdvisor
+from kb.advice.lister import Lister
+from kb.advice.ranker import Ranker
 from kb.llm.context import Context
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.scripted import Scripted
@@ -45,7 +46,7 @@ def test_it_prepares_for_every_place_and_all_things_that_are_known(tmp_path: Pat
     model = Preparing(inbox := Inbox())
     settings = load_settings(world="fake", user="none", elicit="rank", runs=tmp_path)
     session = Session(settings, inbox=inbox, model=model, out=io.StringIO())
-    asked = session.advisor.ranking("hammer", ())
+    asked = session.parts.advice.ranker.ranking("hammer", ())
     session.close()
     [request] = model.prepared
     assert (request.neutral, request.options) == (asked.neutral, asked.options)
@@ -76,10 +77,6 @@ def prepare(model: LlamaCpp, request: ChatRequest | RankRequest, caplog) -> None
         time.sleep(0.01)
 
 
-def adviser(model: LlamaCpp) -> PlaceAdvisor:
-    return PlaceAdvisor(ontology(True), model, remembers=False)
-
-
 def whole(usage: Usage) -> int:
     return usage.evaluated_tokens + usage.prepared_tokens
 
@@ -87,17 +84,17 @@ def whole(usage: Usage) -> int:
 @pytest.mark.llm
 def test_what_was_prepared_is_not_evaluated_again_and_changes_no_score(fresh, caplog):
     model, inbox = fresh
-    advise = adviser(model)
-    prepare(model, advise.ranking("thing", ()), caplog)
+    ranker = Ranker(ontology(True))
+    prepare(model, ranker.ranking("thing", ()), caplog)
     assert not inbox.awaits_anything
     assert not inbox.has_events
-    first = end_of(inbox, model.rank(advise.ranking("hammer", ())))
-    later = end_of(inbox, model.rank(advise.ranking("mug", ())))
+    first = end_of(inbox, model.rank(ranker.ranking("hammer", ())))
+    later = end_of(inbox, model.rank(ranker.ranking("mug", ())))
     assert first.usage.evaluated_tokens < 70 < 300 < first.usage.prepared_tokens
     assert first.usage.prepared_s > 0
     assert (later.usage.prepared_tokens, later.usage.prepared_s) == (0, 0.0)
     unprepared = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024)
-    cold = end_of(inbox, unprepared.rank(advise.ranking("hammer", ())))
+    cold = end_of(inbox, unprepared.rank(ranker.ranking("hammer", ())))
     unprepared.close()
     assert cold.scores == first.scores
     assert cold.usage.prepared_tokens == 0 < cold.usage.evaluated_tokens <= whole(first.usage)
@@ -107,9 +104,9 @@ def test_what_was_prepared_is_not_evaluated_again_and_changes_no_score(fresh, ca
 @pytest.mark.llm
 def test_what_all_prompts_begin_with_is_prepared_for_writing(fresh, caplog):
     model, inbox = fresh
-    advise = adviser(model)
-    prepare(model, advise.inquiry("thing", ()), caplog)
-    first = end_of(inbox, model.chat(advise.inquiry("hammer", ()))).usage
+    lister = Lister(ontology(True), model, remembers=False)
+    prepare(model, lister.inquiry("thing", ()), caplog)
+    first = end_of(inbox, model.chat(lister.inquiry("hammer", ()))).usage
     assert first.evaluated_tokens < 40 < 300 < first.prepared_tokens
     assert whole(first) == first.input_tokens
 
@@ -117,23 +114,23 @@ def test_what_all_prompts_begin_with_is_prepared_for_writing(fresh, caplog):
 @pytest.mark.llm
 def test_a_request_takes_over_after_one_batch_what_was_prepared(fresh, monkeypatch):
     model, inbox = fresh
-    advise, requests = adviser(model), []
+    ranker, requests = Ranker(ontology(True)), []
     read = Context.append
 
     def read_and_ask(context: Context, tokens) -> None:
         read(context, tokens)
         if not requests:
-            requests.append(model.rank(advise.ranking("hammer", ())))
+            requests.append(model.rank(ranker.ranking("hammer", ())))
 
     monkeypatch.setattr(Context, "append", read_and_ask)
-    model.prepare(advise.ranking("thing", ()))
+    model.prepare(ranker.ranking("thing", ()))
     while not requests:
         time.sleep(0.01)
     usage = end_of(inbox, requests[0]).usage
     assert 0 < usage.prepared_tokens <= 128
     monkeypatch.undo()
     unprepared = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024)
-    cold = end_of(inbox, unprepared.rank(advise.ranking("hammer", ()))).usage
+    cold = end_of(inbox, unprepared.rank(ranker.ranking("hammer", ()))).usage
     unprepared.close()
     assert whole(usage) == cold.evaluated_tokens
 
@@ -154,7 +151,7 @@ def test_what_cannot_be_prepared_fails_when_it_is_asked_for(fresh):
 def test_closing_while_it_prepares_ends_the_models_thread():
     before = threading.enumerate()
     model = LlamaCpp(embedded_model(), Inbox(), n_ctx=1024)
-    model.prepare(adviser(model).ranking("thing", ()))
+    model.prepare(Ranker(ontology(True)).ranking("thing", ()))
     time.sleep(0.3)
     began = time.monotonic()
     model.close()

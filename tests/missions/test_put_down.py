@@ -36,9 +36,9 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
         settings = load_settings(world="fake", llm="none", runs=tmp_path)
         session = Session(settings, inbox=inbox, user=Scripted(inbox, answers), out=io.StringIO())
         sessions.append(session)
-        assert isinstance(session.world, FakeWorld)
-        session.world.fault = lambda goal: fault(goal, full)
-        return session, session.world
+        assert isinstance(session.embodiment.truth, FakeWorld)
+        session.embodiment.truth.fault = lambda goal: fault(goal, full)
+        return session, session.embodiment.truth
 
     yield make
     for session in sessions:
@@ -78,8 +78,8 @@ def test_the_person_is_asked_where_to_put_it_if_all_that_is_near_is_full(serve: 
     assert (outcome.status, outcome.inquiries) == (MissionStatus.DONE, 2)
     assert world.resting_place("hammer") == "desk"
     assert outcome.reason.startswith("I put the hammer on the desk; ")
-    assert isinstance(session.user, Scripted)
-    first, second = session.user.asked
+    assert isinstance(session.parts.user, Scripted)
+    first, second = session.parts.user.asked
     assert first.text == (
         f"I could not put it on the delivery table: {FULL}; "
         "nor on the coffee_table, the sofa, the dining_table. Where shall I put the hammer?"
@@ -103,11 +103,11 @@ def test_what_falls_on_the_way_to_other_furniture_is_said_to_have_fallen(tmp_pat
         world="fake", llm="none", user="none", runs=tmp_path, fault=("drop@32",)
     )
     session = Session(settings, out=io.StringIO(), recorded=False)
-    assert isinstance(session.world, FakeWorld)
-    session.world.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
+    assert isinstance(session.embodiment.truth, FakeWorld)
+    session.embodiment.truth.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
     outcome = session.run("Bring the hammer")
     session.close()
-    assert (outcome.status, session.world.held) == (MissionStatus.NOT_DONE, None)
+    assert (outcome.status, session.embodiment.truth.held) == (MissionStatus.NOT_DONE, None)
     assert outcome.reason.startswith("the hammer fell from my hand")
 
 
@@ -156,8 +156,8 @@ def test_a_full_hand_is_offered_to_be_emptied_for_another_thing(serve: Serve, wo
     session, world = serve(["Yes, please."], DELIVERY)
     session.run("Take the hammer")
     outcome = session.run(words)
-    assert isinstance(session.user, Scripted)
-    assert [question.text for question in session.user.asked] == [
+    assert isinstance(session.parts.user, Scripted)
+    assert [question.text for question in session.parts.user.asked] == [
         "My hand holds the hammer. Shall I put it down first?"
     ]
     assert (outcome.status, outcome.object) == (MissionStatus.DONE, "power_drill")

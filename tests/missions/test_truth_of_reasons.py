@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from executive.app.session import Session
 from executive.config import load_settings
-from executive.looks import Looks
 from executive.records import Utterance
 from executive.situation import Situation
+from executive.situation.looks import Looks
 from executive.testing.bench import Run, run_mission
 from executive.text import printable
 from executive.types import CommandKind, DriveTo, Goal, Halt, LookAt, MissionStatus, Pick, PutDown
@@ -149,7 +149,7 @@ def test_the_log_does_not_say_of_an_unseen_place_that_the_thing_was_not_seen_the
 ) -> None:
     quiet = {"llm": "none", "user": "none", "runs": tmp_path}
     session = Session(load_settings(world="fake", **quiet), out=io.StringIO())
-    session.world.fault = always(LookAt, "my neck is stiff")  # type: ignore[attr-defined]
+    session.embodiment.truth.fault = always(LookAt, "my neck is stiff")  # type: ignore[attr-defined]
     session.run("Find a power_drill")
     session.close()
     assert session.folder
@@ -220,7 +220,7 @@ def test_whatever_fails_the_reason_is_a_sentence(kind, chances, answers, patienc
     assert reason == printable(reason).strip(" ;:,")
     if run.outcome.status == MissionStatus.DONE:
         held = {CommandKind.TAKE: run.outcome.object}.get(run.outcome.kind)
-        assert (run.world.held, run.situation.in_hand) == (held, held)
+        assert (run.world.held, run.situation.hand.in_hand) == (held, held)
     else:
         assert f"Sorry: {reason}." in told(run)
     claimed = reason.partition("I did not find")[2].partition(";")[0]

@@ -74,7 +74,7 @@ def test_a_span_holds_its_start_and_not_its_end():
 
 
 class Senses:
-    """Camera and detector of the instant world, before the shelf, with mishaps."""
+    """Camera and detector of the instant world, before the shelf, with faults."""
 
     def __init__(self, *texts: str, seed: int = 0) -> None:
         self.time, self.notes = 0.0, Notebook()
@@ -134,14 +134,14 @@ def test_the_same_seed_has_the_same_mishaps_and_one_fault_does_not_disturb_anoth
 
 
 def test_what_strikes_once_strikes_again_in_the_next_mission():
-    mishaps = Senses("moved=mug:desk@3").mishaps
-    assert not mishaps.due(Moved)
-    mishaps = Senses("moved=mug:desk").mishaps
-    [fault] = mishaps.due(Moved)
-    mishaps.strike(fault, "it is moved")
-    assert not mishaps.due(Moved)
-    mishaps.begin()
-    assert mishaps.due(Moved) == (fault,)
+    injector = Senses("moved=mug:desk@3").injector
+    assert not injector.due(Moved)
+    injector = Senses("moved=mug:desk").injector
+    [fault] = injector.due(Moved)
+    injector.strike(fault, "it is moved")
+    assert not injector.due(Moved)
+    injector.begin()
+    assert injector.due(Moved) == (fault,)
 
 
 def test_frames_keep_their_numbers_and_sizes():
@@ -153,8 +153,8 @@ def test_frames_keep_their_numbers_and_sizes():
 
 
 def test_kinds_are_told_apart():
-    mishaps = Senses("blind", "miss=0.5").mishaps
-    assert [type(fault) for fault in (*mishaps.active(Blind), *mishaps.active(Miss))] == [
+    injector = Senses("blind", "miss=0.5").injector
+    assert [type(fault) for fault in (*injector.active(Blind), *injector.active(Miss))] == [
         Blind,
         Miss,
     ]

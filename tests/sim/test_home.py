@@ -40,7 +40,7 @@ def load(tmp_path: Path):
 
 def test_the_four_rooms_hold_the_objects_of_the_papers_commands_where_its_table_says(four_rooms):
     assert PAPER_COMMANDS.items() <= four_rooms.placement.items()
-    assert four_rooms.placement.keys() == load_objects().keys()
+    assert four_rooms.placement.keys() <= load_objects().keys()
 
 
 def test_places_are_the_searchable_furniture_with_its_room(four_rooms):

@@ -15,11 +15,11 @@ from executive.records import Shape
 from executive.testing.bench import four_rooms
 from sim.__main__ import main
 from sim.bullet.bodies import home_entities
-from sim.modelling.__main__ import RECIPES
 from sim.modelling.__main__ import main as make
-from sim.objects.objects import ASSETS
+from sim.objects.meshes import aligned
+from sim.objects.objects import ASSETS, drawings
 from sim.objects.solids import signed_distance
-from sim.objects.ycb import MESH, aligned, with_scans
+from sim.objects.ycb import MESH, with_scans
 from sim.tools.catalogue import portrait
 
 YCB_SIZES_MM = {
@@ -60,14 +60,14 @@ def test_a_thing_has_the_published_size(name: str):
         assert published is None or 1000 * ours == pytest.approx(published, abs=2.5)
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", drawings())
 def test_a_mesh_fills_the_bounding_box_of_what_collides(name: str):
     model, points = MODELS[name], points_of(MODELS[name].look)
     assert points.min(axis=0) == pytest.approx(model.lower, abs=1e-4)
     assert points.max(axis=0) == pytest.approx(model.upper, abs=1e-4)
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", drawings())
 def test_a_mesh_lies_on_what_collides(name: str):
     mesh = trimesh.load_mesh(MODELS[name].look.mesh, process=False)
     points, _ = trimesh.sample.sample_surface(mesh, 2000, seed=1)
@@ -77,15 +77,16 @@ def test_a_mesh_lies_on_what_collides(name: str):
 
 
 def test_meshes_are_light_for_the_renderer_and_the_log():
-    sizes = [len(trimesh.load_mesh(MODELS[name].look.mesh, process=False).faces) for name in MODELS]
+    sizes = [
+        len(trimesh.load_mesh(MODELS[name].look.mesh, process=False).faces) for name in drawings()
+    ]
     assert max(sizes) < 800
     assert sum(file.stat().st_size for file in ASSETS.rglob("*.*")) < 3e6
 
 
 def test_the_packaged_meshes_are_those_that_are_made_today(tmp_path: Path):
-    assert set(RECIPES) == set(MODELS)
     make(["--out", str(tmp_path)])
-    for name in MODELS:
+    for name in drawings():
         for form in ("obj", "glb"):
             old, new = (
                 trimesh.load_mesh(folder / name / f"textured.{form}", process=False)
@@ -106,7 +107,7 @@ def test_the_packaged_meshes_are_those_that_are_made_today(tmp_path: Path):
 
 def test_the_log_shows_the_same_mesh_upright():
     for entity in home_entities(four_rooms(), MODELS):
-        if entity.name in MODELS:
+        if entity.name in drawings():
             (shape,) = entity.shapes
             x, y, z = trimesh.load_scene(shape.mesh).to_mesh().extents
             assert (z, x, y) == pytest.approx(MODELS[entity.name].size, abs=1e-4)  # glTF: y is up

@@ -13,10 +13,15 @@ from hypothesis import strategies as st
 from written_homes import FLAT
 
 from executive.errors import InputError
+from executive.language.control import control
+from executive.language.grammar import EnglishInterpreter
+from executive.language.phrases import spoken
 from executive.text import printable
+from executive.types import Place
+from kb.ontology.names import PlaceNames
 from sim.__main__ import main
 from sim.home.home import MOST_TOLD, home_text, inspect_home, load_home
-from sim.home.naming import name_fault, usable
+from sim.home.naming import name_fault, taken_fault, usable
 from sim.home.overlaps import overlapping
 from sim.tools.checking import way_faults
 
@@ -81,7 +86,12 @@ def test_rooms_kinds_and_homes_have_names_too(said, key: str) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["hand", "the floor", "person", "delivery", "map", "Base-Link", "Wait", "never mind", "bye"],
+    [
+        *("hand", "the floor", "person", "delivery", "map", "Base-Link"),
+        *("Wait", "never mind", "bye"),
+        *("I do not know", "no idea", "NoIdea", "not_sure", "nothing there"),
+        *("yes", "no", "ok", "of course", "nope", "me", "it", "there", "here", "anywhere"),
+    ],
 )
 def test_a_name_that_means_something_else_is_refused(said, name: str) -> None:
     assert f"furniture '{name}': this name has a meaning of its own" in said(
@@ -98,10 +108,45 @@ def test_a_name_that_means_something_else_is_refused(said, name: str) -> None:
         ("Den", "furniture Den: room den is called the same"),
         ("My Desk", "furniture My Desk and desk differ too little"),
         ("desk", "furniture 'desk' is there twice"),
+        ("desks", "furniture desk and desks differ too little"),
+        ("living room", "furniture living room: room den is called the same"),
+        ("delivery table", "an answer with 'delivery' in it names the delivery table"),
+        ("no_smoking_table", "leave 'no' out"),
+        ("salt and pepper rack", "leave 'and' out"),
+        ("the", "it has no word that says which place it is; add one"),
     ],
 )
 def test_a_name_that_is_mistaken_for_another_is_refused(said, name: str, sentence: str) -> None:
     assert sentence in said(('"rack"', f'"{name}"'))
+
+
+def test_a_name_with_the_room_before_or_behind_is_one_name(said) -> None:
+    found = said(('"rack"', '"den_cabinet"'), ('"desk"', '"cabinet_den"'))
+    assert "furniture cabinet_den and den_cabinet differ too little" in found
+
+
+@pytest.mark.parametrize("name", ["right shelf", "table_2", "shelf_hold"])
+def test_a_name_that_has_such_a_word_in_it_and_is_found_all_the_same_is_fine(
+    said, name: str
+) -> None:
+    assert said(('"rack"', f'"{name}"')) == ""
+
+
+WORDS = (
+    *("no", "not", "I", "do", "know", "idea", "yes", "sure", "right", "and", "or", "then", "the"),
+    *("a", "any", "on", "top", "in", "desk", "shelf", "shelves", "2", "Anna's", "delivery", "none"),
+    *("stop", "wait", "hold", "it", "me", "there", "LivingRoom", "can't", "never", "perhaps"),
+)
+
+
+@given(st.lists(st.sampled_from(WORDS), min_size=1, max_size=8), st.sampled_from(" _-"))
+def test_what_a_place_may_be_called_names_it_when_it_is_said(words: list[str], by: str) -> None:
+    name = by.join(words)
+    if taken_fault(name) is None:
+        place = Place(name, "Desk", "den", "Lobby")
+        assert PlaceNames([place]).find(f"on the {spoken(name)}, please") == (name,)
+        assert not EnglishInterpreter().declines(spoken(name))
+        assert control(spoken(name)) is None
 
 
 @pytest.mark.parametrize("name", ["Küchentisch", "Anna's desk", "тумба", "机", "shelf-2_b", "क्षेत्र"])
@@ -229,6 +274,7 @@ values = st.recursive(
         st.lists(inner, max_size=4)
         | st.dictionaries(
             st.sampled_from(["name", "kind", "room", "pose", "size", "rectangle", "at"])
+            | st.sampled_from(["furniture", "box", "cylinder", "sphere", "mass", "color", "mesh"])
             | st.text(max_size=5),
             inner,
             max_size=5,

@@ -9,7 +9,7 @@ from scans import MODELS, scan
 from scipy.spatial.transform import Rotation
 
 from executive.errors import InputError
-from sim.objects import ycb
+from sim.objects import meshes
 from sim.objects.ycb import with_scans
 
 
@@ -51,7 +51,7 @@ def test_a_texture_that_is_no_picture_or_too_large_is_refused(
 ) -> None:
     texture = next(mesh.parent.glob("*.png"))
     Image.new("1", (40, 2)).save(texture)
-    monkeypatch.setattr(ycb, "LARGEST_PICTURE", 39)
+    monkeypatch.setattr(meshes, "LARGEST_PICTURE", 39)
     refused(mesh, "is 40 pixels long; give up to 39")
     texture.write_bytes(b"\x89PNG")
     refused(mesh, "is not a picture")
@@ -60,5 +60,5 @@ def test_a_texture_that_is_no_picture_or_too_large_is_refused(
 def test_a_mesh_of_absurd_size_is_refused(mesh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     mesh.write_text(f"o {'a' * 5000}\n{mesh.read_text()}")
     refused(mesh, "has a line of more than 1000 characters")
-    monkeypatch.setattr(ycb, "MOST_BYTES", 1 << 10)
+    monkeypatch.setattr(meshes, "MOST_BYTES", 1 << 10)
     refused(mesh, "is larger than 1 kB")

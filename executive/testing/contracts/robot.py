@@ -43,6 +43,8 @@ class Bench:
     advance: Callable[[float], float]
     place: str = "coffee_table"
     """A place of the home to try things at."""
+    bare: str = "desk"
+    """A place of the home where no mug is."""
     moving: Callable[[], Sequence[str]] = tuple
     """Which parts of the robot move now, where that can be measured."""
 
@@ -188,7 +190,7 @@ class RobotContract:
         assert result.reason
 
     def test_it_does_not_pretend_to_pick_what_is_not_there(self, bench: Bench) -> None:
-        bench.do(DriveTo("desk"))
+        bench.do(DriveTo(bench.bare))
         assert isinstance(bench.do(Pick(nothing_there())), Failed)
         assert not bench.robot.holding
 

@@ -245,7 +245,7 @@ class Asking:
 
     def _advice(self, refused: Refused) -> str:
         if refused.status in DENIED:
-            return f"; is {VARIABLE} right?" if self._key else f"; set {VARIABLE}"
+            return f"; check {VARIABLE}" if self._key else f"; set {VARIABLE}"
         if self._named and self._listed and is_about_the_model(refused):
             return f"; the server has {self._shortly(', '.join(self._listed))}"
         return ""

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterable
-from dataclasses import replace
 from io import StringIO
 from pathlib import Path
 
@@ -19,7 +18,6 @@ from executive.campaign import blocks
 from executive.campaign.__main__ import main, parser
 from executive.campaign.campaign import Campaign, Progress, clock
 from executive.campaign.journal import Journal, Row, in_order, read_table
-from executive.campaign.policies import POLICIES
 from executive.config import KnowledgeSystem, load_settings
 from executive.events import Inbox
 from executive.types import Outcome
@@ -219,8 +217,7 @@ def household_that_writes(
         models.append(Scripted(replies, inbox))
         return models[0]
 
-    ours = replace(POLICIES["ours"], model=build)
-    monkeypatch.setattr(blocks, "POLICIES", {**POLICIES, "ours": ours})
+    monkeypatch.setattr(blocks, "model_for_missions", build)
     settings = load_settings(
         world="fake", user="oracle", knowledge=system, defaults=False, elicit="generate"
     )

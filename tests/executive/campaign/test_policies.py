@@ -1,14 +1,13 @@
 """Baselines and ablations of the experiment, each through the real tree."""
 
 import json
-from collections.abc import Callable, Iterable
-from dataclasses import replace
+from collections.abc import Iterable
 
 import pytest
 
 from executive.campaign import blocks
 from executive.campaign.journal import Row
-from executive.campaign.policies import POLICIES, Reworded, any_names, no_home, popular
+from executive.campaign.policies import popular
 from executive.campaign.routes import Routes
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
@@ -17,7 +16,6 @@ from executive.types import ChatRequest
 from kb.llm.scripted import Scripted
 
 LLM = KnowledgeSystem.OKB_LLM
-Reword = Callable[[ChatRequest], ChatRequest]
 
 
 def missions(policy: str, *commands: str, **settings: object) -> list[Row]:
@@ -26,18 +24,15 @@ def missions(policy: str, *commands: str, **settings: object) -> list[Row]:
     return [entry.row for entry in blocks.run(block)]
 
 
-def with_replies(
-    monkeypatch: pytest.MonkeyPatch, policy: str, replies: Iterable[list[str]], reword: Reword
-) -> list[Scripted]:
-    """Let the policy ask a model that was told what to say; return it, once it is made."""
+def with_replies(monkeypatch: pytest.MonkeyPatch, replies: Iterable[list[str]]) -> list[Scripted]:
+    """Let policies ask a model that was told what to say; return it, once it is made."""
     made: list[Scripted] = []
 
-    def model(settings: Settings, inbox: Inbox) -> Reworded:
+    def model(settings: Settings, inbox: Inbox) -> Scripted:
         made.append(Scripted([json.dumps({"places": names}) for names in replies], inbox))
-        return Reworded(made[0], reword)
+        return made[0]
 
-    changed = {**POLICIES, policy: replace(POLICIES[policy], model=model)}
-    monkeypatch.setattr(blocks, "POLICIES", changed)
+    monkeypatch.setattr(blocks, "model_for_missions", model)
     return made
 
 
@@ -87,7 +82,7 @@ def test_without_verification_the_robot_sets_out_for_invented_places(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     names = ["pantry", "dining_table", "garage shelf"]
-    with_replies(monkeypatch, "unverified", [names], any_names)
+    with_replies(monkeypatch, [names])
     (row,) = missions("unverified", "Find an apple.", llm="embedded")
     assert (row.failed_visits, row.visited, row.inquiries) == (1, "dining_table", 0)
     assert (row.named, row.invented, row.completed) == (3, 2, True)
@@ -96,13 +91,13 @@ def test_without_verification_the_robot_sets_out_for_invented_places(
 def test_with_verification_the_same_reply_sends_the_robot_nowhere_in_vain(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    with_replies(monkeypatch, "generate-form", [["pantry", "dining_table"]], any_names)
+    with_replies(monkeypatch, [["pantry", "dining_table"]])
     (row,) = missions("generate-form", "Find an apple.", llm="embedded")
     assert (row.failed_visits, row.visited, row.invented) == (0, "dining_table", 1)
 
 
 def test_a_model_alone_is_told_nothing_of_the_home(monkeypatch: pytest.MonkeyPatch) -> None:
-    models = with_replies(monkeypatch, "llm-alone", [["fruit bowl"]], no_home)
+    models = with_replies(monkeypatch, [["fruit bowl"]])
     (row,) = missions("llm-alone", "Find an apple.", llm="embedded", defaults=True)
     (request,) = models[0].requests
     told = json.dumps([m.content for m in request.messages])

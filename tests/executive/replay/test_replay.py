@@ -11,7 +11,7 @@ from py_trees.common import Status as NodeStatus
 from replays import recorded
 from sample_mission import STARTED, mission
 
-import executive.replay.replaying
+import executive.replay.recorded
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
@@ -100,10 +100,10 @@ def test_the_second_mission_of_a_session_replays(tmp_path: Path) -> None:
     settings = Settings(world="fake", runs=tmp_path, knowledge=KnowledgeSystem.OKB)
     inbox = Inbox()
     typed = io.StringIO("Find a power_drill\nTake a hammer\n")
-    session = Session(settings, inbox=inbox, user=Console(inbox, typed, io.StringIO()))
-    while (words := session.next_command()) is not None:
-        session.run(words)
-    session.close()
+    console = Console(inbox, typed, io.StringIO())
+    with Session(settings, inbox=inbox, user=console) as session:
+        while (words := session.next_command(console)) is not None:
+            session.run(words)
     first, second = sorted(tmp_path.iterdir(), key=lambda run: "take" in run.name)
     assert replay(first).parting is None
     assert replay(second).parting is None
@@ -171,7 +171,7 @@ def test_a_mission_replays_with_the_ontology_of_its_day(
     today = tmp_path / "defaults.owl"
     today.write_bytes(ontology.DEFAULTS.read_bytes().replace(b"shelf_lobby", b"desk"))
     monkeypatch.setattr(ontology, "DEFAULTS", today)
-    executive.replay.replaying._ontology.cache_clear()
+    executive.replay.recorded._ontology.cache_clear()
     assert replay(run).parting is None
 
 

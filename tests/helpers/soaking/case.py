@@ -8,7 +8,7 @@ import signal
 import threading
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -17,10 +17,12 @@ from typing import Any
 
 from mcap.reader import make_reader
 
+from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
+from executive.interfaces import SimulatedHome
 from executive.replay.replaying import replay, replay_text
 from executive.text import printable
 from executive.types import FLOOR, CommandKind, MissionStatus, Outcome
@@ -151,24 +153,38 @@ class Soak:
         model = ChaosModel(chaos, inbox, health, self._chance.choice((60, 512, 4096)))
         self._model = model if self._settings.uses_llm else None
         rate, chaos.rate = chaos.rate, 0.0  # while the parts are built, all is well
-        self._session = session = Session(
+        self._session = Session(
             self._settings,
             inbox=inbox,
             model=self._model,
             out=io.StringIO(),
             sinks=[self._notes, ChaosSink(chaos)],
+            change=self._disturb,
         )
         chaos.rate = rate
-        self._witness = Witness(session.world, self._home.objects)
+        self._witness = Witness(self._world, self._home.objects)
+
+    def _disturb(self, parts: Parts) -> Parts:
+        """The parts, each of which may go wrong."""
+        chaos, inbox = self._chaos, self._inbox
         places = [place.name for place in self._home.places()]
         self._person = Person(
-            chaos, inbox, session.world.resting_place, places, self._witness.heard
+            chaos,
+            inbox,
+            lambda name: self._world.resting_place(name),
+            places,
+            lambda text: self._witness.heard(text),
         )
-        session.user = self._person
-        self._robot = ChaosRobot(session.robot, chaos, inbox)
-        session.robot = self._robot
-        self._perception = ChaosEyes(session.perception, chaos, inbox)
-        session.perception = self._perception  # type: ignore[assignment]
+        self._robot = ChaosRobot(parts.robot, chaos, inbox)
+        self._faults = getattr(parts.perception._detector, "_injector", None)
+        eyes = ChaosEyes(parts.perception, chaos, inbox)
+        return replace(parts, user=self._person, robot=self._robot, perception=eyes)
+
+    @property
+    def _world(self) -> SimulatedHome:
+        world = self._session.embodiment.truth
+        assert world
+        return world
 
     def _mission(self) -> Iterator[str]:
         said = words(self._chance, self._home)
@@ -229,7 +245,7 @@ class Soak:
 
     def _not_done(self, outcome: Outcome) -> Iterator[str]:
         """Why what is called done is not done."""
-        world, name = self._session.world, outcome.object or ""
+        world, name = self._world, outcome.object or ""
         match outcome.kind:
             case CommandKind.BRING if (place := world.resting_place(name)) != "delivery":
                 if f"on {place}" not in outcome.reason.replace("on the ", "on "):
@@ -253,11 +269,11 @@ class Soak:
     def _body_at_rest(self) -> Iterator[str]:
         struck = self._chaos.struck
         could_halt = not struck & {"start", "robot hangs", "robot fails", "cancel"}
-        if self._session.world.busy and (could_halt or not self._robot.halts):
+        if self._world.busy and (could_halt or not self._robot.halts):
             yield f"not at rest, {self._robot.halts} halts"
 
     def _of_the_hand(self) -> Iterator[str]:
-        believed, held = self._session._in_hand, self._session.world.held
+        believed, held = self._session._in_hand, self._world.held
         if "holding" in self._chaos.struck:
             return
         if bool(believed) != bool(held) or (believed not in (held, SOMETHING) and held):
@@ -268,11 +284,11 @@ class Soak:
         self._chaos.rate, self._person.helpful = 0.0, 1.0
         self._chaos._stops_at.clear()
         self._inbox.take_all()
-        if self._session.mishaps:
-            self._session.mishaps._chances.clear()
+        if self._faults:
+            self._faults._chances.clear()
         if self._settings.action_timeout_s < 60:
             return
-        world = self._session.world
+        world = self._world
         here = [n for n in self._home.objects if world.resting_place(n) not in (None, FLOOR)]
         name = world.held or self._chance.choice(here)
         self._begin()

@@ -72,7 +72,7 @@ class PhysicsSoak(Soak):
         return iter(())
 
     def _body_at_rest(self) -> Iterator[str]:
-        world = self._session.world
+        world = self._world
         assert isinstance(world, PhysicsWorld)
         for _ in range(round(SETTLED_S / CONTROL_S)):
             world._pass_period()

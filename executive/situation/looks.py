@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from executive.situation.snapshot import NOT_LOGGED
+
 
 @dataclass
 class Looks:
@@ -17,9 +19,9 @@ class Looks:
     visited: list[str] = field(default_factory=list)
     unreached: dict[str, str] = field(default_factory=dict)
     unseen: dict[str, str] = field(default_factory=dict)
-    _parts: dict[str, int] = field(default_factory=dict)
+    _parts: dict[str, int] = field(default_factory=dict, metadata=NOT_LOGGED)
     """How many parts a place has, each of which takes a look of its own."""
-    _without: dict[str, set[int]] = field(default_factory=dict)
+    _without: dict[str, set[int]] = field(default_factory=dict, metadata=NOT_LOGGED)
     """The parts of a place in which the thing surely was not, at the last look."""
 
     def reached(self, place: str) -> None:

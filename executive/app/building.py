@@ -1,0 +1,141 @@
+"""Builds the parts that the settings name, and the body with them.
+
+What takes long to import is imported where it is needed: the model prepares meanwhile.
+"""
+
+import logging
+from collections.abc import Sequence
+from contextlib import ExitStack
+from typing import TextIO
+
+from executive.app.embodiment import Embodiment, Setup
+from executive.app.parts import Parts, build_advice, parameters_of
+from executive.app.worlds import embody
+from executive.config import Settings
+from executive.errors import InputError
+from executive.events import Inbox
+from executive.guards import GuardedModel, in_words
+from executive.interfaces import Advice, LanguageModel, Recorder, SimulatedHome, User
+from executive.types import ChatRequest, RankRequest
+from executive.user import Console, Nobody, Oracle
+from kb.advice.prompts import Prompts
+from kb.facts import FactStore
+from kb.llm.open import model_for_missions
+from kb.ontology.ontology import Ontology
+from sim.home.home import Home, load_home
+
+log = logging.getLogger(__name__)
+
+ANYTHING = "thing"
+"""What the model prepares to be asked for."""
+
+
+def build_parts(
+    settings: Settings,
+    inbox: Inbox,
+    recorder: Recorder,
+    opened: ExitStack,
+    *,
+    user: User | None,
+    model: LanguageModel | None,
+    out: TextIO,
+    gui: bool,
+) -> tuple[Embodiment, Parts]:
+    """The parts; `user` and `model` replace what the settings name.
+
+    What is opened for them goes to `opened`, which closes it.
+
+    Raises:
+        ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
+    """
+    home = load_home(settings.home).with_placement(settings.place)
+    prompts = Prompts.load(settings.prompts)
+    if model is None and (model := model_for_missions(settings, inbox)):
+        opened.callback(model.close)
+    knowledge = read_ontology(settings, home)
+    facts = FactStore(settings.memory, learns=settings.learn)
+    opened.callback(facts.close)
+    advice = None
+    if model:
+        guarded = GuardedModel(model, inbox, recorder)
+        advice = build_advice(settings, knowledge, guarded, prompts, facts)
+        guarded.prepare(anything(settings, advice))
+    embodiment = embody(Setup(settings, home, inbox, recorder, knowledge, gui))
+    opened.callback(close_safely, embodiment)
+    if embodiment.blind_to:
+        log.warning("%s", blindness(embodiment.blind_to))
+    parts = Parts(
+        settings=settings,
+        home=home,
+        inbox=inbox,
+        clock=embodiment.clock,
+        recorder=recorder,
+        robot=embodiment.robot,
+        perception=embodiment.perception,
+        user=user or build_user(settings, inbox, embodiment.truth, out),
+        knowledge=knowledge,
+        model=model,
+        advice=advice,
+        prompts=prompts,
+        facts=facts,
+        in_map=embodiment.in_map,
+        blind_to=embodiment.blind_to,
+        parameters=parameters_of(settings),
+    )
+    return embodiment, parts
+
+
+def read_ontology(settings: Settings, home: Home) -> Ontology:
+    """What is known of the home; what is odd about that goes to the log."""
+    knowledge = Ontology(
+        home.places(),
+        things=home.things(),
+        defaults=settings.defaults,
+        files=settings.kb,
+        person=settings.person,
+    )
+    for warning in knowledge.warnings():
+        log.warning("%s", warning)
+    return knowledge
+
+
+def blindness(names: Sequence[str]) -> str:
+    """What it means not to recognise these, and what would be right."""
+    right = "use --detector simulated, or a FILE.onnx with the name in its class list"
+    return f"the detector does not know {', '.join(names)}, and would not see it: {right}"
+
+
+def anything(settings: Settings, advice: Advice) -> ChatRequest | RankRequest:
+    """What the model prepares for: a question about any thing."""
+    if settings.elicitation == "rank":
+        return advice.ranker.ranking(ANYTHING, ())
+    return advice.lister.inquiry(ANYTHING, ())
+
+
+def close_safely(embodiment: Embodiment) -> None:
+    """Let go of the body; that it raises is no reason to end otherwise than in order."""
+    try:
+        embodiment.close()
+    except Exception as error:
+        log.warning("the robot cannot be let go of: %s", in_words(error))
+
+
+def build_user(settings: Settings, inbox: Inbox, truth: SimulatedHome | None, out: TextIO) -> User:
+    """The person that the settings name.
+
+    Raises:
+        InputError: if it is one who knows the truth, and there is none to know.
+    """
+    match settings.user:
+        case "console":
+            return Console(inbox, out=out)
+        case "none":
+            return Nobody(inbox, out)
+        case "oracle" if truth is not None:
+            return Oracle(inbox, truth.resting_place, settings.seed, out)
+        case _:
+            raise InputError(
+                "setting 'user'",
+                f"the oracle answers from a simulated world's truth, and {settings.world} has none",
+                "use --user console or none",
+            )

@@ -1,0 +1,120 @@
+"""What a mission leaves on disk: its logs, and what they keep of how it came about."""
+
+import json
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from importlib.metadata import version
+from pathlib import Path
+
+from executive.app.parts import Parts, guarded_model
+from executive.app.run_folder import write
+from executive.app.sources import written
+from executive.config import Settings
+from executive.files import read_bytes
+from executive.guards import GuardedRobot, GuardedSource, in_words
+from executive.toml_file import MOST_BYTES
+from executive.types import DELIVERY, FLOOR
+from logs.recorder import Sink
+from logs.recording.sink import McapSink
+from sim.home.home import Home, home_text
+
+log = logging.getLogger(__name__)
+
+PACKAGES = ("py-trees", "pybullet", "llama-cpp-python", "owlready2", "rerun-sdk", "mcap")
+
+
+@dataclass(frozen=True)
+class Recording:
+    """How the missions of a session are recorded.
+
+    Attributes:
+        used: what is kept of settings and body (`files_used`, `body_used`).
+        parts: what the missions are made of.
+        policy: what it calls the way in which the parts were chosen.
+        view: whether someone watches.
+    """
+
+    used: dict[str, bytes]
+    parts: Parts
+    policy: str
+    view: bool = False
+
+    def sinks(self, folder: Path, started: datetime, before: dict[str, str]) -> list[Sink]:
+        """The logs of a mission; `before` is what was known of the robot when it began."""
+        write(folder / "config.toml", self.used["config.toml"].decode())
+        attachments = {
+            **self.used,
+            **self.parts.knowledge.files(),
+            "facts.json": json.dumps(self.parts.facts.beliefs()).encode(),
+        }
+        if self.parts.sources:
+            attachments["sources.json"] = self._sources()
+        metadata = {
+            "requests_before": str(self.parts.inbox.last),
+            **before,
+            "seed": str(self.parts.settings.seed),
+            "model": self._model(),
+            "thinks": str(self.parts.model is not None),
+            "policy": self.policy,
+            **{name: version(name) for name in PACKAGES},
+        }
+        from logs.viewer.sink import RerunSink  # takes long
+
+        return open_sinks(
+            lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
+            lambda: RerunSink(folder / "mission.rrd", view=self.view),
+        )
+
+    def _sources(self) -> bytes:
+        recorder, things = self.parts.recorder, self.parts.knowledge.objects()
+        return written([GuardedSource(source, recorder) for source in self.parts.sources], things)
+
+    def _model(self) -> str:
+        model = self.parts.model
+        return guarded_model(self.parts, model).name if model else "none"
+
+
+def files_used(settings: Settings) -> dict[str, bytes]:
+    """What a recording keeps of the settings, as it is now: by name, the files' contents.
+
+    Raises:
+        InputError: if one of them cannot be read.
+    """
+    prompts = settings.prompts
+    return {
+        "config.toml": settings.to_toml().encode(),
+        "home.toml": home_text(settings.home).encode(),
+        **({"prompts.toml": read_bytes(prompts, MOST_BYTES)} if prompts else {}),
+    }
+
+
+def body_used(parts: Parts) -> dict[str, bytes]:
+    """What a recording keeps of the body: a replay has none to ask.
+
+    That is whether things have positions in `map`, which places take more than one view, and which
+    objects it does not recognise.
+    """
+    robot = GuardedRobot(parts.robot, parts.inbox, parts.recorder)
+    views = {place: robot.views(place) for place in places_viewed(parts.home)}
+    several = {place: number for place, number in views.items() if number > 1}
+    body = {"in_map": parts.in_map, "views": several, "blind_to": parts.blind_to}
+    return {"body.json": json.dumps(body).encode()}
+
+
+def places_viewed(home: Home) -> tuple[str, ...]:
+    """All that a robot may be told to look at."""
+    return (*(place.name for place in home.places()), DELIVERY, FLOOR)
+
+
+def open_sinks(*makers: Callable[[], Sink]) -> list[Sink]:
+    """The logs that can be opened; for the others a warning, because the mission goes on."""
+    sinks = []
+    for make in makers:
+        try:
+            sinks.append(make())
+        except Exception as error:
+            why = in_words(error)
+            log.warning("a log cannot be opened, the mission goes on without it: %s", why)
+    return sinks

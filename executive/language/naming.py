@@ -1,0 +1,45 @@
+"""Names that cannot be spoken of, because who says them is heard to say something else."""
+
+from executive.language.control import Control, control
+from executive.language.grammar import EnglishInterpreter
+from executive.language.phrases import CLAUSE_ENDS, MOST_WORDS, NEGATION, place_words, spoken
+
+Fault = tuple[str, str]
+"""What is wrong with a name, as a clause, and what would be right."""
+
+_ENGLISH = EnglishInterpreter()
+_OTHER = "give another name"
+
+
+def heard_as(name: str) -> str | None:
+    """What somebody who says only this name tells the robot, as a clause; None if nothing else."""
+    words = spoken(name)
+    if said := control(words):
+        return "tells the robot to stop" if said is Control.STOP else "ends the session"
+    if _ENGLISH.declines(words):
+        return "says that somebody does not know"
+    return "says yes or no" if _says_yes_or_no(words) else None
+
+
+def place_fault(name: str) -> Fault | None:
+    """Why no answer can name a place that is called this; None if one can."""
+    words = spoken(name)
+    if meaning := heard_as(name):
+        return f"this name has a meaning of its own: it {meaning}", _OTHER
+    if denial := NEGATION.search(words):
+        return f"an answer with {denial[0]!r} in it names no place", f"leave {denial[0]!r} out"
+    if end := CLAUSE_ENDS.search(words):
+        return f"{end[0]!r} would be read as the end of the name", f"leave {end[0]!r} out"
+    telling = place_words(words)
+    if not telling:
+        return "it has no word that says which place it is", "add one, as in corner_desk"
+    if len(telling) > MOST_WORDS:
+        return f"it has more than {MOST_WORDS} words", "shorten it"
+    return None
+
+
+def _says_yes_or_no(words: str) -> bool:
+    """Whether all of it is a yes or no: "of course", but not "right shelf"."""
+    *before, _ = words.split() or [""]
+    begun = " ".join(before)
+    return _ENGLISH.agrees(words) is not None and (not begun or _ENGLISH.agrees(begun) is None)

@@ -1,0 +1,52 @@
+"""Words and phrases as people write them: what counts in them, and where one ends."""
+
+import re
+import unicodedata
+
+Words = tuple[str, ...]
+"""Stems, as `words_of` makes them."""
+
+MOST_WORDS = 6
+"""Longest name that is looked for in a text."""
+PREPOSITIONS = frozenset(("at", "by", "from", "in", "inside", "of", "on", "over", "top", "under"))
+"""Words before a place that do not say which one it is."""
+CLAUSE_ENDS = re.compile(r"[,;:.!?\n]|\b(?:or|and|then|but|maybe|perhaps)\b")
+NEGATION = re.compile(r"\b(?:not|no|never|nowhere|except|neither|nor|cannot)\b|n['’]t\b")
+"""A clause with one of these names nothing."""
+_DETERMINERS = frozenset(("a", "an", "any", "my", "our", "some", "that", "the", "this", "your"))
+
+
+def words_of(text: str) -> Words:
+    """The stems of the words, without determiners: "The Sugar-Boxes" -> `("sugar", "box")`.
+
+    Case, underscores, hyphens and all other punctuation do not count.
+    """
+    plain = unicodedata.normalize("NFKC", text).casefold()
+    return tuple(stem(word) for word in re.findall(r"[^\W_]+", plain) if word not in _DETERMINERS)
+
+
+def place_words(text: str) -> Words:
+    """The words that say which place it is: all but the prepositions."""
+    return tuple(word for word in words_of(text) if word not in PREPOSITIONS)
+
+
+def stem(word: str) -> str:
+    """A form that an English noun shares with its regular plural: "shelves", "shelf" -> "shelf".
+
+    It need not be a word itself: "apples", "apple" -> "appl".
+    """
+    if word.endswith("s") and not word.endswith("ss") and len(word) > 3:
+        word = word.removesuffix("s")
+    if len(word) > 3:
+        word = word.removesuffix("e")
+    if word.endswith("v"):
+        return word.removesuffix("v") + "f"
+    if word.endswith("i"):
+        return word.removesuffix("i") + "y"
+    return word
+
+
+def spoken(name: str) -> str:
+    """A name as one says it: `sugar_box` -> "sugar box", `LivingRoom` -> "living room"."""
+    apart = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name)
+    return " ".join(apart.replace("_", " ").replace("-", " ").split()).lower()

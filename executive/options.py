@@ -1,0 +1,95 @@
+"""Options of a command line, made of the fields of `Settings`: what a field says is said once."""
+
+import argparse
+import types
+from collections.abc import Iterator
+from enum import Enum
+from typing import Any, Literal, Union, get_args, get_origin
+
+from pydantic.fields import FieldInfo
+
+from executive.config import Option, Settings
+
+
+def add_settings(parser: argparse.ArgumentParser) -> None:
+    """Add an option for each setting that has one, in their order."""
+    for name in _in_order():
+        add_setting(parser, name)
+
+
+def add_setting(parser: argparse.ArgumentParser, name: str, **otherwise: Any) -> None:
+    """Add the option of one setting; what is given `otherwise` replaces what the field says."""
+    field = Settings.model_fields[name]
+    said = {"help": _help(field), **_kind(field), **otherwise}
+    parser.add_argument(f"--{name.replace('_', '-')}", **said)
+
+
+def _in_order() -> list[str]:
+    """The settings that have an option; one may name another one that it comes after."""
+    names: list[str] = []
+    for name, field in Settings.model_fields.items():
+        option = option_of(field)
+        if option:
+            at = names.index(option.after) + 1 if option.after else len(names)
+            names.insert(at, name)
+    return names
+
+
+def option_of(field: FieldInfo) -> Option | None:
+    """What a field says of its option; None if it has none."""
+    return next((one for one in field.metadata if isinstance(one, Option)), None)
+
+
+def _help(field: FieldInfo) -> str:
+    option = option_of(field)
+    if option and option.help:
+        return option.help
+    default = "" if field.default in (None, ()) else f" (default: {field.default})"
+    return f"{field.description}{default}"
+
+
+def _kind(field: FieldInfo) -> dict[str, Any]:
+    """How argparse reads it, by the field's type."""
+    option = option_of(field)
+    metavar = {"metavar": option.metavar} if option and option.metavar else {}
+    kind = _of_set_value(field.annotation)
+    if kind is bool:
+        return {"action": argparse.BooleanOptionalAction}
+    if get_origin(kind) is dict:
+        return {"action": _Pairs, **metavar}
+    if get_origin(kind) is tuple:
+        return {"action": "append", "type": get_args(kind)[0], **metavar}
+    if choices := list(_choices(kind)):
+        return {"choices": choices}
+    return {"type": kind, **metavar}
+
+
+def _of_set_value(annotation: Any) -> Any:
+    """The type of a setting that is set: of `int | None`, int."""
+    if get_origin(annotation) in (Union, types.UnionType):
+        return next(kind for kind in get_args(annotation) if kind is not type(None))
+    return annotation
+
+
+def _choices(kind: Any) -> Iterator[str]:
+    if get_origin(kind) is Literal:
+        yield from get_args(kind)
+    elif isinstance(kind, type) and issubclass(kind, Enum):
+        yield from (str(one) for one in kind)
+
+
+class _Pairs(argparse.Action):
+    """Gathers OBJECT=FURNITURE pairs."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,
+    ) -> None:
+        """Add one pair."""
+        name, equals, value = values.partition("=")
+        if not (name and equals and value):
+            parser.error(f"{option_string} {values}: should be {self.metavar}, as in mug=desk")
+        setattr(namespace, self.dest, {**(getattr(namespace, self.dest) or {}), name: value})

@@ -1,0 +1,143 @@
+"""What a recorded mission was made of, by what the recording keeps."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TypeVar
+
+from pydantic import TypeAdapter, ValidationError
+
+from executive.app.parts import OURS, Change, Parts, advised, as_they_are, parameters_of
+from executive.app.sources import read
+from executive.config import Settings, in_words
+from executive.errors import InputError
+from executive.events import Inbox
+from executive.interfaces import Clock, Recorder
+from executive.replay.body import recorded_body
+from executive.replay.stand_ins import Absent
+from executive.types import Place, Thing
+from kb.advice.prompts import Prompts
+from kb.facts import FactStore
+from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
+from kb.ontology.owl import parsed
+from logs.recording.reader import Run
+from sim.home.home import Home, recorded_home
+
+T = TypeVar("T")
+
+_BELIEFS = TypeAdapter(dict[str, list[str]])
+_home = cache(recorded_home)
+
+
+def recorded_parts(run: Run, inbox: Inbox, absent: Absent, clock: Clock, judge: Recorder) -> Parts:
+    """What the recorded mission was made of, and stand-ins for all that acts or answers.
+
+    Raises:
+        InputError: if the recording lacks one of them.
+    """
+    settings = _settings(run)
+    home = _home(kept(run, run.attachments, "home.toml")).with_placement(settings.place)
+    body = recorded_body(run, settings, home)
+    absent.several = body.views
+    thinks = run.metadata.get("thinks") or str(kept(run, run.metadata, "model") != "none")
+    parts = Parts(
+        settings=settings,
+        home=home,
+        inbox=inbox,
+        clock=clock,
+        recorder=judge,
+        robot=absent,
+        perception=absent,
+        user=absent,
+        knowledge=_knowledge(run, settings, home),
+        model=absent if thinks == str(True) else None,
+        prompts=_prompts(run.attachments.get("prompts.toml")),
+        facts=FactStore.believing(_beliefs(run), learns=settings.learn),
+        sources=read(str(run.path), run.attachments.get("sources.json", b"[]")),
+        in_map=body.in_map,
+        blind_to=body.blind_to,
+        parameters=parameters_of(settings),
+    )
+    changed = _policy(run)(advised(parts))
+    model = absent if changed.model else None
+    return replace(changed, robot=absent, perception=absent, user=absent, model=model)
+
+
+def _knowledge(run: Run, settings: Settings, home: Home) -> Ontology:
+    names = (HOUSEHOLD.name, DEFAULTS.name, *(file.name for file in settings.kb))
+    files = tuple((name, run.attachments[name]) for name in names if name in run.attachments)
+    return _ontology(home.places(), home.things(), settings.defaults, files, settings.person)
+
+
+def _policy(run: Run) -> Change:
+    """The way in which the parts of the recorded mission were chosen."""
+    name = run.metadata.get("policy", OURS)
+    if name == OURS:
+        return as_they_are
+    from executive.campaign.policies import (
+        POLICIES,  # whose packages a replay of ours does not need
+    )
+
+    if name not in POLICIES:
+        raise InputError(str(run.path), f"was made with the policy {name!r}, unknown here")
+    return POLICIES[name]
+
+
+def _beliefs(run: Run) -> dict[str, list[str]]:
+    try:
+        return _BELIEFS.validate_json(kept(run, run.attachments, "facts.json"))
+    except ValidationError as error:
+        what = f"its facts.json does not say what is where: {error.errors()[0]['msg']}"
+        raise InputError(str(run.path), what) from error
+
+
+def _settings(run: Run) -> Settings:
+    """As recorded; what is not recorded was not set, whatever the environment says now."""
+    kept(run, run.attachments, "config.toml")
+    recorded = run.config()
+    fields = Settings.model_fields.items()
+    unset = {name: field.get_default(call_default_factory=True) for name, field in fields}
+    try:
+        return Settings(**{**unset, **recorded})
+    except ValidationError as error:
+        fault = error.errors()[0]
+        name = ".".join(map(str, fault["loc"]))
+        what = f"its config.toml is not understood any more: {name} {in_words(fault)}"
+        raise InputError(str(run.path), what) from error
+
+
+@cache
+def _prompts(text: bytes | None) -> Prompts:
+    """The recorded texts; ours of today, if none replaced ours."""
+    if text is None:
+        return Prompts.load()
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "prompts.toml"
+        file.write_bytes(text)
+        return Prompts.load(file)
+
+
+@cache
+def _ontology(
+    places: tuple[Place, ...],
+    things: tuple[Thing, ...],
+    defaults: bool,
+    files: tuple[tuple[str, bytes], ...],
+    person: str | None,
+) -> Ontology:
+    """The recorded files, which take the place of those of today."""
+    read = [parsed(Path(name), data) for name, data in files]
+    return Ontology(places, things=things, defaults=defaults, files=read, person=person)
+
+
+def kept(run: Run, where: Mapping[str, T], name: str) -> T:
+    """What a recording keeps by this name.
+
+    Raises:
+        InputError: if it does not, as those of earlier days.
+    """
+    if name not in where:
+        raise InputError(str(run.path), f"keeps no {name!r}", "replay needs a newer recording")
+    return where[name]

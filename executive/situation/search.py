@@ -1,0 +1,79 @@
+"""Where the thing may be, where it was looked for, and where it was seen."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from executive.situation.looks import Looks
+from executive.situation.snapshot import PART, logged_as
+from executive.types import DELIVERY, Candidate, Detection
+
+
+@dataclass
+class Consultation:
+    """One exchange with the language model about where a thing may be."""
+
+    reply: str = ""
+    """What it last wrote."""
+    names: tuple[str, ...] = ()
+    """The places that the reply names, not yet verified."""
+    furniture: list[str] = field(default_factory=list)
+    """Places that passed the verification."""
+    rooms: list[str] = field(default_factory=list)
+    """Rooms that passed, still to be expanded into furniture."""
+    room: str = ""
+    """The room that is being expanded."""
+
+
+def _position(detection: Detection | None) -> list[float] | None:
+    """Where it is in `map` (metres); empty if that is not known, None if it was not seen."""
+    return list(detection.position or ()) if detection else None
+
+
+def _guess(detection: Detection | None) -> dict[str, Any] | None:
+    """What may have been seen, and how surely."""
+    if detection is None:
+        return None
+    return {"label": detection.label, "confidence": detection.confidence}
+
+
+@dataclass
+class Search:
+    """From places where the thing may be to the place where it is."""
+
+    default_locations: tuple[str, ...] = field(default=(), metadata=logged_as("among"))
+    """The ontology's default locations for the object."""
+    consultation: Consultation = field(default_factory=Consultation)
+    candidates: tuple[Candidate, ...] = ()
+    candidate: Candidate | None = None
+    """Where the robot is going or looking now."""
+    view: int = 0
+    """The part of the place that it looks at."""
+    looks: Looks = field(default_factory=Looks, metadata=PART)
+    """Where the thing was looked for, and what came of it."""
+    doubtful: Detection | None = field(default=None, metadata=logged_as(plain=_guess))
+    """What may be the thing, or a part of it, in the last picture; None if it was surely seen."""
+    detection: Detection | None = field(default=None, metadata=logged_as("sighting", _position))
+    """The thing, as last seen."""
+    found: Candidate | None = None
+    """Where the thing was seen."""
+    gone: bool = False
+    """Whether the thing was seen, and then was there no more."""
+
+    @property
+    def is_delivered(self) -> bool:
+        """Whether the thing was found at the delivery place."""
+        return self.found is not None and self.found.place == DELIVERY
+
+    def not_visited(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
+        """The candidates less the places where the robot has looked already."""
+        return tuple(c for c in candidates if c.place not in self.looks.visited)
+
+    def so_far(self, thing: str | None) -> str:
+        """Where the thing was looked for in vain, as a clause; empty if nowhere."""
+        return "; ".join(self.looks.clauses(thing or "thing"))
+
+
+def candidates_from(places: Iterable[str], source: str) -> tuple[Candidate, ...]:
+    """Candidates without probabilities, in the given order."""
+    return tuple(Candidate(place, source) for place in places)

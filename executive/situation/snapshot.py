@@ -1,0 +1,57 @@
+"""What a log line keeps of a dataclass: all its fields, as each declares it in its `metadata`."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass
+from functools import cache
+from typing import Any
+
+NOT_LOGGED: Mapping[str, Any] = {"logged": False}
+"""Marks a field that is not for the log."""
+PART: Mapping[str, Any] = {"part": True}
+"""Marks a field whose own fields stand in its place."""
+
+
+def logged_as(
+    key: str | None = None, plain: Callable[[Any], Any] | None = None
+) -> Mapping[str, Any]:
+    """Marks a field that the log keeps by another name, or made `plain` in its own way."""
+    return {"key": key, "plain": plain}
+
+
+def snapshot(of: Any) -> dict[str, Any]:
+    """The fields of a dataclass that are for the log, by their keys, as JSON can keep them."""
+    known: dict[str, Any] = {}
+    for name, key, plain in _logged(of.__class__):
+        value = getattr(of, name)
+        if plain is None:
+            known |= snapshot(value)
+        else:
+            known[key] = plain(value)
+    return known
+
+
+@cache
+def _logged(kind: type) -> tuple[tuple[str, str, Callable[[Any], Any] | None], ...]:
+    """Of each field its name, its key, and what makes it plain; None for a part."""
+    return tuple(
+        (
+            field.name,
+            field.metadata.get("key") or field.name,
+            None if field.metadata.get("part") else field.metadata.get("plain") or _plain,
+        )
+        for field in fields(kind)
+        if field.metadata.get("logged", True)
+    )
+
+
+def _plain(value: Any) -> Any:
+    """The value made of lists, dictionaries and what they can hold; strange things as they are."""
+    if value is None or isinstance(value, str | int | float):
+        return value
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, dict):
+        return {name: _plain(item) for name, item in value.items()}
+    if is_dataclass(value):
+        return {field.name: _plain(getattr(value, field.name)) for field in fields(value)}
+    return value

@@ -1,0 +1,129 @@
+"""The language model as one who lists places: prompts, memory, parser and verification in one.
+
+The paper's section "Proposed System", less the model itself and less the order of the steps, which
+is a subtree.
+"""
+
+from collections.abc import Sequence
+
+from executive.interfaces import LanguageModel
+from executive.types import ChatRequest, Message, Place, Verdict
+from kb.advice import verification
+from kb.advice.history import DialogueHistory, history_budget
+from kb.advice.large_homes import as_many_as_fit, fits, of_all_kinds
+from kb.advice.prompts import Prompts
+from kb.ontology.names import unique
+from kb.ontology.ontology import Ontology
+
+SITUATION = "likely places"
+"""What a summary is about."""
+
+
+class Lister:
+    """Implements `PlaceLister`."""
+
+    def __init__(
+        self,
+        ontology: Ontology,
+        model: LanguageModel,
+        *,
+        remembers: bool,
+        top: int = 5,
+        prompts: Prompts | None = None,
+    ) -> None:
+        """Ask about what the ontology knows; the model only counts tokens here.
+
+        Args:
+            ontology: what exists.
+            model: whose context window and tokenizer limit the memory.
+            remembers: whether prompts hold the dialogue so far (OKB+LLM+MEM) or not (OKB+LLM).
+            top: how many places to ask for, at most.
+            prompts: the texts; None: those of prompts.toml.
+        """
+        self._ontology = ontology
+        self._model = model
+        self._remembers = remembers
+        self._top = top
+        self._prompts = prompts or Prompts.load()
+        home = self._prompts.home(ontology.places())
+        self._by_rooms = not fits(home, model.context_tokens)
+        if self._by_rooms:
+            home = self._prompts.rooms(self._choices())
+        self._system = Message("system", home)
+        self._memory: DialogueHistory | None = None
+
+    def inquiry(self, name: str, among: tuple[str, ...]) -> ChatRequest:
+        """`general_pos`, or `multiple_pos` when `among` is given."""
+        if among:
+            text = self._prompts.inquiry(
+                "multiple_pos", object_name=name, position=", ".join(among)
+            )
+            return self._request("multiple_pos", text, among)
+        text = self._prompts.inquiry("general_pos", object_name=name, top=str(self._top))
+        return self._request("general_pos", text, self._choices())
+
+    def furniture(self, name: str, room: str, among: tuple[str, ...]) -> ChatRequest:
+        """`furniture`: which furniture of this room?"""
+        allowed = verification.allowed(self._ontology.places(), among)
+        choice = self._fitting([p for p in allowed if p.room == room])
+        text = self._prompts.inquiry(
+            "furniture", object_name=name, room_name=room, furniture_list=", ".join(choice)
+        )
+        return self._request("furniture", text, choice)
+
+    def again(self, name: str, among: tuple[str, ...]) -> ChatRequest:
+        """`again`: the reply named no real place; choose from the list."""
+        choice = self._choices(among)
+        text = self._prompts.inquiry("again", object_name=name, furniture_list=", ".join(choice))
+        return self._request("again", text, choice)
+
+    def summarize(self, name: str, reply: str) -> ChatRequest:
+        """`summarize`: the reply, which is shown once more if no memory holds it."""
+        text = self._prompts.inquiry("summarize", object_name=name, situation=SITUATION)
+        if self._history()[-1:] == (Message("assistant", reply),):
+            return self._request("summarize", text, self._choices())
+        asked = self._prompts.inquiry("general_pos", object_name=name, top=str(self._top))
+        exchange = (Message("user", asked), Message("assistant", reply))
+        return self._request("summarize", text, self._choices(), exchange)
+
+    def remember(self, request: ChatRequest, reply: str) -> None:
+        """Keep the exchange for the next prompts, if this system has a memory."""
+        if not self._remembers:
+            return
+        if self._memory is None:
+            system = self._model.count_tokens(self._system.content)
+            budget = history_budget(self._model.context_tokens, system)
+            self._memory = DialogueHistory(budget, self._model.count_tokens)
+        self._memory.add(request.messages[-1].content, reply)
+
+    def read(self, reply: str) -> tuple[str, ...] | None:
+        """The names in a reply, or None if it is not in the output format."""
+        return verification.read(reply)
+
+    def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
+        """Hold names against the ontology (the existence check)."""
+        return verification.verify(names, self._ontology.place_names, among)
+
+    def _choices(self, among: tuple[str, ...] = ()) -> list[str]:
+        """What the model may name; rooms, if the home is too large for its furniture."""
+        allowed = verification.allowed(self._ontology.places(), among)
+        if not self._by_rooms or among:
+            return self._fitting(allowed)
+        return as_many_as_fit(unique(p.room for p in allowed), self._model.context_tokens)
+
+    def _fitting(self, places: Sequence[Place]) -> list[str]:
+        """The names; of too many as many as fit, of all kinds."""
+        names = [place.name for place in places]
+        fitting = as_many_as_fit(names, self._model.context_tokens)
+        if len(fitting) == len(names):
+            return names
+        return as_many_as_fit(of_all_kinds(places), self._model.context_tokens)
+
+    def _history(self) -> tuple[Message, ...]:
+        return self._memory.messages() if self._memory else ()
+
+    def _request(
+        self, label: str, text: str, choice: Sequence[str], before: tuple[Message, ...] = ()
+    ) -> ChatRequest:
+        messages = (self._system, *self._history(), *before, Message("user", text))
+        return ChatRequest(label, messages, verification.schema(choice, self._top))

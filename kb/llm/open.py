@@ -1,0 +1,68 @@
+"""Which language model `--llm` names, and the only place where one is made of settings."""
+
+from pathlib import Path
+
+from executive.config import Settings
+from executive.errors import InputError
+from executive.events import Inbox
+from executive.interfaces import LanguageModel
+from kb.llm.key import Key
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.server.server import Server
+
+
+def model_for_missions(settings: Settings, inbox: Inbox) -> LanguageModel | None:
+    """The model of missions, if they have one; it loads while the rest is built.
+
+    Raises:
+        ExecutiveError: if it cannot do what the settings ask of it, or its file is wrong.
+    """
+    if not settings.uses_llm:
+        return None
+    if settings.elicitation == "rank" and settings.llm.startswith("http"):
+        raise _cannot_rank("a server cannot rank places")
+    model = open_model(settings, inbox)
+    if model and settings.elicitation == "rank" and not model.can_rank:
+        model.close()
+        raise _cannot_rank("this model cannot rank")
+    return model
+
+
+def open_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
+    """The model that the settings name; None for `none`.
+
+    Raises:
+        ExecutiveError: if its file is wrong.
+    """
+    if settings.llm == "none":
+        return None
+    if settings.llm.startswith("http"):
+        return Server(
+            settings.llm,
+            inbox,
+            model=settings.llm_model,
+            api_key=Key.from_environment(),
+            n_ctx=settings.context_tokens,
+            timeout_s=settings.llm_timeout_s,
+            temperature=settings.temperature,
+            top_p=settings.top_p,
+            max_tokens=settings.max_tokens,
+            seed=settings.seed,
+            grammar=settings.grammar,
+        )
+    return LlamaCpp(
+        embedded_model() if settings.llm == "embedded" else Path(settings.llm),
+        inbox,
+        n_ctx=settings.context_tokens,
+        temperature=settings.temperature,
+        top_p=settings.top_p,
+        max_tokens=settings.max_tokens,
+        seed=settings.seed,
+        threads=settings.threads,
+        gpu_layers=settings.gpu_layers,
+        grammar=settings.grammar,
+    )
+
+
+def _cannot_rank(what: str) -> InputError:
+    return InputError("setting 'elicit'", what, "use --elicit generate")

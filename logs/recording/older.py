@@ -1,0 +1,47 @@
+"""Messages of older recordings, which number some of their fields otherwise."""
+
+from functools import lru_cache
+from typing import Any
+
+from google.protobuf.descriptor_pb2 import FileDescriptorSet
+
+from logs.recording.channels import DEFINITIONS, MESSAGES, NUMBERS
+from logs.recording.schema import PACKAGE, classes, fresh_pool
+
+
+@lru_cache(maxsize=64)
+def recorded_class(name: str, definition: bytes) -> Any:
+    """The class that reads a recorded message; of an older recording, other numbers for its fields.
+
+    Of the definition in the file, only the numbers of the fields that we know are taken: names and
+    types are ours, and nothing else of it is built.
+
+    Args:
+        name: of the message, as in `MESSAGES`.
+        definition: a serialized FileDescriptorSet, as mcap keeps it.
+
+    Raises:
+        ValueError: if the definition does not read, or lacks the message.
+        google.protobuf.message.DecodeError: if it is no FileDescriptorSet.
+    """
+    numbers = {
+        (message.name, field.name): field.number
+        for file in FileDescriptorSet.FromString(definition).file
+        if file.package == PACKAGE
+        for message in file.message_type
+        for field in message.field
+    }
+    if not any(message == name for message, _ in numbers):
+        raise ValueError(f"its definition lacks the message {name}")
+    known = {key: number for key, number in numbers.items() if key in NUMBERS}
+    if all(NUMBERS[key] == number for key, number in known.items()):
+        return MESSAGES[name]
+    return _older(tuple(sorted(known.items())))[name]
+
+
+@lru_cache(maxsize=8)
+def _older(numbers: tuple[tuple[tuple[str, str], int], ...]) -> dict[str, Any]:
+    try:
+        return classes(fresh_pool(), DEFINITIONS, dict(numbers))
+    except TypeError as error:
+        raise ValueError(f"its definition numbers fields as none can be: {error}") from None

@@ -1,0 +1,146 @@
+"""A mesh that somebody made of an object, checked, and brought to where the object is.
+
+A mesh has a frame of its own. It is turned to where its points come nearest to the surface of our
+shape, scaled alike in all directions so that its bounding box has the volume of ours, and put with
+the middle of its base on ours. What things collide with stays the shape.
+"""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from scipy.spatial import ConvexHull, QhullError
+from scipy.spatial.transform import Rotation
+
+from executive.errors import InputError
+from executive.files import read_bytes
+from executive.geometry import Floats
+from executive.records import Shape
+from executive.types import Color, Pose
+from sim.objects.objects import WHITE, ObjectModel
+from sim.objects.solids import signed_distance
+
+MOST_BYTES = 64 * 2**20
+"""Of a mesh or a texture; the largest of YCB's for google_16k have a tenth of that."""
+LARGEST_PICTURE = 8192
+LONGEST_LINE = 1000
+_PICTURES = ("map_Kd", "map_Ka", "map_Ks", "map_Ns", "map_d", "map_bump", "map_Bump", "bump")
+"""What a material may name files with."""
+_POINTS = 300
+_RIGHT_ANGLES = Rotation.create_group("O")
+_COARSE, _FINE = np.arange(0.0, 90.0, 10.0), np.arange(-9.0, 10.0)
+"""Yaws that are tried before each right angle, and around the best of these (degrees)."""
+_STANDING_M = 0.001
+"""So much nearer it must come before a scan is laid on another side than it has below."""
+
+
+def aligned(model: ObjectModel, path: Path, color: Color = WHITE) -> Shape:
+    """The mesh of an OBJ file where the object's frame has the object.
+
+    Raises:
+        InputError: if the file, its material or its texture cannot be used.
+    """
+    points = _read(path)
+    corners = points[ConvexHull(points).vertices]
+    few = points[:: max(1, len(points) // _POINTS)]
+
+    def misfit(turn: Rotation) -> float:
+        scale, pose = _fitted(model, corners, turn)
+        placed = turn.apply(scale * few) + pose.position
+        return float(np.abs(signed_distance(model.shapes, placed)).mean())
+
+    def best(rights: Iterable[Rotation]) -> Rotation:
+        coarse = min((right * _yaw(angle) for right in rights for angle in _COARSE), key=misfit)
+        return min((coarse * _yaw(angle) for angle in _FINE), key=misfit)
+
+    standing, lying = (
+        best(right for right in _RIGHT_ANGLES if (right.as_matrix()[2, 2] > 0.5) == upright)
+        for upright in (True, False)
+    )
+    turn = lying if misfit(lying) < misfit(standing) - _STANDING_M else standing
+    scale, pose = _fitted(model, corners, turn)
+    return Shape("mesh", (scale,) * 3, color, pose, str(path.absolute()))
+
+
+def _yaw(degrees: float) -> Rotation:
+    return Rotation.from_euler("z", degrees, degrees=True)
+
+
+def _fitted(model: ObjectModel, corners: Floats, turn: Rotation) -> tuple[float, Pose]:
+    """Scale and pose that bring turned points onto the base of the object."""
+    turned = turn.apply(corners)
+    low, high = turned.min(axis=0), turned.max(axis=0)
+    scale = float((np.prod(model.size) / np.prod(high - low)) ** (1 / 3))
+    ours = (np.array(model.lower) + model.upper) / 2
+    shift = ours - scale * (low + high) / 2
+    shift[2] = model.lower[2] - scale * low[2]
+    return scale, Pose(tuple(shift.tolist()), tuple(turn.as_quat().tolist()))
+
+
+def _read(path: Path) -> Floats:
+    """The points (n, 3) of an OBJ file that can be drawn."""
+    text = _text(path)
+    try:
+        points = np.array([line.split()[1:4] for line in _lines(text, "v")], dtype=np.float64)
+        corners = {int(c.split("/")[0]) for line in _lines(text, "f") for c in line.split()[1:]}
+    except ValueError:
+        raise InputError(str(path), "has points or faces that are no OBJ") from None
+    if not corners or min(corners) < 1 or max(corners) > len(points):
+        raise InputError(str(path), "has no faces, or faces of points that it does not have")
+    try:
+        ConvexHull(points)
+    except (QhullError, ValueError):
+        raise InputError(str(path), "has points that enclose no volume") from None
+    for material in _lines(text, "mtllib"):
+        described = _beside(path, material)
+        for key in _PICTURES:
+            for texture in _lines(_text(described), key):
+                _check_picture(described, _beside(described, texture))
+    return points
+
+
+def _beside(file: Path, line: str) -> Path:
+    """The file that a line names, which has to be in the same folder.
+
+    Raises:
+        InputError: if it is elsewhere.
+    """
+    named = line.split(maxsplit=1)[1]
+    there = file.parent / named
+    if Path(named).name != named or there.resolve().parent != file.parent.resolve():
+        right = "put it into the same folder"
+        raise InputError(str(file), f"names a file that is elsewhere: {named[:80]}", right)
+    return there
+
+
+def _check_picture(described: Path, picture: Path) -> None:
+    """See whether a texture is a picture of a sane size, by its head.
+
+    Raises:
+        InputError: if it is not.
+    """
+    if not picture.is_file():
+        raise InputError(str(described), f"names a texture that is not there: {picture.name}")
+    read_bytes(picture, MOST_BYTES)
+    try:
+        with Image.open(picture) as opened:
+            largest = max(opened.size)
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        raise InputError(str(picture), "is not a picture", "give PNG or JPEG") from None
+    if largest > LARGEST_PICTURE:
+        right = f"give up to {LARGEST_PICTURE} pixels a side"
+        raise InputError(str(picture), f"is {largest} pixels long", right)
+
+
+def _text(path: Path) -> str:
+    """The text of a file of a model, whose lines are no longer than PyBullet can bear."""
+    text = read_bytes(path, MOST_BYTES).decode("utf-8", errors="replace")
+    if max(map(len, text.splitlines()), default=0) > LONGEST_LINE:
+        raise InputError(str(path), f"has a line of more than {LONGEST_LINE} characters")
+    return text
+
+
+def _lines(text: str, key: str) -> list[str]:
+    """Lines that begin with this word and say something about it."""
+    return [line.strip() for line in text.splitlines() if line.split(maxsplit=1)[:1] == [key]]

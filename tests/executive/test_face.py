@@ -1,0 +1,81 @@
+"""The face of the library: `from executive import ...` has what users need, and costs nothing."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import executive
+
+PACKAGES = Path(executive.__file__).parents[1]
+HEAVY = ("pybullet", "llama_cpp", "rerun", "cv2", "numpy", "pydantic", "owlready2", "py_trees")
+
+
+def loaded(statement: str, modules: tuple[str, ...]) -> str:
+    """Which of the modules a fresh Python has loaded after the statement."""
+    show = f"{statement}; import sys; print([m for m in {modules} if m in sys.modules])"
+    shown = subprocess.run([sys.executable, "-c", show], capture_output=True, text=True, check=True)
+    return shown.stdout.strip()
+
+
+def test_every_name_of_the_face_is_there():
+    for name in executive.__all__:
+        assert getattr(executive, name) is not None
+
+
+def test_the_names_are_sorted_and_editors_see_the_same():
+    constants = [n for n in executive.__all__ if n.isupper()]
+    rest = executive.__all__[len(constants) :]
+    assert executive.__all__ == sorted(constants) + sorted(rest)
+    assert set(executive.__all__) <= set(dir(executive))
+    source = ast.parse(Path(executive.__file__).read_text())
+    (seen_by_types,) = (node for node in source.body if isinstance(node, ast.If))
+    imported = [
+        a.name for s in ast.walk(seen_by_types) if isinstance(s, ast.ImportFrom) for a in s.names
+    ]
+    assert sorted(imported) == sorted(executive.__all__)
+
+
+def test_the_table_of_contents_names_everything():
+    contents = executive.__doc__ or ""
+    assert [name for name in executive.__all__ if name not in contents] == []
+
+
+def test_importing_it_loads_nothing_heavy():
+    assert loaded("import executive", HEAVY) == "[]"
+
+
+def test_protocols_and_errors_come_without_simulator_or_model():
+    names = "Robot, Inbox, InputError, Outcome, load_settings"
+    heavy = ("pybullet", "llama_cpp", "rerun", "owlready2")
+    assert loaded(f"from executive import {names}", heavy) == "[]"
+
+
+def test_replay_is_a_function_of_its_own_package():
+    from executive.replay import replay
+
+    assert callable(replay)
+    assert "replay" not in executive.__all__
+
+
+def test_a_name_that_is_not_there_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="'executive' has no attribute 'Robott'"):
+        executive.Robott  # noqa: B018
+
+
+def test_the_house_itself_does_not_go_through_its_face():
+    """Else what a room needs would no longer be seen in its imports."""
+    inside = [
+        f for p in ("executive", "trees", "kb", "sim", "logs") for f in (PACKAGES / p).rglob("*.py")
+    ]
+    through = [
+        str(file.relative_to(PACKAGES))
+        for file in inside
+        for node in ast.walk(ast.parse(file.read_text()))
+        if isinstance(node, ast.ImportFrom)
+        and node.module == "executive"
+        and any(alias.name in executive.__all__ for alias in node.names)
+    ]
+    assert through == []

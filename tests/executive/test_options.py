@@ -1,0 +1,47 @@
+"""A setting is one field: the command line's options are made of the fields."""
+
+import argparse
+from typing import Annotated, Literal
+
+import pytest
+from pydantic import Field
+
+from executive import options
+from executive.__main__ import parser
+from executive.config import Option, Settings
+from executive.options import add_settings, option_of
+
+
+class More(Settings):
+    price_s: Annotated[float, Option("SECONDS")] = Field(60.0, description="of a question")
+    mood: Annotated[Literal["calm", "brisk"] | None, Option(after="home")] = Field(
+        None, description="how it drives"
+    )
+
+
+def test_a_new_field_is_a_new_option(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(options, "Settings", More)
+    made = argparse.ArgumentParser()
+    add_settings(made)
+    given = made.parse_args(["--price-s", "5", "--mood", "calm"])
+    assert (given.price_s, given.mood) == (5.0, "calm")
+    text = made.format_help()
+    assert "--price-s SECONDS" in text
+    assert "of a question (default: 60.0)" in text
+    assert text.index("--home") < text.index("--mood") < text.index("--knowledge")
+
+
+def test_every_option_of_a_setting_is_read_as_the_setting_is() -> None:
+    words = ["--kb", "a.owl", "--kb", "b.owl", "--no-learn", "--seed", "3", "--place", "mug=desk"]
+    given = {
+        n: v for n, v in vars(parser().parse_args(words)).items() if n in Settings.model_fields
+    }
+    read = Settings(**{name: value for name, value in given.items() if value is not None})
+    assert (len(read.kb), read.learn, read.seed, read.place) == (2, False, 3, {"mug": "desk"})
+    with_option = {n for n, field in Settings.model_fields.items() if option_of(field)}
+    assert set(given) == with_option
+
+
+def test_words_need_no_quotes() -> None:
+    assert parser().parse_args(["--seed", "1", "bring", "a", "mug"]).words == ["bring", "a", "mug"]
+    assert parser().parse_args([]).words == []

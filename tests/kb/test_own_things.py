@@ -1,0 +1,92 @@
+"""Objects that a home declares are known like those of the files."""
+
+from pathlib import Path
+
+import pytest
+from ontologies import OWL
+
+from executive.errors import InputError
+from executive.testing.bench import four_rooms
+from executive.types import Thing
+from kb.__main__ import main
+from kb.ontology.ontology import Ontology
+
+PLACES = four_rooms().places()
+POT = """<owl:Class rdf:about="#Pot"><rdfs:label>pot</rdfs:label>
+  <rdfs:subClassOf rdf:resource="http://robot-executive.org/household.owl#Kitchenware"/></owl:Class>"""
+
+
+@pytest.fixture
+def pot(tmp_path: Path) -> Path:
+    """A person's own file that has a pot."""
+    file = tmp_path / "pot.owl"
+    file.write_text(OWL.format(POT))
+    return file
+
+
+def knowing(name: str, kind: str, *files: Path) -> Ontology:
+    return Ontology(PLACES, things=[Thing(name, kind)], files=files)
+
+
+def test_a_thing_goes_by_its_name_and_by_its_class() -> None:
+    known = knowing("tea_pot", "Kitchenware")
+    assert known.objects_named("the teapots") == ("tea_pot",)
+    assert known.objects_named("kitchenware") == ("mug", "pitcher_base", "spatula", "tea_pot")
+    assert known.classes_of("tea_pot") == ("kitchenware",)
+    assert known.near_name("tea pott") == "tea_pot"
+    assert list(known.faults()) == []
+
+
+def test_a_thing_is_usually_where_things_of_its_class_are() -> None:
+    assert knowing("plum", "Fruit").usual_places("plum") == Ontology(PLACES).usual_places("fruit")
+
+
+def test_the_class_may_be_one_of_a_persons_own_file(pot: Path) -> None:
+    known = knowing("teapot", "Pot", pot)
+    assert known.objects_named("pot") == ("teapot",)
+    assert known.classes_of("teapot") == ("pot", "kitchenware")
+
+
+def test_what_a_persons_own_file_has_as_an_object_is_not_said_twice(pot: Path) -> None:
+    assert knowing("pot", "Pot", pot).objects() == Ontology(PLACES, files=[pot]).objects()
+    assert b"pot" not in knowing("pot", "Kitchenware", pot).files()["home.owl"]
+    with pytest.raises(InputError, match="object pot: the ontology has a pot of this name"):
+        knowing("pot", "Toy", pot)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "sentence"),
+    [
+        (
+            "teapot",
+            "Kitchnware",
+            "object teapot: is a 'Kitchnware', which the ontology lacks; known",
+        ),
+        ("teapot", "Desk", "is a 'Desk', which the ontology lacks"),
+        (
+            "red_mug",
+            "Mug",
+            "is a Mug, which is an object itself; name the class above it, as Kitchen",
+        ),
+        ("cup", "Kitchenware", "object cup: the ontology has a mug of this name; give another"),
+        ("fruit", "Food", "the ontology has a fruit of this name"),
+        ("couch", "Toy", "the ontology has a sofa of this name"),
+        ("the", "Toy", "this is no name of a thing"),
+    ],
+)
+def test_a_thing_that_cannot_be_is_refused(name: str, kind: str, sentence: str) -> None:
+    with pytest.raises(InputError) as refused:
+        knowing(name, kind)
+    assert sentence in str(refused.value)
+
+
+def test_what_the_home_adds_to_the_ontology_is_kept_with_the_log(tmp_path: Path) -> None:
+    (tmp_path / "flat.owl").write_bytes(knowing("red teapot", "Kitchenware").files()["home.owl"])
+    known = Ontology(files=[tmp_path / "flat.owl"])
+    assert known.classes_of("red teapot") == ("kitchenware",)
+
+
+def test_show_knows_the_objects_of_a_home(capsys: pytest.CaptureFixture[str]) -> None:
+    example = Path(__file__).parents[2] / "docs" / "examples" / "own_object.toml"
+    assert main(["show", "teapot", "--home", str(example)]) == 0
+    assert "is a         kitchenware" in capsys.readouterr().out

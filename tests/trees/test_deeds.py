@@ -1,0 +1,28 @@
+"""Verbs know themselves: what a verb means is declared once, and all who need it find it."""
+
+import pytest
+
+from executive.language.grammar import EnglishInterpreter
+from executive.language.verbs import WORDS
+from executive.types import DELIVERY, PERSON, CommandKind
+from trees.deeds import DEEDS
+
+
+def test_every_kind_of_command_is_done_by_one_deed() -> None:
+    assert sorted(deed.kind for deed in DEEDS) == sorted(CommandKind)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in CommandKind if kind.means.searches])
+def test_every_verb_about_a_thing_has_words_that_are_read(kind: CommandKind) -> None:
+    for words in WORDS[kind]:
+        command = EnglishInterpreter().command(f"{words} the mug")
+        assert command
+        assert (command.kind, command.target) == (kind, "mug")
+
+
+def test_a_verb_says_what_becomes_of_the_thing() -> None:
+    ends = {kind: (kind.means.grasps, kind.means.ends_at) for kind in CommandKind}
+    assert ends[CommandKind.FIND] == (False, PERSON)
+    assert ends[CommandKind.TAKE] == (True, None)
+    assert ends[CommandKind.BRING] == (True, DELIVERY)
+    assert [kind for kind in CommandKind if kind.means.carries] == [CommandKind.BRING]

@@ -1,0 +1,15 @@
+"""What the robot can do with a thing, a file a verb; a new one is entered here."""
+
+from trees.deeds.bring import Bring
+from trees.deeds.deed import Deed
+from trees.deeds.find import Find
+from trees.deeds.put_down import PutDown
+from trees.deeds.take import Take
+
+DEEDS: tuple[Deed, ...] = (Bring(), Find(), Take(), PutDown())
+"""In the order in which the tree has them."""
+
+
+def deed_of(kind: str) -> Deed:
+    """How it is done."""
+    return next(deed for deed in DEEDS if deed.kind == kind)

@@ -1,0 +1,39 @@
+"""Find a thing: come back, and tell where it is."""
+
+from collections.abc import Iterable
+
+from py_trees.behaviour import Behaviour
+
+from executive.situation import Situation
+from executive.types import PERSON, CommandKind, Outcome
+from trees.context import MissionContext
+from trees.deeds.deed import Deed, asked_to, found_at_a_place
+from trees.nodes import sequence
+from trees.person import Report
+from trees.robot import DriveBack
+
+
+class Find(Deed):
+    """As in "Where is the mug?"."""
+
+    kind = CommandKind.FIND
+
+    def ways(self, context: MissionContext) -> Iterable[Behaviour]:
+        """Come back with the news."""
+        yield sequence(
+            "find",
+            asked_to(context, self.kind),
+            found_at_a_place(context),
+            DriveBack("come back", context, PERSON),
+            Report("report", context, "The {object} is at {place}."),
+        )
+
+    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+        """The robot went to the furniture that it names, and the thing is there."""
+        return whereabouts == outcome.location and whereabouts in outcome.visited
+
+    def how_far(self, situation: Situation, why: str) -> str:
+        """Who asks where a thing is wants to know it, even if the robot cannot come back."""
+        if not situation.search.found:
+            return why
+        return f"the {situation.request.object} is at {situation.search.found.place}, but {why}"

@@ -1,0 +1,127 @@
+"""Put down what is in the hand: on the nearest free furniture by the person, or where they say."""
+
+from collections.abc import Iterable, Iterator
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.language.put_down import HELD
+from executive.types import DELIVERY, HAND, SOMETHING, CommandKind, Outcome
+from trees.context import MissionContext
+from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
+from trees.person import AskWhereToPut, Report, the
+from trees.robot import DriveToSurface, PutDownThere
+
+NEAR = 3
+"""How many pieces of furniture by the person are tried before they are asked."""
+
+
+class PutDown(Deed):
+    """As in "Put it down"."""
+
+    kind = CommandKind.PUT_DOWN
+
+    def ways(self, context: MissionContext) -> Iterable[Behaviour]:
+        """Nothing is searched for this."""
+        yield sequence(
+            "put down",
+            asked_to(context, self.kind),
+            empty_hand(context),
+            Conclude("done", context),
+        )
+
+    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+        """It is on some furniture."""
+        return whereabouts not in (HAND, "")
+
+
+def empty_hand(context: MissionContext) -> Behaviour:
+    """Put down what is in the hand, because the person says so."""
+    return sequence(
+        "empty the hand",
+        HoldsWhatIsMeant("holds it", context),
+        fallback(
+            "put it down",
+            put_down_somewhere(context, "by the person", DELIVERY),
+            StillHolds("still in my hand", context),
+        ),
+        Report("report", context, "I put {the_object} on {surface}."),
+    )
+
+
+def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behaviour:
+    """A full hand -> `situation.hand.put_at`: the places of `first`, near ones, those asked for."""
+    situation = context.situation
+
+    def near() -> Iterator[str]:
+        yield from first
+        yield from context.near_person[:NEAR]
+
+    def choose(place: str) -> None:
+        situation.hand.surface = place
+
+    return fallback(
+        name,
+        FirstOf("near the person", near, choose, go_and_put(context)),
+        sequence(
+            "where the person says",
+            Check("still in my hand", context, lambda: situation.hand.in_hand is not None),
+            Check("person may help", context, lambda: not situation.dialogue.no_help),
+            AskWhereToPut("ask where to put it", context),
+            FirstOf("there", lambda: situation.hand.surfaces, choose, go_and_put(context)),
+        ),
+        NotPutDown("no room", context),
+    )
+
+
+def go_and_put(context: MissionContext) -> Behaviour:
+    """Take it to the surface at hand, and put it down there."""
+    return sequence(
+        "go and put",
+        Check("still in my hand", context, lambda: context.situation.hand.in_hand is not None),
+        DriveToSurface("drive", context),
+        PutDownThere("put down", context),
+    )
+
+
+class NotPutDown(Step):
+    """Says where there was no room, and why the person could not help; always fails."""
+
+    def update(self) -> Status:
+        """What is in the hand no more has its own reason."""
+        tried, silence = self.situation.hand.not_put_down, self.situation.dialogue.no_help
+        if self.situation.hand.in_hand is None or not tried:
+            return self.fail(self.why_before())
+        return self.fail(f"{tried}, and {silence}" if silence else tried)
+
+
+class HoldsWhatIsMeant(Step):
+    """Succeeds if what is to be put down is in the hand."""
+
+    def update(self) -> Status:
+        """Nobody need say the name of what is held; if they do, it has to be that."""
+        assert self.situation.request.command
+        held, target = self.situation.hand.in_hand, self.situation.request.command.target
+        if held is None:
+            return self.fail("my hand is empty")
+        named = self.context.knowledge.objects_named(target)
+        if target != HELD and held not in (SOMETHING, *named):
+            return self.fail(f"my hand holds {the(held)}, not the {target}")
+        self.situation.request.object = held
+        return self.succeed(held)
+
+
+class StillHolds(Step):
+    """Says why the hand is not empty, and that it is not; always fails."""
+
+    def update(self) -> Status:
+        """What fell is no longer held; nor is what was let go of before it went wrong."""
+        held, why = self.situation.hand.in_hand, self.why_before()
+        if held:
+            return self.fail(f"{why}; I still hold {the(held)}")
+        if self.situation.hand.lost:
+            return self.fail(why)
+        return self.fail(
+            f"{why}; {the(self.situation.request.object or SOMETHING)} is not in my hand any more"
+        )

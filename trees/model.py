@@ -1,0 +1,182 @@
+"""Leaves that talk to the language model."""
+
+from abc import abstractmethod
+
+from py_trees.common import Status
+
+from executive.interfaces import Advice, LanguageModel
+from executive.records import Activity
+from executive.types import ChatRequest, Command, Replied, Result, Scored, Source
+from trees.context import MissionContext
+from trees.nodes import Action, why_of
+from trees.person import sentence, tell
+
+
+class ModelAction(Action):
+    """One call of the language model."""
+
+    source = Source.LLM
+    activity = Activity.THINKING
+
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Give the model as long as the parameters allow."""
+        super().__init__(name, context, context.parameters.model_s)
+        assert context.model is not None
+        assert context.advice is not None
+        self.model: LanguageModel = context.model
+        self.advice: Advice = context.advice
+        self._began: float | None = None
+
+    def initialise(self) -> None:
+        """Mark the time, and start."""
+        self._began = self.context.clock.now()
+        super().initialise()
+
+    def terminate(self, new_status: Status) -> None:
+        """Count the time spent thinking."""
+        if self._began is not None:
+            self.situation.model.thinking_time_s += self.context.clock.now() - self._began
+            self._began = None
+        super().terminate(new_status)
+
+    def cancel(self, request: int) -> None:
+        """Stop the model."""
+        self.model.cancel(request)
+
+    def failed(self, result: Result) -> Status:
+        """Warn the person that the model is of no help, and why; then go on without."""
+        why = why_of(result)
+        self._warn(why)
+        return self.fail(why)
+
+    def out_of_time(self) -> Status:
+        """Say that the model did not answer."""
+        self._warn(f"nothing came within {self._patience_s:g} s")
+        return self.fail(f"the language model did not answer within {self._patience_s:g} s")
+
+    def _warn(self, why: str) -> None:
+        """Once a mission."""
+        if not self.situation.model.failure:
+            self.situation.model.failure = why
+            tell(self.context, sentence(f"My language model does not answer: {why}"))
+
+
+class RankPlaces(ModelAction):
+    """Has every allowed place scored, and keeps the likeliest."""
+
+    def start(self) -> int:
+        """Ask for the scores."""
+        assert self.situation.request.object
+        return self.model.rank(
+            self.advice.ranker.ranking(
+                self.situation.request.object, self.situation.search.default_locations
+            )
+        )
+
+    def ended(self, result: Result) -> Status:
+        """Keep as many as are worth a visit; all of them if the ontology named them."""
+        if not isinstance(result, Scored):
+            return self.failed(result)
+        ranked = self.situation.search.not_visited(self.advice.ranker.ranked(result))
+        if not ranked:
+            return self.fail("the language model ranked only places that were looked at")
+        if not self.situation.search.default_locations:
+            ranked = ranked[: self.context.parameters.top_k]
+        self.situation.search.candidates = ranked
+        return self.succeed(", ".join(map(str, ranked)))
+
+
+class Chat(ModelAction):
+    """Asks the model to write, and keeps the reply."""
+
+    @abstractmethod
+    def request(self) -> ChatRequest:
+        """What to ask."""
+
+    def start(self) -> int:
+        """Ask."""
+        return self.model.chat(self.request())
+
+    def ended(self, result: Result) -> Status:
+        """Keep the reply, and remember the exchange."""
+        if not isinstance(result, Replied):
+            return self.failed(result)
+        self.advice.lister.remember(result.request, result.text)
+        self.situation.search.consultation.reply = result.text
+        return self.succeed(result.text)
+
+    @property
+    def thing(self) -> str:
+        """Name of the object that is looked for."""
+        assert self.situation.request.object
+        return self.situation.request.object
+
+
+class Inquire(Chat):
+    """`general_pos` where the ontology knows no place, `multiple_pos` where it knows several."""
+
+    def request(self) -> ChatRequest:
+        """Ask for the likely places."""
+        return self.advice.lister.inquiry(self.thing, self.situation.search.default_locations)
+
+
+class Summarize(Chat):
+    """`summarize`: put the last reply into the output format."""
+
+    def request(self) -> ChatRequest:
+        """Ask for the same in the right form."""
+        return self.advice.lister.summarize(self.thing, self.situation.search.consultation.reply)
+
+
+class Again(Chat):
+    """`again`: no place of the last reply exists."""
+
+    def request(self) -> ChatRequest:
+        """Ask for places from the list."""
+        return self.advice.lister.again(self.thing, self.situation.search.default_locations)
+
+
+class AskFurniture(Chat):
+    """`furniture`: a room was named; which furniture in it?"""
+
+    def request(self) -> ChatRequest:
+        """Ask for the room at hand."""
+        room = self.situation.search.consultation.room
+        return self.advice.lister.furniture(
+            self.thing, room, self.situation.search.default_locations
+        )
+
+
+class RankKinds(ModelAction):
+    """Has the kinds of command scored; what to do it with is what the words name."""
+
+    def start(self) -> int:
+        """Ask for the scores."""
+        return self.model.rank(self.advice.reader.ranking(self.situation.request.words))
+
+    def ended(self, result: Result) -> Status:
+        """Keep the likeliest."""
+        if not isinstance(result, Scored):
+            return self.failed(result)
+        kind, words = self.advice.reader.ranked(result), self.situation.request.words
+        self.situation.request.command = Command(kind, self.situation.request.guess, words)
+        return self.succeed(f"{kind} {self.situation.request.guess}")
+
+
+class WriteCommand(ModelAction):
+    """Has the model write kind and object, of which only what exists is taken."""
+
+    def start(self) -> int:
+        """Ask."""
+        return self.model.chat(self.advice.reader.inquiry(self.situation.request.words))
+
+    def ended(self, result: Result) -> Status:
+        """Read and verify the reply."""
+        if not isinstance(result, Replied):
+            return self.failed(result)
+        read = self.advice.reader.read(result.text)
+        if read is None:
+            return self.fail("the language model named no command with a known thing")
+        kind, name = read
+        self.situation.request.command = Command(kind, name, self.situation.request.words)
+        return self.succeed(f"{kind} {name}")

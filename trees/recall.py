@@ -1,0 +1,73 @@
+"""Who knows where it is without looking: the robot's memory, and the sources that a person adds."""
+
+from dataclasses import dataclass
+
+from py_trees.common import Status
+
+from executive.interfaces import Facts, PlaceSource
+from executive.situation import candidates_from
+from executive.types import DELIVERY, Candidate, Source
+from trees.context import MissionContext
+from trees.nodes import Step
+from trees.person import SAYS
+
+
+class Recall(Step):
+    """Succeeds if a knowledge source names a place of this home that was not looked at yet."""
+
+    def __init__(self, name: str, context: MissionContext, source: PlaceSource) -> None:
+        """Ask this source."""
+        super().__init__(name, context)
+        self.knows = source
+        self.source = source.name
+
+    def update(self) -> Status:
+        """Recall it."""
+        assert self.situation.request.object
+        places = dict.fromkeys(self.knows.places_of(self.situation.request.object))
+        here = filter(self._is_here, places)
+        new = self.worth_a_visit(candidates_from(here, self.knows.name))
+        if not new:
+            return self.fail(self.unknown(self.situation.request.object))
+        self.situation.search.candidates = new
+        return self.succeed(", ".join(candidate.place for candidate in new))
+
+    def worth_a_visit(self, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+        """Those where it was not looked for."""
+        return self.situation.search.not_visited(candidates)
+
+    def unknown(self, thing: str) -> str:
+        """That the source does not help, as a clause."""
+        return f"the {self.knows.name} names no place to look for the {thing}"
+
+    def _is_here(self, place: str) -> bool:
+        return place == DELIVERY or self.context.knowledge.has_place(place)
+
+
+@dataclass(frozen=True, slots=True)
+class Memory:
+    """Implements `PlaceSource`: what the robot itself has seen, heard and done."""
+
+    facts: Facts
+    name = Source.MEMORY
+    says = SAYS[Source.MEMORY]
+
+    def places_of(self, name: str) -> tuple[str, ...]:
+        """Where it was last, as far as it is known."""
+        return self.facts.places_of(name)
+
+
+class MemoryKnowsPlaces(Recall):
+    """Succeeds if the thing was seen somewhere in this home, or was said to be there."""
+
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Ask the robot's own memory."""
+        super().__init__(name, context, Memory(context.facts))
+
+    def worth_a_visit(self, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+        """All: it forgets by itself where the thing was looked for in vain."""
+        return candidates
+
+    def unknown(self, thing: str) -> str:
+        """It was not seen."""
+        return f"I have not seen the {thing}"
