@@ -10,7 +10,7 @@ from py_trees.common import Status
 from executive.types import Source
 from trees.context import MissionContext
 from trees.nodes import Check, Step, fallback, sequence
-from trees.person import AskDoYouMean, AskWhichObject
+from trees.person import AskDoYouMean, AskWhichObject, without_exceptions
 
 
 def resolve_object(context: MissionContext) -> Behaviour:
@@ -53,7 +53,7 @@ class OntologyKnowsObject(Step):
         """Look the words up."""
         assert self.situation.request.command
         target = self.situation.request.command.target
-        named = self.context.knowledge.objects_named(target)
+        named = without_exceptions(self.context, self.context.knowledge.objects_named(target))
         if len(named) == 1:
             self.situation.request.object = named[0]
             return self.succeed(named[0])

@@ -208,6 +208,7 @@ class AskWhichObject(Ask):
             named = self.context.knowledge.objects_named(command.target)
         if self.situation.request.options:
             named = tuple(n for n in named if n in self.situation.request.options)
+        named = without_exceptions(self.context, named)
         if len(named) > 1:
             self.situation.request.options = named
         elif named:
@@ -360,8 +361,17 @@ class Apologise(Step):
     def update(self) -> Status:
         """Say why the last thing failed that was tried."""
         self.situation.ending.tell(self.why_before())
-        tell(self.context, sentence(f"Sorry: {self.situation.ending.why}"))
+        why = self.situation.request.remark or f"Sorry: {self.situation.ending.why}"
+        tell(self.context, sentence(why))
         return self.succeed(self.situation.ending.why)
+
+
+def without_exceptions(context: MissionContext, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Those of the objects that the command does not leave out: "anything but a banana"."""
+    assert context.situation.request.command
+    exceptions = context.situation.request.command.exceptions
+    left_out = {o for but in exceptions for o in context.knowledge.objects_named(but)}
+    return tuple(name for name in names if name not in left_out)
 
 
 def tell(context: MissionContext, text: str) -> None:

@@ -22,12 +22,16 @@ from executive.language.meaning import (
     Task,
     Thing,
     Things,
+    Unable,
     Verb,
     Where,
 )
 
 Part = Any
 """What a rule has made of its words: a value of `meaning.py`, or a token."""
+
+MOST_INNER = 4
+"""Places that say where another place is; nobody says more in one breath."""
 
 
 class Builder(Transformer[Token, Said]):
@@ -59,7 +63,7 @@ class Builder(Transformer[Token, Said]):
     def noun(self, parts: list[Part]) -> Thing:
         """As in "box of sugar", "tool for nails"."""
         name = " ".join(p for p in parts if type(p) is str or _is(p, "OF", "POSE"))
-        return Thing(name, purpose=_purpose(parts, "USE"))
+        return Thing(name, purpose=_purpose(parts, "USE"), said=_said(parts))
 
     def thing(self, parts: list[Part]) -> Thing:
         """As in "the two mugs but not the red one"."""
@@ -67,31 +71,41 @@ class Builder(Transformer[Token, Said]):
         numbers = [self._number(p) for p in parts if _is(p, "NUMBER")]
         definite = any(_is(p, "THE") for p in parts)
         number = numbers[0] if numbers else 1 if any(_is(p, "A") for p in parts) else None
-        return replace(noun, number=number, definite=definite, exceptions=_exceptions(parts))
+        return replace(
+            noun,
+            number=number,
+            definite=definite,
+            exceptions=_exceptions(parts),
+            said=_said(parts),
+        )
 
     def something(self, parts: list[Part]) -> Thing:
         """As in "something yellow to drink from"."""
         words = " ".join(p for p in parts if type(p) is str)
         purpose = _purpose(parts, "PURPOSE")
-        return Thing(words, number=1, purpose=purpose, exceptions=_exceptions(parts))
+        return Thing(
+            words, number=1, purpose=purpose, exceptions=_exceptions(parts), said=_said(parts)
+        )
 
     def pronoun(self, parts: list[Part]) -> Thing:
         """As in "it", "them"."""
-        return Thing(parts[0], pronoun=True, definite=True)
+        return Thing(str(parts[0]), pronoun=True, definite=True, said=_said(parts))
 
     def every_pronoun(self, parts: list[Part]) -> Thing:
         """As in "all of them"."""
-        return Thing(parts[-1], number=ALL, pronoun=True, definite=True)
+        return Thing(str(parts[-1]), number=ALL, pronoun=True, definite=True, said=_said(parts))
 
     def another(self, parts: list[Part]) -> Thing:
         """As in "another apple", "the other one"."""
         noun = next((p for p in parts if isinstance(p, Thing)), Thing())
-        return replace(noun, number=1, pronoun=not noun.words, other=True)
+        return replace(noun, number=1, pronoun=not noun.words, other=True, said=_said(parts))
 
     def every(self, parts: list[Part]) -> Thing:
         """As in "all the fruit", "everything but the mug"."""
         noun = next((p for p in parts if isinstance(p, Thing)), Thing())
-        return replace(noun, number=ALL, definite=True, exceptions=_exceptions(parts))
+        return replace(
+            noun, number=ALL, definite=True, exceptions=_exceptions(parts), said=_said(parts)
+        )
 
     def except_(self, parts: list[Part]) -> tuple[Thing, ...]:
         """As in "but a banana"."""
@@ -164,8 +178,6 @@ class Builder(Transformer[Token, Said]):
     def bring(self, parts: list[Part]) -> Task:
         """As in "bring me the mug", "give the mug to Anna"."""
         task = _task(Verb.BRING, parts)
-        if task.goal and any(_is(p, "ME") for p in parts):
-            raise Unfit(task.goal.words)
         return replace(task, verb=Verb.BRING if task.goal in (None, ME) else Verb.PUT)
 
     def bring_to(self, parts: list[Part]) -> Task:
@@ -175,7 +187,7 @@ class Builder(Transformer[Token, Said]):
 
     def wish_for(self, parts: list[Part]) -> Task:
         """As in "I want to drink something": whatever serves for that."""
-        thing = Thing(number=1, purpose=_purpose(parts, "PURPOSE"))
+        thing = Thing(number=1, purpose=_purpose(parts, "PURPOSE"), said=str(parts[-1]))
         return Task(Verb.BRING, Things((thing,)), said=parts[0])
 
     def search_for(self, parts: list[Part]) -> Task:
@@ -233,8 +245,6 @@ class Builder(Transformer[Token, Said]):
         """As in "what is on the table"."""
         return _task(Verb.TELL, parts)
 
-    tell_which = tell
-
     def check(self, parts: list[Part]) -> Task:
         """As in "is the mug on the sofa", "is there any milk"."""
         return _task(Verb.CHECK, parts)
@@ -242,8 +252,6 @@ class Builder(Transformer[Token, Said]):
     def if_there(self, parts: list[Part]) -> Task:
         """As in "if there is one", "if there is an apple on the table"."""
         return _task(Verb.CHECK, parts)
-
-    if_it_is = if_there
 
     def otherwise(self, parts: list[Part]) -> "Otherwise":
         """As in "otherwise a pear", "otherwise come back"."""
@@ -274,7 +282,12 @@ class Builder(Transformer[Token, Said]):
             return refused
         tasks = tuple(p for p in parts if isinstance(p, Task))
         in_order = any(_is(p, "FIRST", "THEN") for p in parts)
-        return Request(tasks, in_order, too=any(_is(p, "TOO") for p in parts))
+        return Request(
+            tasks,
+            in_order,
+            too=any(_is(p, "TOO") for p in parts),
+            agrees=any(_is(p, "YES") for p in parts),
+        )
 
     def more(self, parts: list[Part]) -> Correction:
         """As in "and the pear", "the pear, too": the same as before, with more things."""
@@ -282,16 +295,24 @@ class Builder(Transformer[Token, Said]):
 
     def refusal(self, parts: list[Part]) -> Refusal:
         """As in "do not touch the hammer"."""
-        return Refusal(str(parts[-1]) if len(parts) > 1 else "")
+        return Refusal(_rest(parts))
+
+    def unable(self, parts: list[Part]) -> Unable:
+        """As in "throw the ball"."""
+        verb = next(p for p in parts if _is(p, "UNABLE"))
+        return Unable(str(verb), _rest(parts))
 
     def correction(self, parts: list[Part]) -> Correction:
         """As in "no, the banana"."""
-        return Correction(next(p for p in parts if not isinstance(p, Token)))
+        meant = next(p for p in parts if not isinstance(p, Token))
+        if isinstance(meant, Refusal):
+            raise Unfit(meant.words)
+        return Correction(meant, denies=any(_is(p, "NO") for p in parts))
 
     def not_that(self, parts: list[Part]) -> Correction:
         """As in "not the apple, the banana"."""
         wrong = next(p for p in parts if isinstance(p, Thing))
-        return Correction(parts[-1], Things((wrong,)))
+        return Correction(parts[-1], Things((wrong,)), denies=True)
 
     def question(self, parts: list[Part]) -> Question:
         """As in "what can you do"."""
@@ -381,6 +402,17 @@ class Otherwise:
     deed: Task | Things
 
 
+def _said(parts: list[Part]) -> str:
+    """The words of a thing as they were said, without articles and exceptions."""
+    said = (p.said if isinstance(p, Thing) else p for p in parts if not _is(p, "A", "THE", "SOME"))
+    return " ".join(str(p) for p in said if isinstance(p, str))
+
+
+def _rest(parts: list[Part]) -> str:
+    """What the grammar takes as it is; empty if nothing was there."""
+    return next((str(p) for p in parts if _is(p, "ANYTHING")), "")
+
+
 def _is(part: Part, *types: str) -> bool:
     return isinstance(part, Token) and part.type in types
 
@@ -422,7 +454,7 @@ def _task(verb: Verb, parts: list[Part], *, goes: bool = False) -> Task:
     """
     things = next((p for p in parts if isinstance(p, Things)), None)
     places: dict[str, Where] = {}
-    last = ""
+    last, inner = "", 0
     for part in parts:
         if isinstance(part, From):
             role, place = "source", part.place
@@ -432,6 +464,9 @@ def _task(verb: Verb, parts: list[Part], *, goes: bool = False) -> Task:
             role, place = ("goal" if goes else "source"), part
             if last and (role in places or last == "goal"):
                 places[last] = replace(places[last], within=_inner(places[last].within, place))
+                inner += 1
+                if inner > MOST_INNER:
+                    raise Unfit(place.words)
                 continue
         else:
             continue

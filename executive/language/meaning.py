@@ -70,6 +70,7 @@ class Thing:
         other: another one than before.
         exceptions: what it is not to be: "anything but a banana".
         definite: "the mug" is a certain one, "a mug" is any.
+        said: all of this as it was said, but for articles and exceptions: "two mugs".
     """
 
     words: str = ""
@@ -79,6 +80,7 @@ class Thing:
     other: bool = False
     exceptions: tuple["Thing", ...] = ()
     definite: bool = False
+    said: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,6 +128,8 @@ class Request:
     """Whether the words say that this is the order: "first ..., then ..."."""
     too: bool = False
     """Whether it comes on top of what was asked for before: "..., too"."""
+    agrees: bool = False
+    """Whether it begins with a yes: "okay, bring it"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +140,14 @@ class Refusal:
 
 
 @dataclass(frozen=True, slots=True)
+class Unable:
+    """A deed that no robot of ours does: "throw the ball"."""
+
+    verb: str
+    rest: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Correction:
     """Not that, but this: "no, the banana"; or that and this: "and the pear".
 
@@ -143,11 +155,13 @@ class Correction:
         meant: what is meant; things only: the deed is that of before.
         wrong: what is not meant, if it was said.
         adds: whether what was meant before still is.
+        denies: whether it begins with a no.
     """
 
     meant: "Request | Things"
     wrong: Things | None = None
     adds: bool = False
+    denies: bool = False
 
 
 class About(StrEnum):
@@ -214,8 +228,8 @@ class Unread:
 
     words: str
     at: str = ""
-    denies: bool = field(default=False)
-    """Whether there is a negation in it: then nothing may come of it without a question."""
+    denial: str = ""
+    """A word in it that denies, if there is one: then it never becomes a deed."""
 
 
-Said = Request | Refusal | Correction | Question | Statement | Answer | Courtesy | Unread
+Said = Request | Refusal | Unable | Correction | Question | Statement | Answer | Courtesy | Unread

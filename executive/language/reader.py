@@ -1,113 +1,114 @@
-"""Reads what a person says, by the grammar of a language; see `assets/english.lark`."""
+"""Reads what a person says, by the grammar of a language and its words: two files in `assets/`."""
 
 import re
+import tomllib
 from collections.abc import Iterable
-from functools import cached_property
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 from lark import Lark, UnexpectedInput
 from lark.exceptions import VisitError
+from lark.lexer import ContextualLexer
 
 from executive.language.building import Builder, Unfit
 from executive.language.meaning import Relation, Said, Unread
-from executive.text import one_line, too_long
+from executive.text import LONGEST, one_line, too_long
 
-ENGLISH = Path(__file__).parent / "assets" / "english.lark"
-NO_NAME = r"(?!)x"
-
-SHORT_FORMS = {
-    "can't": "can not",
-    "cannot": "can not",
-    "won't": "will not",
-    "shan't": "shall not",
-    "what's": "what is",
-    "where's": "where is",
-    "who's": "who is",
-    "there's": "there is",
-    "it's": "it is",
-    "that's": "that is",
-    "how's": "how is",
-    "i'm": "i am",
-    "i'd": "i would",
-    "i've": "i have",
-    "let's": "let us",
-    "they're": "they are",
-    "you're": "you are",
-    "gimme": "give me",
-}
-_SHORT = re.compile(r"\b(?:" + "|".join(map(re.escape, SHORT_FORMS)) + r")(?!\w)")
-NUMBERS = dict(
-    zip(
-        ["two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"],
-        range(2, 11),
-        strict=True,
-    )
-) | {
-    "first": 1,
-    "second": 2,
-    "third": 3,
-    "fourth": 4,
-    "fifth": 5,
-    "last": -1,
-    "number one": 1,
-    "number two": 2,
-    "number three": 3,
-}
-RELATIONS = {
-    **dict.fromkeys(("on top of", "on to", "onto", "on", "upon"), Relation.ON),
-    **dict.fromkeys(("inside of", "inside", "into", "in", "within"), Relation.IN),
-    **dict.fromkeys(("at", "by"), Relation.AT),
-    **dict.fromkeys(("next to", "beside", "near", "close to", "around"), Relation.NEXT_TO),
-    **dict.fromkeys(("under", "below"), Relation.UNDER),
-}
+ASSETS = Path(__file__).parent / "assets"
+NOTHING = r"(?!)x"
+"""A pattern that fits nothing."""
 
 
 class Reader:
-    """Reads English."""
+    """Reads a language; it takes about a second to build, and then less than a ms a sentence.
 
-    def __init__(self, names: Iterable[str] = ()) -> None:
-        """Know names that have words in them which mean something else: "salt and pepper"."""
-        self._names = tuple(sorted({plain(name) for name in names if name.strip()}))
+    Args:
+        language: the name of its two files, `.lark` and `.toml`.
+        names: of things and places, as far as they have words in them that mean something else.
+    """
+
+    def __init__(self, language: str = "english", names: Iterable[str] = ()) -> None:
+        """Read the files, and prepare all that reading needs."""
+        words = tomllib.loads((ASSETS / f"{language}.toml").read_text("utf-8"))
+        self.deeds = tuple(words["deeds"].split())
+        """Words that ask for a deed."""
+        self._short: dict[str, str] = words["short_forms"]
+        self._short_form = re.compile(rf"\b(?:{_any_of(self._short)})(?!\w)")
+        self._denials = re.compile(rf"\b(?:{_any_of(words['denials'])})\b|n't\b")
+        self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
+        self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
+        self._builder = _builder(words)
+        self._parser = _parser(
+            (ASSETS / f"{language}.lark").read_text("utf-8"),
+            NAME=rf"(?:{_any_of(self._names)})(?=[ ,]|$)",
+            DEED_AHEAD=rf"(?=(?:{_any_of([*words['before_deeds'], *self.deeds])})\b)",
+            UNABLE=rf"(?:{_any_of(words['unable'].split())})(?=[ ,]|$)",
+        )
 
     def read(self, words: str) -> Said:
         """What the words mean; what cannot be read is `Unread`, and says where."""
         if too_long(words):
             return Unread(words)
-        text = plain(words)
+        text = self.plain(words)
         try:
             return self._builder.transform(self._parser.parse(text))
         except UnexpectedInput as error:
             at = re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0]
-            return Unread(words, at, denies(text))
+            return Unread(words, at, self.denial(words))
         except VisitError as error:
             if not isinstance(error.orig_exc, Unfit):
                 raise
-            return Unread(words, str(error.orig_exc), denies(text))
+            return Unread(words, str(error.orig_exc), self.denial(words))
 
-    @cached_property
-    def _parser(self) -> Lark:
-        known = "|".join(map(re.escape, sorted(self._names, key=len, reverse=True))) or NO_NAME
-        grammar = ENGLISH.read_text("utf-8") + f"\nNAME.5: /(?:{known})(?=[ ,]|$)/\n"
-        return Lark(grammar, start="said", parser="lalr", maybe_placeholders=False)
+    def plain(self, words: str) -> str:
+        """Lower case, one space between words, no punctuation but the comma, no short forms.
 
-    @cached_property
-    def _builder(self) -> Builder:
-        return Builder(NUMBERS, RELATIONS)
+        A full stop between sentences is a comma.
+        """
+        text = one_line(words[:LONGEST]).lower().replace("’", "'")
+        text = self._short_form.sub(lambda match: self._short[match[0]], text)
+        text = re.sub(r"n't\b", " not", text)
+        text = re.sub(r"[.!?;:\"“”]+(?=\s|$)", ",", text)
+        text = re.sub(r"(?:\s*,)+(?!\S)\s*|(?:\s+,)+", ", ", text)
+        return " ".join(text.split()).strip(", ")
 
+    def denial(self, words: str) -> str:
+        """A word among them that denies; empty if there is none."""
+        found = self._denials.search(re.sub(r"[_\W]+", " ", self.plain(words)))
+        return found[0] if found else ""
 
-def plain(words: str) -> str:
-    """Lower case, one space between words, no punctuation but the comma, no short forms.
-
-    A full stop between sentences is a comma. What stands in underscores and hyphens is words.
-    """
-    text = one_line(words).lower().replace("’", "'").replace("_", " ").replace("-", " ")
-    text = _SHORT.sub(lambda match: SHORT_FORMS[match[0]], text)
-    text = re.sub(r"n't\b", " not", text)
-    text = re.sub(r"[.!?;:\"“”]+(?=\s|$)", ",", text)
-    text = re.sub(r"(?:\s*,)+\s*", ", ", text)
-    return " ".join(text.split()).strip(", ")
+    def declines(self, words: str) -> bool:
+        """Whether there is something among them that people say who do not know."""
+        return self._declines.search(self.plain(words)) is not None
 
 
-def denies(text: str) -> bool:
-    """Whether plain words have a negation among them."""
-    return re.search(r"\b(?:not|no|never|none|nothing|without|neither|nor)\b", text) is not None
+@cache
+def english() -> Reader:
+    """The reader of English, for names without words that mean something else."""
+    return Reader()
+
+
+def _builder(words: dict[str, Any]) -> Builder:
+    relations = {said: Relation(name) for name, all_ in words["relations"].items() for said in all_}
+    return Builder(words["numbers"], relations)
+
+
+def _parser(grammar: str, **terminals: str) -> Lark:
+    """A parser of the grammar with these terminals added, its scanners compiled."""
+    priorities = {"NAME": ".5", "DEED_AHEAD": "", "UNABLE": ".1"}
+    added = (f"{name}{priorities[name]}: /{pattern}/" for name, pattern in terminals.items())
+    parser = Lark(
+        "\n".join([grammar, *added, ""]), start="said", parser="lalr", maybe_placeholders=False
+    )
+    lexer = parser.parser.lexer
+    assert isinstance(lexer, ContextualLexer)
+    for scanner in (lexer.root_lexer, *lexer.lexers.values()):
+        scanner.scanner  # noqa: B018 - it is compiled when it is first asked for
+    return parser
+
+
+def _any_of(words: Iterable[str]) -> str:
+    """A pattern for any of the words, the longest first."""
+    found = "|".join(re.escape(word) for word in sorted(words, key=len, reverse=True))
+    return found.replace("/", r"\/") or NOTHING
