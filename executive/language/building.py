@@ -297,6 +297,10 @@ class Builder(Transformer[Token, Said]):
         """As in "do not touch the hammer"."""
         return Refusal(_rest(parts))
 
+    def not_this(self, parts: list[Part]) -> Refusal:
+        """As in "not the hammer"."""
+        return Refusal(parts[-1].said)
+
     def unable(self, parts: list[Part]) -> Unable:
         """As in "throw the ball"."""
         verb = next(p for p in parts if _is(p, "UNABLE"))

@@ -1,4 +1,4 @@
-"""From what was said to a command that the tree can carry out, or to a word on why there is none."""
+"""From what was said to a command that the tree can carry out, or to a word on why not."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,7 +16,6 @@ from executive.language.meaning import (
     Said,
     Statement,
     Task,
-    Thing,
     Things,
     Unable,
     Unread,
@@ -47,9 +46,9 @@ _ALONE = (Verb.FIND, Verb.TAKE, Verb.BRING)
 
 
 def command_in(said: Said, words: str) -> Command | str | None:
-    """The command; or what to say, in a sentence, if it was read but is not to be, or cannot be, done.
+    """The command; or what to say of it, if it was read but is not to be done, or cannot be.
 
-    None if nobody can say: it was not read, or answers a question.
+    None if there is nothing to say: it was not read, or answers a question.
     """
     match said:
         case Request():
@@ -72,15 +71,15 @@ def command_in(said: Said, words: str) -> Command | str | None:
 
 
 def talk(said: Said, things: Sequence[str] = ()) -> str:
-    """What to say to what asks for no deed, with things of this home as examples; empty if not so."""
+    """What to say to what asks for no deed; `things` are examples. Empty if it is nothing such."""
     if isinstance(said, Courtesy):
         return COURTESIES[said]
     if not isinstance(said, Question) or said.about not in (About.ABILITIES, About.SELF):
         return ""
     a, b, c = (*things, "mug", "apple", "hammer")[:3]
     return (
-        f"{CAN}. Say for example 'Find the {a}', 'Take the {b}', 'Bring me the {c}' or 'Put it down';"
-        " 'stop' ends what I do, 'quit' ends the session."
+        f"{CAN}. Say for example 'Find the {a}', 'Take the {b}', 'Bring me the {c}' or "
+        "'Put it down'; 'stop' ends what I do, 'quit' ends the session."
     )
 
 
@@ -89,7 +88,7 @@ def agrees(said: Said) -> bool | None:
     match said:
         case Request(agrees=True):
             return True
-        case Correction(denies=True):
+        case Correction(denies=True) | Refusal():
             return False
     choice = getattr(said, "choice", None)
     return {Choice.YES: True, Choice.NO: False}.get(choice) if choice else None
@@ -145,7 +144,7 @@ def _command(tasks: tuple[Task, ...], words: str) -> Command | str:
         source=_in_words(task.source) if task.source else "",
         goal=_in_words(task.goal) if task.goal not in (None, ME) else "",
         purpose=" and ".join(thing.purpose for thing in task.things.members if thing.purpose),
-        exceptions=tuple(_name(but) for thing in task.things.members for but in thing.exceptions),
+        exceptions=tuple(but.said for thing in task.things.members for but in thing.exceptions),
     )
 
 
@@ -161,24 +160,19 @@ def _why_not(task: Task) -> str:
         return f"I do not know where '{task.source.words}' is; say the name of the place"
     if task.verb == Verb.PUT_DOWN:
         return "I put down only what I hold" if task.source else ""
-    if any(thing.number not in (None, 1) for thing in task.things.members if task.things):
+    if task.things and any(thing.number not in (None, 1) for thing in task.things.members):
         return f"I cannot {task.verb} several things at once so far"
     return ""
 
 
 def _held(things: Things | None) -> str:
     """What is to be put down."""
-    if things is None or _is_it(things) or _names(things) in ("thing", "what you hold"):
-        return HELD
-    return _names(things)
+    held = things is None or _is_it(things) or _names(things) == "thing"
+    return HELD if held or things is None else _names(things)
 
 
 def _names(things: Things) -> str:
-    return (" or " if things.one_of else " and ").join(map(_name, things.members))
-
-
-def _name(thing: Thing) -> str:
-    return thing.said
+    return (" or " if things.one_of else " and ").join(thing.said for thing in things.members)
 
 
 def _in_words(where: Where) -> str:

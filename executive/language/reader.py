@@ -9,7 +9,7 @@ from typing import Any
 
 from lark import Lark, UnexpectedInput
 from lark.exceptions import VisitError
-from lark.lexer import ContextualLexer
+from lark.lexer import BasicLexer, ContextualLexer
 
 from executive.language.building import Builder, Unfit
 from executive.language.meaning import Relation, Said, Unread
@@ -103,8 +103,9 @@ def _parser(grammar: str, **terminals: str) -> Lark:
     )
     lexer = parser.parser.lexer
     assert isinstance(lexer, ContextualLexer)
-    for scanner in (lexer.root_lexer, *lexer.lexers.values()):
-        scanner.scanner  # noqa: B018 - it is compiled when it is first asked for
+    for each in (lexer.root_lexer, *lexer.lexers.values()):
+        assert isinstance(each, BasicLexer)
+        each.scanner  # noqa: B018 - it is compiled when it is first asked for
     return parser
 
 
