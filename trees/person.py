@@ -370,7 +370,9 @@ def without_exceptions(context: MissionContext, names: tuple[str, ...]) -> tuple
     """Those of the objects that the command does not leave out: "anything but a banana"."""
     assert context.situation.request.command
     exceptions = context.situation.request.command.exceptions
-    left_out = {o for but in exceptions for o in context.knowledge.objects_named(but)}
+    knowledge = context.knowledge
+    names_left_out = (name for but in exceptions for name in (but, *knowledge.names_in(but)))
+    left_out = {one for name in names_left_out for one in knowledge.objects_named(name)}
     return tuple(name for name in names if name not in left_out)
 
 

@@ -166,8 +166,12 @@ class Builder(Transformer[Token, Said]):
 
     # --- tasks ---
 
+    def task(self, parts: list[Part]) -> Task:
+        """As in "find the mug on the desk": the verb has the name of its terminal."""
+        return _task(Verb(parts[0].type.lower()), parts)
+
     def find(self, parts: list[Part]) -> Task:
-        """As in "find the mug on the desk"."""
+        """As in "tell me where the mug is"."""
         return _task(Verb.FIND, parts)
 
     def take(self, parts: list[Part]) -> Task:

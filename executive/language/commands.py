@@ -18,7 +18,6 @@ from executive.language.meaning import (
     Task,
     Things,
     Unable,
-    Unread,
     Verb,
     Where,
 )
@@ -65,8 +64,6 @@ def command_in(said: Said, words: str) -> Command | str | None:
             return "I cannot take note of that so far; I ask when I need to know it."
         case Correction():
             return "I am doing nothing that this could change; say all that I am to do."
-        case Unread() if said.denial:
-            return f"I do nothing: I hear '{said.denial}', and do not understand the rest."
     return None
 
 
@@ -144,7 +141,7 @@ def _command(tasks: tuple[Task, ...], words: str) -> Command | str:
         source=_in_words(task.source) if task.source else "",
         goal=_in_words(task.goal) if task.goal not in (None, ME) else "",
         purpose=" and ".join(thing.purpose for thing in task.things.members if thing.purpose),
-        exceptions=tuple(but.said for thing in task.things.members for but in thing.exceptions),
+        exceptions=tuple(but.words for thing in task.things.members for but in thing.exceptions),
     )
 
 
@@ -158,9 +155,12 @@ def _why_not(task: Task) -> str:
         return CANNOT[task.verb]
     if task.source and task.source.pronoun:
         return f"I do not know where '{task.source.words}' is; say the name of the place"
-    if task.verb == Verb.PUT_DOWN:
-        return "I put down only what I hold" if task.source else ""
-    if task.things and any(thing.number not in (None, 1) for thing in task.things.members):
+    if task.verb == Verb.PUT_DOWN and task.source:
+        return "I put down only what I hold"
+    things = task.things.members if task.things else ()
+    if any(but.pronoun for thing in things for but in thing.exceptions):
+        return "I do not know what is not meant; say its name"
+    if any(thing.number not in (None, 1) for thing in things):
         return f"I cannot {task.verb} several things at once so far"
     return ""
 

@@ -33,6 +33,8 @@ class EnglishInterpreter:
         It is empty, too, if they were not read: then somebody else may.
         """
         read = command_in(self._reader.read(words), words)
+        if read is None and (denial := self._reader.denial(words)):
+            return f"I do nothing: I hear '{denial}', and do not understand the rest."
         return read if isinstance(read, str) else ""
 
     def talk(self, words: str, things: Sequence[str] = ()) -> str:

@@ -228,8 +228,6 @@ class Unread:
 
     words: str
     at: str = ""
-    denial: str = ""
-    """A word in it that denies, if there is one: then it never becomes a deed."""
 
 
 Said = Request | Refusal | Unable | Correction | Question | Statement | Answer | Courtesy | Unread

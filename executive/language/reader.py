@@ -55,11 +55,11 @@ class Reader:
             return self._builder.transform(self._parser.parse(text))
         except UnexpectedInput as error:
             at = re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0]
-            return Unread(words, at, self.denial(words))
+            return Unread(words, at)
         except VisitError as error:
             if not isinstance(error.orig_exc, Unfit):
                 raise
-            return Unread(words, str(error.orig_exc), self.denial(words))
+            return Unread(words, str(error.orig_exc))
 
     def plain(self, words: str) -> str:
         """Lower case, one space between words, no punctuation but the comma, no short forms.

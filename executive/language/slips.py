@@ -16,10 +16,12 @@ def without_slips(reader: Reader, words: str) -> Iterator[str]:
     """What was probably meant, if the word at which reading ended, or that before, is a slip."""
     said = reader.read(words)
     spoken = reader.plain(words).split()
-    if isinstance(said, Unread) and not said.denial and spoken:
+    if reader.denial(words) or not spoken:
+        return
+    if isinstance(said, Unread):
         at = spoken.index(said.at) if said.at in spoken else len(spoken)
         suspects = {max(at - 1, 0), min(at, len(spoken) - 1)}
-    elif isinstance(said, Answer) and said.things and spoken:
+    elif isinstance(said, Answer) and said.things:
         suspects = {0}
     else:
         return
