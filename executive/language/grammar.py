@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 
 from executive.language.commands import agrees, command_in, talk
 from executive.language.meaning import Answer, Choice, Request, Task, Unread, Verb
-from executive.language.reader import Reader, english
+from executive.language.reader import english
 from executive.language.slips import without_slips
 from executive.types import Command
 
@@ -19,8 +19,7 @@ class EnglishInterpreter:
 
     def __init__(self, names: Iterable[str] = ()) -> None:
         """Build what reads, which takes longest of all."""
-        odd = [name for name in names if not _is_read(name)]
-        self._reader = Reader(names=odd) if odd else english()
+        self._reader = english(tuple(sorted({name for name in names if not _is_read(name)})))
 
     def command(self, words: str) -> Command | None:
         """The request in the words, or None if there is none that can be done."""
@@ -67,9 +66,12 @@ class EnglishInterpreter:
 
 def _is_read(name: str) -> bool:
     """Whether the grammar reads a name as one, without being told."""
-    said = english().read(f"find {name}")
-    match said:
+    plain = english().plain(name)
+    parts = plain.split()
+    if all(word.isalpha() and word not in english().vocabulary for word in parts):
+        return True
+    match english().read(f"find {name}"):
         case Request(tasks=(Task(verb=Verb.FIND, things=things, source=None, goal=None),)):
             assert things
-            return [thing.words for thing in things.members] == [english().plain(name)]
+            return [thing.said for thing in things.members] == [plain]
     return False

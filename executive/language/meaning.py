@@ -113,7 +113,7 @@ class Task:
     conditional: bool = False
     sought: "Task | None" = None
     unless: "Task | None" = None
-    said: str = ""
+    said: str = field(default="", compare=False)
 
 
 # --- what may be said ---
