@@ -16,6 +16,7 @@ from executive.language.meaning import (
     Said,
     Statement,
     Task,
+    Thing,
     Things,
     Unable,
     Verb,
@@ -40,6 +41,7 @@ COURTESIES = {
     Courtesy.THANKS: "You are welcome.",
     Courtesy.GOODBYE: "Goodbye!",
 }
+THING = "thing"
 _ALONE = (Verb.FIND, Verb.TAKE, Verb.BRING)
 """Deeds that another one with "it" may follow, which has them in it."""
 
@@ -167,12 +169,18 @@ def _why_not(task: Task) -> str:
 
 def _held(things: Things | None) -> str:
     """What is to be put down."""
-    held = things is None or _is_it(things) or _names(things) == "thing"
+    held = things is None or _is_it(things) or _names(things) == THING
     return HELD if held or things is None else _names(things)
 
 
 def _names(things: Things) -> str:
-    return (" or " if things.one_of else " and ").join(thing.said for thing in things.members)
+    return (" or " if things.one_of else " and ").join(map(_name, things.members))
+
+
+def _name(thing: Thing) -> str:
+    """What it is called; "something" may be any thing."""
+    named = thing.words or thing.purpose or thing.pronoun
+    return thing.said if named else THING
 
 
 def _in_words(where: Where) -> str:
