@@ -23,7 +23,7 @@ class EnglishInterpreter:
 
     def command(self, words: str) -> Command | None:
         """The request in the words, or None if there is none that can be done."""
-        read = command_in(self._reader.read(words), words)
+        read = self._read(words)
         return read if isinstance(read, Command) else None
 
     def remark(self, words: str) -> str:
@@ -31,10 +31,21 @@ class EnglishInterpreter:
 
         It is empty, too, if they were not read: then somebody else may.
         """
-        read = command_in(self._reader.read(words), words)
-        if read is None and (denial := self._reader.denial(words)):
-            return f"I do nothing: I hear '{denial}', and do not understand the rest."
+        read = self._read(words)
         return read if isinstance(read, str) else ""
+
+    def _read(self, words: str) -> Command | str | None:
+        """The command; or what to say; nothing to say if somebody else may read it."""
+        read = command_in(self._reader.read(words), words)
+        denial = ""
+        if read is None:
+            denial = self._reader.denial(words)
+        elif isinstance(read, Command):
+            names = (read.target, read.source, read.goal, read.purpose, *read.exceptions)
+            denial = next(filter(None, map(self._reader.denial_in_name, names)), "")
+        if denial:
+            return f"I do nothing: I hear '{denial}', and do not understand the rest."
+        return read
 
     def talk(self, words: str, things: Sequence[str] = ()) -> str:
         """The answer to small talk, or to who asks for help; empty if it is neither."""

@@ -35,7 +35,9 @@ class Reader:
         """Words that ask for a deed."""
         self._short: dict[str, str] = words["short_forms"]
         self._short_form = re.compile(rf"\b(?:{_any_of(self._short)})(?!\w)")
-        self._denials = re.compile(rf"\b(?:{_any_of(words['denials'])})\b|n't\b")
+        self._endings: dict[str, str] = words["endings"]
+        self._denials = re.compile(rf"\b(?:{_any_of(words['denials'])})\b")
+        self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
         self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
         self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
         self._builder = _builder(words)
@@ -71,14 +73,21 @@ class Reader:
         """
         text = one_line(words[:LONGEST]).lower().replace("’", "'")
         text = self._short_form.sub(lambda match: self._short[match[0]], text)
-        text = re.sub(r"n't\b", " not", text)
+        for ending, whole in self._endings.items():
+            text = re.sub(rf"{ending}\b", whole, text)
         text = re.sub(r"[.!?;:\"“”]+(?=\s|$)", ",", text)
         text = re.sub(r"(?:\s*,)+(?!\S)\s*|(?:\s+,)+", ", ", text)
         return " ".join(text.split()).strip(", ")
 
     def denial(self, words: str) -> str:
-        """A word among them that denies; empty if there is none."""
-        found = self._denials.search(re.sub(r"[_\W]+", " ", self.plain(words)))
+        """A word among them that denies, or may; empty if there is none."""
+        apart = re.sub(r"[_\W]+", " ", self.plain(words))
+        found = self._denials.search(apart) or self._perhaps.search(apart)
+        return found[0] if found else ""
+
+    def denial_in_name(self, name: str) -> str:
+        """A word in what was read as a name that denies; empty if there is none, or it is known."""
+        found = self._denials.search(name) if name not in self._names else None
         return found[0] if found else ""
 
     def declines(self, words: str) -> bool:

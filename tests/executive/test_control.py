@@ -129,6 +129,8 @@ READERS = (
     EnglishInterpreter().command,
     EnglishInterpreter().declines,
     EnglishInterpreter().agrees,
+    EnglishInterpreter().remark,
+    EnglishInterpreter().without_slips,
     one_line,
     too_long,
 )
