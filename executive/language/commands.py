@@ -24,8 +24,8 @@ from executive.language.meaning import (
 )
 from executive.types import HELD, Command, CommandKind
 
-CAN = "I can find, take and bring one thing at a time, and put down what I hold"
-
+_DEEDS = [kind.replace("_", " ") for kind in CommandKind]
+CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one thing at a time"
 CANNOT = {
     Verb.PUT: "I cannot put things where you say so far",
     Verb.PUT_BACK: "I cannot put things back so far",
@@ -132,18 +132,15 @@ def _command(tasks: tuple[Task, ...], words: str) -> Command | str:
     [task] = tasks
     if why := _why_not(task):
         return f"{why}. {CAN}."
-    if task.verb == Verb.PUT_DOWN:
-        return Command(CommandKind.PUT_DOWN, _held(task.things), words)
-    assert task.things
-    kind = CommandKind.BRING if task.verb == Verb.PUT else CommandKind(task.verb)
+    members = task.things.members if task.things else ()
     return Command(
-        kind,
-        _names(task.things),
+        CommandKind(task.verb),
+        _held(task.things) if task.verb == Verb.PUT_DOWN else _names(task.things),
         words,
         source=_in_words(task.source) if task.source else "",
-        goal=_in_words(task.goal) if task.goal not in (None, ME) else "",
-        purpose=" and ".join(thing.purpose for thing in task.things.members if thing.purpose),
-        exceptions=tuple(but.words for thing in task.things.members for but in thing.exceptions),
+        goal=_in_words(task.goal) if task.goal and task.verb != Verb.BRING else "",
+        purpose=" and ".join(thing.purpose for thing in members if thing.purpose),
+        exceptions=tuple(but.words for thing in members for but in thing.exceptions),
     )
 
 
@@ -151,9 +148,7 @@ def _why_not(task: Task) -> str:
     """Why the tree cannot do it, as a clause; empty if it can."""
     if task.conditional:
         return "I cannot do things on a condition so far"
-    if task.goal not in (None, ME):
-        return CANNOT[Verb.PUT]
-    if task.verb in CANNOT:
+    if task.verb.value not in {kind.value for kind in CommandKind}:
         return CANNOT[task.verb]
     if task.source and task.source.pronoun:
         return f"I do not know where '{task.source.words}' is; say the name of the place"
@@ -173,7 +168,9 @@ def _held(things: Things | None) -> str:
     return HELD if held or things is None else _names(things)
 
 
-def _names(things: Things) -> str:
+def _names(things: Things | None) -> str:
+    if things is None:
+        return ""
     return (" or " if things.one_of else " and ").join(map(_name, things.members))
 
 
