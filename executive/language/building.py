@@ -199,9 +199,12 @@ class Builder(Transformer[Token, Said]):
         place, things = (p for p in parts if isinstance(p, Things))
         return Task(Verb.FIND, things, source=Where(place.members[0].words), said=parts[0])
 
-    def leave(self, parts: list[Part]) -> Refusal:
-        """As in "leave the hammer alone"."""
-        return Refusal(" ".join(member.words for member in parts[1].members))
+    def leave(self, parts: list[Part]) -> Task | Refusal:
+        """As in "leave the hammer alone", "leave the hammer on the desk"; "leave it there" puts."""
+        things = parts[1]
+        if all(thing.pronoun for thing in things.members) and not _is(parts[2], "ALONE"):
+            return _task(Verb.PUT, parts, goes=True)
+        return Refusal(" ".join(thing.said for thing in things.members))
 
     def wish(self, parts: list[Part]) -> Task:
         """As in "I need the mug"."""

@@ -150,8 +150,9 @@ def _why_not(task: Task) -> str:
         return "I cannot do things on a condition so far"
     if task.verb.value not in {kind.value for kind in CommandKind}:
         return CANNOT[task.verb]
-    if task.source and task.source.pronoun:
-        return f"I do not know where '{task.source.words}' is; say the name of the place"
+    for place in (task.source, task.goal):
+        if place and place.pronoun:
+            return f"I do not know where '{place.words}' is; say the name of the place"
     if task.verb == Verb.PUT_DOWN and task.source:
         return "I put down only what I hold"
     things = task.things.members if task.things else ()

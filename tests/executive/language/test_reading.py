@@ -139,6 +139,7 @@ def test_reads_what_is_to_be_done(words: str, meaning: Said) -> None:
     [
         ("Do not touch the hammer", Refusal("touch the hammer")),
         ("Leave the hammer alone", Refusal("hammer")),
+        ("Leave the hammer on the desk", Refusal("hammer")),
         ("Throw the ball", Unable("throw", "the ball")),
         ("no, the pear", Correction(certain("pear"), denies=True)),
         ("I mean the pear", Correction(certain("pear"))),
