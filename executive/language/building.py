@@ -262,12 +262,13 @@ class Builder(Transformer[Token, Said]):
 
     def otherwise(self, parts: list[Part]) -> "Otherwise":
         """As in "otherwise a pear", "otherwise come back"."""
-        return Otherwise(parts[-1])
+        instead = parts[-1]
+        return Otherwise(instead if isinstance(instead, Things) else _deed(instead))
 
     def conditional(self, parts: list[Part]) -> Task:
         """As in "bring an apple if there is one, otherwise a pear"."""
-        deed, *rest = parts
-        assert isinstance(deed, Task)
+        part, *rest = parts
+        deed = _deed(part)
         sought = next((p for p in rest if isinstance(p, Task)), None)
         if sought is not None and sought.things is None and sought.source is None:
             sought = None
@@ -275,8 +276,8 @@ class Builder(Transformer[Token, Said]):
 
     def if_then(self, parts: list[Part]) -> Task:
         """As in "if there is an apple, bring it, otherwise bring a pear"."""
-        sought, deed, *rest = (p for p in parts if not isinstance(p, Token))
-        assert isinstance(deed, Task)
+        sought, part, *rest = (p for p in parts if not isinstance(p, Token))
+        deed = _deed(part)
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
 
     # --- what is said ---
@@ -316,8 +317,8 @@ class Builder(Transformer[Token, Said]):
     def correction(self, parts: list[Part]) -> Correction:
         """As in "no, the banana"."""
         meant = next(p for p in parts if not isinstance(p, Token))
-        if isinstance(meant, Refusal):
-            raise Unfit(meant.words)
+        if not isinstance(meant, Request | Things):
+            raise Unfit(str(parts[0]))
         return Correction(meant, denies=any(_is(p, "NO") for p in parts))
 
     def not_that(self, parts: list[Part]) -> Correction:
@@ -384,8 +385,9 @@ class Builder(Transformer[Token, Said]):
         return Courtesy(parts[0].type.lower())
 
     def _number(self, token: Token) -> int:
-        word = token.removesuffix(" one")
-        return int(word) if word.isdecimal() else self._numbers[word]
+        if token.isdecimal():
+            return int(token)
+        return self._numbers.get(token) or self._numbers[token.removesuffix(" one")]
 
 
 class Unfit(Exception):
@@ -411,6 +413,13 @@ class Otherwise:
     """What is to be done instead."""
 
     deed: Task | Things
+
+
+def _deed(part: Part) -> Task:
+    """A task; what is not to be done ("leave it alone") depends on nothing, and nothing on it."""
+    if not isinstance(part, Task):
+        raise Unfit(getattr(part, "words", ""))
+    return part
 
 
 def _said(parts: list[Part]) -> str:
