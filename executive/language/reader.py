@@ -44,7 +44,7 @@ class Reader:
         grammar = (ASSETS / f"{language}.lark").read_text("utf-8")
         self.vocabulary = frozenset(re.findall(r"[^\W\d_]+", grammar))
         """Words that may be more than a part of a name."""
-        self._parser = _parser(
+        self.parser = _parser(
             grammar,
             NAME=rf"(?:{_any_of(self._names)})(?=[ ,]|$)",
             DEED_AHEAD=rf"(?=(?:{_any_of([*words['before_deeds'], *self.deeds])})\b)",
@@ -57,7 +57,7 @@ class Reader:
             return Unread(words)
         text = self.plain(words)
         try:
-            return self._builder.transform(self._parser.parse(text))
+            return self._builder.transform(self.parser.parse(text))
         except UnexpectedInput as error:
             at = re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0]
             return Unread(words, at)
