@@ -37,7 +37,7 @@ CANNOT = {
 }
 UNTOLD = "I cannot tell you that so far."
 COURTESIES = {
-    Courtesy.HELLO: "Hello! What can I do for you?",
+    Courtesy.HELLO: "Hello!",
     Courtesy.THANKS: "You are welcome.",
     Courtesy.GOODBYE: "Goodbye!",
 }
