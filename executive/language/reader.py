@@ -69,9 +69,9 @@ class Reader:
     def plain(self, words: str) -> str:
         """Lower case, one space between words, no punctuation but the comma, no short forms.
 
-        A full stop between sentences is a comma.
+        A full stop between sentences is a comma; what was no text is left out.
         """
-        text = one_line(words[:LONGEST]).lower().replace("’", "'")
+        text = one_line(words[:LONGEST]).lower().replace("’", "'").replace("\ufffd", " ")
         text = self._short_form.sub(lambda match: self._short[match[0]], text)
         for ending, whole in self._endings.items():
             text = re.sub(rf"{ending}\b", whole, text)
