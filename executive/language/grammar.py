@@ -19,7 +19,8 @@ class EnglishInterpreter:
 
     def __init__(self, names: Iterable[str] = ()) -> None:
         """Build what reads, which takes longest of all."""
-        self._reader = english(tuple(sorted({name for name in names if not _is_read(name)})))
+        odd = tuple(sorted({name for name in names if not _is_read(name)}))
+        self._reader = english(odd) if odd else english()
 
     def command(self, words: str) -> Command | None:
         """The request in the words, or None if there is none that can be done."""
