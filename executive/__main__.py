@@ -98,6 +98,8 @@ def serve(
         try:
             if words is None and console:
                 code = converse(session, console, as_json)
+            elif not as_json and session.talk(words or ""):
+                code = DONE
             else:
                 code = conclude(session.run(words or ""), as_json)
             leave_within(CLOSED_S, code)
@@ -138,7 +140,8 @@ def converse(session: "Session", console: Console, as_json: bool) -> int:
     code = DONE
     line = session.next_command(console, f"{PROMPT} (stop ends what I do, quit ends the session)")
     while line is not None:
-        code = conclude(session.run(line), as_json)
+        if as_json or not session.talk(line):
+            code = conclude(session.run(line), as_json)
         if session.stopped_by not in ("", THE_PERSON):
             return STOPPED
         line = session.next_command(console, PROMPT)

@@ -333,7 +333,27 @@ class Interpreter(Protocol):
     """Reads what a person says."""
 
     def command(self, words: str) -> Command | None:
-        """The request in the words, or None if there is none."""
+        """The request in the words, or None if there is none that can be done."""
+        ...
+
+    def remark(self, words: str) -> str:
+        """What to say of words that were read and are no command to carry out; empty otherwise.
+
+        Nobody else may make a command of them then: they may say what is not to be done.
+        """
+        ...
+
+    def without_slips(self, words: str) -> Command | None:
+        """The command that the words are with the word for the deed spelled right; None if none."""
+        ...
+
+    def talk(self, words: str, things: Sequence[str] = ()) -> str:
+        """The answer to small talk, or to who asks for help; empty if it is neither.
+
+        Args:
+            words: what was said.
+            things: names of things of this home, for examples.
+        """
         ...
 
     def declines(self, answer: str) -> bool:

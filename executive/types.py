@@ -96,6 +96,18 @@ class Command:
     kind: CommandKind
     target: str
     words: str
+    source: str = ""
+    """Where the thing is, by the words; empty if they do not say."""
+    goal: str = ""
+    """Where it is to go, by the words; empty if that is left to the verb."""
+    purpose: str = ""
+    """What it is for, by the words ("drink from"), which are in the target, too."""
+    exceptions: tuple[str, ...] = ()
+    """What is not meant: "anything but a banana"."""
+
+
+HELD = "it"
+"""As a target: whatever the hand holds."""
 
 
 @dataclass(frozen=True, slots=True)

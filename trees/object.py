@@ -11,7 +11,7 @@ from executive.interfaces import Knowledge
 from executive.types import Command, Source
 from trees.context import MissionContext
 from trees.nodes import Check, Step, fallback, sequence
-from trees.person import AskDoYouMean, AskWhichObject
+from trees.person import AskDoYouMean, AskWhichObject, without_exceptions
 
 
 def resolve_object(context: MissionContext) -> Behaviour:
@@ -43,7 +43,9 @@ def known_object(context: MissionContext) -> Behaviour:
 
 
 def meant(knowledge: Knowledge, command: Command) -> tuple[str, ...]:
-    """The objects that a command may be about, by what they are called or look like."""
+    """The objects that a command may be about: what they are called, look like, or are for."""
+    if command.purpose:
+        return knowledge.objects_for(command.purpose)
     return knowledge.objects_named(command.target)
 
 
@@ -59,12 +61,14 @@ class OntologyKnowsObject(Step):
         """Look the words up."""
         assert self.situation.request.command
         target = self.situation.request.command.target
-        named = meant(self.context.knowledge, self.situation.request.command)
+        named = without_exceptions(
+            self.context, meant(self.context.knowledge, self.situation.request.command)
+        )
         if len(named) == 1:
             self.situation.request.object = named[0]
             return self.succeed(named[0])
         self.situation.request.options = named
-        return self.fail(f"'{target}' names {len(named) or 'no'} known objects")
+        return self.fail(f"'{command.target}' names {len(named) or 'no'} known objects")
 
 
 class PersonPrefersOne(Step):

@@ -210,6 +210,7 @@ class AskWhichObject(Ask):
             named = self.context.knowledge.objects_named(command.target)
         if self.situation.request.options:
             named = tuple(n for n in named if n in self.situation.request.options)
+        named = without_exceptions(self.context, named)
         if len(named) > 1:
             self.situation.request.options = named
         elif named:
@@ -363,8 +364,19 @@ class Apologise(Step):
     def update(self) -> Status:
         """Say why the last thing failed that was tried."""
         self.situation.ending.tell(self.why_before())
-        tell(self.context, sentence(f"Sorry: {self.situation.ending.why}"))
+        why = self.situation.request.remark or f"Sorry: {self.situation.ending.why}"
+        tell(self.context, sentence(why))
         return self.succeed(self.situation.ending.why)
+
+
+def without_exceptions(context: MissionContext, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Those of the objects that the command does not leave out: "anything but a banana"."""
+    assert context.situation.request.command
+    exceptions = context.situation.request.command.exceptions
+    knowledge = context.knowledge
+    names_left_out = (name for but in exceptions for name in (but, *knowledge.names_in(but)))
+    left_out = {one for name in names_left_out for one in knowledge.objects_named(name)}
+    return tuple(name for name in names if name not in left_out)
 
 
 def tell(context: MissionContext, text: str) -> None:

@@ -1,10 +1,12 @@
 """What is asked for? The grammar of commands says, else the language model and the person do."""
 
+from dataclasses import replace
+
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.types import MissionStatus, Question, QuestionKind
+from executive.types import HELD, MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import Step, fallback, sequence
@@ -13,7 +15,14 @@ from trees.person import AskYesNo
 
 def understand(context: MissionContext) -> Behaviour:
     """Words -> `situation.request.command`."""
-    readers: list[Behaviour] = [ReadCommand("grammar reads it", context)]
+    readers: list[Behaviour] = [
+        ReadCommand("grammar reads it", context),
+        sequence(
+            "a slip",
+            ReadPastSlips("is like a command", context),
+            ConfirmCommand("ask do you mean", context),
+        ),
+    ]
     if context.model is not None:
         readers.append(let_the_model_read(context))
     return fallback("understand", *readers, NotUnderstood("not understood", context))
@@ -40,16 +49,54 @@ class ReadCommand(Step):
         self.context.recorder.record(Utterance("person", self.situation.request.words))
         command = self.context.interpreter.command(self.situation.request.words)
         if command is None:
+            self.situation.request.remark = self.context.interpreter.remark(
+                self.situation.request.words
+            )
             return self.fail("this is no command that the grammar knows")
+        if command.source and not self.context.knowledge.places_named(command.source):
+            self.situation.request.remark = f"I know no place '{command.source}'."
+            return self.fail(f"'{command.source}' is no place of this home")
         self.situation.request.command = command
         return self.succeed(f"{command.kind} {command.target}")
 
 
+class ReadPastSlips(Step):
+    """Words with a slip of the finger in them -> command, if it is about a known thing."""
+
+    source = "person"
+
+    def update(self) -> Status:
+        """The word for the deed has to be like one, and so has the name."""
+        words = self.situation.request.words
+        if self.situation.request.remark:
+            return self.fail("it was read")
+        command = self.context.interpreter.without_slips(words)
+        if command is None:
+            return self.fail("it is like no command")
+        target = self._known(command.target)
+        if target is None:
+            return self.fail(f"'{command.target}' is like no known name")
+        self.situation.request.command = replace(command, target=target, words=words)
+        return self.succeed(f"{command.kind} {target}")
+
+    def _known(self, target: str) -> str | None:
+        """The target if it is known, else the name that it is a slip of, if it is one."""
+        knowledge = self.context.knowledge
+        if target == HELD or knowledge.objects_named(target):
+            return target
+        return knowledge.near_name(target)
+
+
 class HasKnownName(Step):
-    """Succeeds if a known thing is named, so that there is something to do it with."""
+    """Succeeds if a known thing is named, so that there is something to do it with.
+
+    What the grammar did read is not the model's to read otherwise: it may say what not to do.
+    """
 
     def update(self) -> Status:
         """Look for the names; a model that writes may still choose another."""
+        if self.situation.request.remark:
+            return self.fail("it was read")
         names = self.context.knowledge.names_in(self.situation.request.words)
         if not names:
             return self.fail("no known thing is named")
@@ -66,7 +113,9 @@ class ConfirmCommand(AskYesNo):
         kind, target = self.situation.request.command.kind, self.situation.request.command.target
         knowledge = self.context.knowledge
         objects = [o for name in knowledge.names_in(target) for o in knowledge.objects_named(name)]
-        text = f"Do you mean: {kind} {target}?"
+        place = self.situation.request.command.source
+        what = f"{kind.replace('_', ' ')} {target}" + f" from {place}" * bool(place)
+        text = f"Do you mean: {what}?"
         return Question(QuestionKind.CONFIRM, target, text, tuple(objects))
 
     def agreed(self) -> None:
@@ -81,8 +130,10 @@ class NotUnderstood(Step):
     """What nobody can read is the person's to say again; always fails."""
 
     def update(self) -> Status:
-        """Say what can be said."""
+        """Say what can be said; what was read, and is not to be or cannot be done, has a reason."""
         self.situation.request.command = None
+        if remark := self.situation.request.remark:
+            return self.fail(remark.removesuffix("."))
         self.situation.ending.status = MissionStatus.NOT_UNDERSTOOD
         words = self.situation.request.words
         said = f"'{words}'" if words.strip() else "what you said"

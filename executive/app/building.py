@@ -16,6 +16,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.guards import GuardedModel, in_words
 from executive.interfaces import Advice, LanguageModel, Recorder, SimulatedHome, User
+from executive.language.grammar import EnglishInterpreter
 from executive.types import ChatRequest, RankRequest
 from executive.user import Console, Nobody, Oracle
 from kb.advice.prompts import Prompts
@@ -78,6 +79,7 @@ def build_parts(
         advice=advice,
         prompts=prompts,
         facts=facts,
+        interpreter=EnglishInterpreter(knowledge.names()),
         in_map=embodiment.in_map,
         blind_to=embodiment.blind_to,
         parameters=parameters_of(settings),

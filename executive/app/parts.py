@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from executive.config import Settings
 from executive.events import Inbox
@@ -74,7 +74,7 @@ class Parts:
     prompts: Prompts | None = None
     facts: Facts = NoFacts()
     sources: tuple[PlaceSource, ...] = ()
-    interpreter: Interpreter = EnglishInterpreter()
+    interpreter: Interpreter = field(default_factory=EnglishInterpreter)
     in_map: bool = False
     blind_to: tuple[str, ...] = ()
     """Objects of the home that perception would not recognise."""

@@ -22,6 +22,7 @@ from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopReque
 from executive.guards import GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
+from executive.language.phrases import spoken
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
 from executive.situation import Ending, Situation
@@ -257,6 +258,14 @@ class Session:
             self.ticks = executive.ticks
             others = [by for by in executive.stops if by != THE_PERSON]
             self.stopped_by = next(iter(others or executive.stops), "")
+
+    def talk(self, words: str) -> str:
+        """Answer small talk, and who asks what can be said: no mission; empty if it is neither."""
+        things = [spoken(name) for name in self.parts.knowledge.objects()]
+        said = self.parts.interpreter.talk(words, things)
+        if said:
+            self.parts.user.tell(said)
+        return said
 
     def next_command(self, console: Console, prompt: str = "") -> str | None:
         """Prompt, and wait for the person to type a command; None if the input or session ends.

@@ -1,65 +1,89 @@
-"""Words to commands: the small English that a person uses to a robot."""
+"""Reads English as the tree needs it: what is commanded, answered, said for its own sake."""
 
-import re
+from collections.abc import Iterable, Sequence
 
-from executive.language.put_down import to_put_down
-from executive.language.verbs import VERBS
-from executive.text import LONGEST, one_line, too_long
-from executive.types import Command, CommandKind
-
-_LONGEST_FIRST = "|".join(sorted(VERBS, key=len, reverse=True))
-_COMMAND = re.compile(
-    r"(?:please |robot |could you |can you |would you |will you |hey |hello "
-    r"|(?:i'd like|i would like|i want|i need) you to )*"
-    rf"(?P<verb>{_LONGEST_FIRST}) "
-    r"(?:(?:me|us|please) )*(?:(?:a|an|the|my|some|any|one) )*"
-    r"(?P<target>.+)"
-)
-_NO_TARGET = frozenset({"a", "an", "the", "me", "us", "my", "some", "any", "one", "on", "up"})
-_ENDINGS = (" to me", " for me", " up", " over", " here", " please", " now")
-_DECLINES = re.compile(
-    r"\b(?:don'?t|do not|dunno|no idea|not sure|nowhere|nothing|none|never ?mind|cannot|can'?t)\b"
-    r"|^(?:no|nope|\?*)$"
-)
-
-
-_YES = re.compile(
-    r"(?:yes|yeah|yep|yup|y|sure|ok|okay|right|correct|exactly|of course|indeed|please do)\b.*"
-)
-_NO = re.compile(r"(?:no(?! idea)|not(?! sure)|nope|nah|n|wrong)\b.*")
+from executive.language.commands import agrees, command_in, talk
+from executive.language.meaning import Answer, Choice, Request, Task, Unread, Verb
+from executive.language.reader import english
+from executive.language.slips import without_slips
+from executive.types import Command
 
 
 class EnglishInterpreter:
-    """Reads commands such as "Bring a sugar_box", "Could you fetch me the mug, please?"."""
+    """Reads commands such as "Bring a sugar_box", "Could you fetch me the mug, please?".
+
+    Args:
+        names: of the things and places that there are: a name with words in it that mean something
+            else ("salt and pepper") is read as one.
+    """
+
+    def __init__(self, names: Iterable[str] = ()) -> None:
+        """Build what reads, which takes longest of all."""
+        odd = tuple(sorted({name for name in names if not _is_read(name)}))
+        self._reader = english(odd) if odd else english()
 
     def command(self, words: str) -> Command | None:
-        """The request in the words, or None if there is none."""
-        if too_long(words):
-            return None
-        plain = _plain(words)
-        if (held := to_put_down(plain)) is not None:
-            return Command(CommandKind.PUT_DOWN, held, words)
-        match = _COMMAND.fullmatch(plain)
-        if match is None:
-            return None
-        target = match["target"]
-        while target.endswith(_ENDINGS):
-            target = target.removesuffix(next(e for e in _ENDINGS if target.endswith(e)))
-        return None if target in _NO_TARGET else Command(VERBS[match["verb"]], target, words)
+        """The request in the words, or None if there is none that can be done."""
+        read = self._read(words)
+        return read if isinstance(read, Command) else None
+
+    def remark(self, words: str) -> str:
+        """What to say of words that were read and are no command to carry out; empty if they are.
+
+        It is empty, too, if they were not read: then somebody else may.
+        """
+        read = self._read(words)
+        return read if isinstance(read, str) else ""
+
+    def _read(self, words: str) -> Command | str | None:
+        """The command; or what to say; nothing to say if somebody else may read it."""
+        read = command_in(self._reader.read(words), words)
+        denial = ""
+        if read is None:
+            denial = self._reader.denial(words)
+        elif isinstance(read, Command):
+            names = (read.target, read.source, read.goal, read.purpose, *read.exceptions)
+            denial = next(filter(None, map(self._reader.denial_in_name, names)), "")
+        if denial:
+            return f"I do nothing: I hear '{denial}', and do not understand the rest."
+        return read
+
+    def talk(self, words: str, things: Sequence[str] = ()) -> str:
+        """The answer to small talk, or to who asks for help; empty if it is neither."""
+        return talk(self._reader.read(words), things)
+
+    def without_slips(self, words: str) -> Command | None:
+        """The command that the words are with the word for the deed spelled right; None if none."""
+        for likely in without_slips(self._reader, words):
+            if command := self.command(likely):
+                return command
+        return None
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
-        return bool(_DECLINES.search(_plain(answer)))
+        said = self._reader.read(answer)
+        if said in (Answer(Choice.NO), Answer(Choice.UNKNOWN)):
+            return True
+        return self._reader.declines(answer) or not self._reader.plain(answer).strip("?")
 
     def agrees(self, answer: str) -> bool | None:
         """Whether an answer says yes or no; None if it says neither."""
-        plain = _plain(answer)
-        if _YES.fullmatch(plain):
-            return True
-        return False if _NO.fullmatch(plain) else None
+        said = self._reader.read(answer)
+        if (agreed := agrees(said)) is not None or not isinstance(said, Unread | Request):
+            return agreed
+        first, _, rest = self._reader.plain(answer).partition(" ")
+        begun = agrees(self._reader.read(first))
+        return None if begun and self._reader.denial(rest) else begun
 
 
-def _plain(words: str) -> str:
-    """Lower case, one space between words, no punctuation at the ends or after a clause."""
-    text = one_line(words[:LONGEST]).lower().replace("’", "'")
-    return " ".join(filter(None, (word.rstrip(",;:!.?") for word in text.split())))
+def _is_read(name: str) -> bool:
+    """Whether the grammar reads a name as one, without being told."""
+    plain = english().plain(name)
+    parts = plain.split()
+    if all(word.isalpha() and word not in english().vocabulary for word in parts):
+        return True
+    match english().read(f"find {name}"):
+        case Request(tasks=(Task(verb=Verb.FIND, things=things, source=None, goal=None),)):
+            assert things
+            return [thing.said for thing in things.members] == [plain]
+    return False

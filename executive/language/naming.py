@@ -1,5 +1,7 @@
 """Names that cannot be spoken of, because who says them is heard to say something else."""
 
+from functools import cache
+
 from executive.language.control import Control, control
 from executive.language.grammar import EnglishInterpreter
 from executive.language.phrases import CLAUSE_ENDS, MOST_WORDS, NEGATION, place_words, spoken
@@ -7,7 +9,6 @@ from executive.language.phrases import CLAUSE_ENDS, MOST_WORDS, NEGATION, place_
 Fault = tuple[str, str]
 """What is wrong with a name, as a clause, and what would be right."""
 
-_ENGLISH = EnglishInterpreter()
 _OTHER = "give another name"
 
 
@@ -16,7 +17,7 @@ def heard_as(name: str) -> str | None:
     words = spoken(name)
     if said := control(words):
         return "tells the robot to stop" if said is Control.STOP else "ends the session"
-    if _ENGLISH.declines(words):
+    if _english().declines(words):
         return "says that somebody does not know"
     return "says yes or no" if _says_yes_or_no(words) else None
 
@@ -42,4 +43,11 @@ def _says_yes_or_no(words: str) -> bool:
     """Whether all of it is a yes or no: "of course", but not "right shelf"."""
     *before, _ = words.split() or [""]
     begun = " ".join(before)
-    return _ENGLISH.agrees(words) is not None and (not begun or _ENGLISH.agrees(begun) is None)
+    agrees = _english().agrees
+    return agrees(words) is not None and (not begun or agrees(begun) is None)
+
+
+@cache
+def _english() -> EnglishInterpreter:
+    """Built when it is first needed, which takes a while."""
+    return EnglishInterpreter()

@@ -15,6 +15,7 @@ from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import Clock, Recorder
+from executive.language.grammar import EnglishInterpreter
 from executive.records import SourceAnswer
 from executive.replay.body import recorded_body
 from executive.replay.stand_ins import Absent
@@ -51,6 +52,7 @@ def recorded_parts(
     home = _home(kept(run, run.attachments, "home.toml")).with_placement(settings.place)
     body = recorded_body(run, settings, home)
     absent.several = body.views
+    knowledge = _knowledge(run, settings, home)
     thinks = run.metadata.get("thinks") or str(kept(run, run.metadata, "model") != "none")
     parts = Parts(
         settings=settings,
@@ -61,11 +63,12 @@ def recorded_parts(
         robot=absent,
         perception=absent,
         user=absent,
-        knowledge=_knowledge(run, settings, home),
+        knowledge=knowledge,
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
         facts=FactStore.believing(_beliefs(run), learns=settings.learn),
         sources=_sources(run),
+        interpreter=EnglishInterpreter(knowledge.names()),
         in_map=body.in_map,
         blind_to=body.blind_to,
         parameters=parameters_of(settings),

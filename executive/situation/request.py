@@ -11,6 +11,8 @@ class Request:
 
     words: str = ""
     command: Command | None = None
+    remark: str = ""
+    """What to say of the words if they were read, and are no command to carry out."""
     options: tuple[str, ...] = ()
     """Objects that the target may mean."""
     several: bool = False

@@ -20,6 +20,7 @@ from executive.app.simulation import fake
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, Started
 from executive.interfaces import Detector, Facts, PlaceSource, User
+from executive.language.grammar import EnglishInterpreter
 from executive.perception.pipeline import CameraPerception
 from executive.records import Record, Tick, Verified
 from executive.situation import Situation
@@ -173,6 +174,7 @@ def run_mission(
         model=thinker,
         facts=facts or NoFacts(),
         sources=tuple(sources),
+        interpreter=EnglishInterpreter(knowledge.names()),
         in_map=body.in_map,
         parameters=replace(parameters_of(settings), **(parameters or {})),
     )

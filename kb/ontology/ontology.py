@@ -120,6 +120,13 @@ class Ontology:
         self.place_names = PlaceNames(self.places(), self._called())
         """What the furniture and the rooms of the home are called."""
 
+    def names(self) -> tuple[str, ...]:
+        """Everything that somebody may call a thing or a place."""
+        things = (name for thing in self._things for name in self._graph.names(thing))
+        furniture = (name for names in self._called().values() for name in names)
+        places = (name for place in self.places() for name in (place.name, place.room))
+        return unique(spoken(name) for name in (*things, *furniture, *places))
+
     # --- the Knowledge protocol ---
 
     def places(self) -> tuple[Place, ...]:

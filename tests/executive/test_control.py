@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from executive.events import THE_PERSON, Ended, Inbox, StopRequested
 from executive.language.control import Control, control
 from executive.language.grammar import EnglishInterpreter
-from executive.language.verbs import VERBS
 from executive.text import LONGEST, one_line, printable, too_long
 from executive.types import Answered
 
@@ -97,7 +96,9 @@ def test_names_answers_and_plain_commands_are_no_stop(words: str) -> None:
     assert control(words) is None
 
 
-@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize(
+    "verb", ["find", "look for", "i can't find", "take", "hold on to", "bring", "i'd like", "give"]
+)
 @pytest.mark.parametrize("thing", ["the door stop", "a stop sign", "the emergency stop, please"])
 def test_a_command_about_a_thing_that_is_called_stop_is_a_command(verb: str, thing: str) -> None:
     assert control(f"{verb} {thing}") is None
@@ -131,6 +132,8 @@ READERS = (
     EnglishInterpreter().command,
     EnglishInterpreter().declines,
     EnglishInterpreter().agrees,
+    EnglishInterpreter().remark,
+    EnglishInterpreter().without_slips,
     one_line,
     too_long,
 )

@@ -13,10 +13,18 @@ from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Inbox
 from executive.language.grammar import EnglishInterpreter
-from executive.language.put_down import HELD, to_put_down
 from executive.replay.replaying import replay
 from executive.testing.bench import four_rooms
-from executive.types import DELIVERY, SOMETHING, CommandKind, DriveTo, Goal, MissionStatus, PutDown
+from executive.types import (
+    DELIVERY,
+    HELD,
+    SOMETHING,
+    CommandKind,
+    DriveTo,
+    Goal,
+    MissionStatus,
+    PutDown,
+)
 from executive.user import Scripted
 from sim.fake import FakeWorld
 
@@ -238,5 +246,5 @@ def test_what_asks_for_more_than_an_empty_hand_is_not_read_as_that(words: str) -
 
 @given(st.text() | st.from_regex(r"(put|drop|please|down|the| )*"))
 def test_what_is_to_be_put_down_is_never_nothing(words: str) -> None:
-    thing = to_put_down(" ".join(words.split()))
-    assert thing is None or thing.strip()
+    command = EnglishInterpreter().command(words)
+    assert command is None or command.target.strip()

@@ -3,7 +3,6 @@
 import pytest
 
 from executive.language.grammar import EnglishInterpreter
-from executive.language.verbs import WORDS
 from executive.types import DELIVERY, PERSON, CommandKind
 from trees.deeds import DEEDS
 
@@ -13,11 +12,10 @@ def test_every_kind_of_command_is_done_by_one_deed() -> None:
 
 
 @pytest.mark.parametrize("kind", [kind for kind in CommandKind if kind.means.searches])
-def test_every_verb_about_a_thing_has_words_that_are_read(kind: CommandKind) -> None:
-    for words in WORDS[kind]:
-        command = EnglishInterpreter().command(f"{words} the mug")
-        assert command
-        assert (command.kind, command.target) == (kind, "mug")
+def test_every_verb_about_a_thing_is_a_word_that_is_read(kind: CommandKind) -> None:
+    command = EnglishInterpreter().command(f"{kind} the mug")
+    assert command
+    assert (command.kind, command.target) == (kind, "mug")
 
 
 def test_a_verb_says_what_becomes_of_the_thing() -> None:

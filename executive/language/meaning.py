@@ -1,0 +1,233 @@
+"""What words mean, before anyone has looked whether the things and places in them exist.
+
+`reader.py` makes these values of what a person says; names are still the person's words.
+"""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+ALL = -1
+"""As a number of things: each one that there is."""
+
+
+class Verb(StrEnum):
+    """What is to be done."""
+
+    FIND = "find"
+    TAKE = "take"
+    BRING = "bring"
+    """To the person, or to `Task.goal`."""
+    PUT = "put"
+    """Somewhere: `Task.goal` says where."""
+    PUT_BACK = "put_back"
+    PUT_DOWN = "put_down"
+    GO = "go"
+    CLEAR = "clear"
+    COUNT = "count"
+    TELL = "tell"
+    """What is at a place, or which of the things there is the biggest."""
+    CHECK = "check"
+    """Whether a thing is there."""
+
+
+class Relation(StrEnum):
+    """How a thing is, or is to be, with respect to furniture, a room or another thing."""
+
+    AT = "at"
+    ON = "on"
+    IN = "in"
+    UNDER = "under"
+    NEXT_TO = "next_to"
+
+
+@dataclass(frozen=True, slots=True)
+class Where:
+    """A place as it was said: furniture, a room, a person, or (as in `next_to`) a thing."""
+
+    words: str
+    relation: Relation = Relation.AT
+    pronoun: bool = False
+    """Whether it has to be known from before: "there", "next to it"."""
+    within: "Where | None" = None
+    """Where this place or person is, by the words: "the table in the kitchen"."""
+    others: tuple["Where", ...] = ()
+    """Where it may be instead: "in the kitchen or in the bedroom"."""
+
+
+ME = Where("me")
+"""The person who speaks."""
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """A thing, or several of one kind, as they were said.
+
+    Attributes:
+        words: its name and properties, without determiners: "yellow bottle"; empty for "something".
+        number: how many; None if that was not said.
+        purpose: what it is for: "drink from"; empty if that was not said.
+        pronoun: "it", "them", "another one": it has to be known from before.
+        other: another one than before.
+        exceptions: what it is not to be: "anything but a banana".
+        definite: "the mug" is a certain one, "a mug" is any.
+        said: all of this as it was said, but for articles and exceptions: "two mugs".
+    """
+
+    words: str = ""
+    number: int | None = None
+    purpose: str = ""
+    pronoun: bool = False
+    other: bool = False
+    exceptions: tuple["Thing", ...] = ()
+    definite: bool = False
+    said: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Things:
+    """Several things, of which all are meant, or one."""
+
+    members: tuple[Thing, ...]
+    one_of: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """One thing to do.
+
+    Attributes:
+        verb: what to do.
+        things: with what; None for "go to the kitchen".
+        source: where it is, by the words; None if they do not say.
+        goal: where to, or to whom; None if they do not say.
+        unless: what to do instead if there is none.
+        sought: of a condition: what has to be there, and where; None if it is `things` itself.
+        conditional: whether it is to be done only if there is such a thing.
+        said: the verb as it was said.
+    """
+
+    verb: Verb
+    things: Things | None = None
+    source: Where | None = None
+    goal: Where | None = None
+    conditional: bool = False
+    sought: "Task | None" = None
+    unless: "Task | None" = None
+    said: str = field(default="", compare=False)
+
+
+# --- what may be said ---
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """Tasks, in the order in which they were said."""
+
+    tasks: tuple[Task, ...]
+    in_order: bool = False
+    """Whether the words say that this is the order: "first ..., then ..."."""
+    too: bool = False
+    """Whether it comes on top of what was asked for before: "..., too"."""
+    agrees: bool = False
+    """Whether it begins with a yes: "okay, bring it"."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Something is not to be done: "do not touch the hammer"."""
+
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unable:
+    """A deed that no robot of ours does: "throw the ball"."""
+
+    verb: str
+    rest: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """Not that, but this: "no, the banana"; or that and this: "and the pear".
+
+    Attributes:
+        meant: what is meant; things only: the deed is that of before.
+        wrong: what is not meant, if it was said.
+        adds: whether what was meant before still is.
+        denies: whether it begins with a no.
+    """
+
+    meant: "Request | Things"
+    wrong: Things | None = None
+    adds: bool = False
+    denies: bool = False
+
+
+class About(StrEnum):
+    """What a question to the robot about itself is about."""
+
+    ABILITIES = "abilities"
+    DOING = "doing"
+    HAND = "hand"
+    WHERE_PUT = "where_put"
+    WHY = "why"
+    SELF = "self"
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A question that needs no deed to be answered."""
+
+    about: About
+    words: str = ""
+    things: Things | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """Where something is, as the person says."""
+
+    things: Things
+    where: Where
+
+
+class Choice(StrEnum):
+    """An answer that picks without naming."""
+
+    YES = "yes"
+    NO = "no"
+    UNKNOWN = "unknown"
+    """The person does not know, or will not say."""
+    ANY = "any"
+    ALL = "all"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What may answer a question that is open."""
+
+    choice: Choice | None = None
+    place_in_list: int | None = None
+    """The first is 1, the last is -1."""
+    things: Things | None = None
+    where: tuple[Where, ...] = ()
+
+
+class Courtesy(StrEnum):
+    """What is said for its own sake."""
+
+    HELLO = "hello"
+    THANKS = "thanks"
+    GOODBYE = "goodbye"
+
+
+@dataclass(frozen=True, slots=True)
+class Unread:
+    """What the grammar cannot read; `at` is the word where it gave up."""
+
+    words: str
+    at: str = ""
+
+
+Said = Request | Refusal | Unable | Correction | Question | Statement | Answer | Courtesy | Unread

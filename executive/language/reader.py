@@ -1,0 +1,127 @@
+"""Reads what a person says, by the grammar of a language and its words: two files in `assets/`."""
+
+import re
+import tomllib
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from lark import Lark, UnexpectedInput
+from lark.exceptions import VisitError
+from lark.lexer import BasicLexer, ContextualLexer
+
+from executive.language.building import Builder, Unfit
+from executive.language.meaning import Relation, Said, Unread
+from executive.text import LONGEST, one_line, too_long
+
+ASSETS = Path(__file__).parent / "assets"
+NOTHING = r"(?!)x"
+"""A pattern that fits nothing."""
+
+
+class Reader:
+    """Reads a language; it takes half a second to build, and then less than a ms a sentence.
+
+    Args:
+        language: the name of its two files, `.lark` and `.toml`.
+        names: of things and places, as far as they have words in them that mean something else.
+    """
+
+    def __init__(self, language: str = "english", names: Iterable[str] = ()) -> None:
+        """Read the files, and prepare all that reading needs."""
+        words = tomllib.loads((ASSETS / f"{language}.toml").read_text("utf-8"))
+        self.deeds = tuple(words["deeds"].split())
+        """Words that ask for a deed."""
+        self._short: dict[str, str] = words["short_forms"]
+        self._short_form = re.compile(rf"\b(?:{_any_of(self._short)})(?!\w)")
+        self._endings: dict[str, str] = words["endings"]
+        self._denials = re.compile(rf"\b(?:{_any_of(words['denials'])})\b")
+        self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
+        self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
+        self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
+        self._builder = _builder(words)
+        grammar = (ASSETS / f"{language}.lark").read_text("utf-8")
+        self.vocabulary = frozenset(re.findall(r"[^\W\d_]+", grammar))
+        """Words that may be more than a part of a name."""
+        self.parser = _parser(
+            grammar,
+            NAME=rf"(?:{_any_of(self._names)})(?=[ ,]|$)",
+            DEED_AHEAD=rf"(?=(?:{_any_of([*words['before_deeds'], *self.deeds])})\b)",
+            UNABLE=rf"(?:{_any_of(words['unable'].split())})(?=[ ,]|$)",
+        )
+
+    def read(self, words: str) -> Said:
+        """What the words mean; what cannot be read is `Unread`, and says where."""
+        if too_long(words):
+            return Unread(words)
+        text = self.plain(words)
+        try:
+            return self._builder.transform(self.parser.parse(text))
+        except UnexpectedInput as error:
+            at = re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0]
+            return Unread(words, at)
+        except VisitError as error:
+            if not isinstance(error.orig_exc, Unfit):
+                raise
+            return Unread(words, str(error.orig_exc))
+
+    def plain(self, words: str) -> str:
+        """Lower case, one space between words, no punctuation but the comma, no short forms.
+
+        A full stop between sentences is a comma; what was no text is left out.
+        """
+        text = one_line(words[:LONGEST]).lower().replace("’", "'").replace("\ufffd", " ")
+        text = self._short_form.sub(lambda match: self._short[match[0]], text)
+        for ending, whole in self._endings.items():
+            text = re.sub(rf"{ending}\b", whole, text)
+        text = re.sub(r"[.!?;:\"“”]+(?=\s|$)", ",", text)
+        text = re.sub(r"(?:\s*,)+(?!\S)\s*|(?:\s+,)+", ", ", text)
+        return " ".join(text.split()).strip(", ")
+
+    def denial(self, words: str) -> str:
+        """A word among them that denies, or may; empty if there is none."""
+        apart = re.sub(r"[_\W]+", " ", self.plain(words))
+        found = self._denials.search(apart) or self._perhaps.search(apart)
+        return found[0] if found else ""
+
+    def denial_in_name(self, name: str) -> str:
+        """A word in what was read as a name that denies; empty if there is none, or it is known."""
+        found = self._denials.search(name) if name not in self._names else None
+        return found[0] if found else ""
+
+    def declines(self, words: str) -> bool:
+        """Whether there is something among them that people say who do not know."""
+        return self._declines.search(self.plain(words)) is not None
+
+
+@cache
+def english(names: tuple[str, ...] = ()) -> Reader:
+    """The reader of English, built once for all who know the same names."""
+    return Reader("english", names)
+
+
+def _builder(words: dict[str, Any]) -> Builder:
+    relations = {said: Relation(name) for name, all_ in words["relations"].items() for said in all_}
+    return Builder(words["numbers"], relations)
+
+
+def _parser(grammar: str, **terminals: str) -> Lark:
+    """A parser of the grammar with these terminals added, its scanners compiled."""
+    priorities = {"NAME": ".5", "DEED_AHEAD": "", "UNABLE": ".1"}
+    added = (f"{name}{priorities[name]}: /{pattern}/" for name, pattern in terminals.items())
+    parser = Lark(
+        "\n".join([grammar, *added, ""]), start="said", parser="lalr", maybe_placeholders=False
+    )
+    lexer = parser.parser.lexer
+    assert isinstance(lexer, ContextualLexer)
+    for each in (lexer.root_lexer, *lexer.lexers.values()):
+        assert isinstance(each, BasicLexer)
+        each.scanner  # noqa: B018 - it is compiled when it is first asked for
+    return parser
+
+
+def _any_of(words: Iterable[str]) -> str:
+    """A pattern for any of the words, the longest first."""
+    found = "|".join(re.escape(word) for word in sorted(words, key=len, reverse=True))
+    return found.replace("/", r"\/") or NOTHING

@@ -1,0 +1,37 @@
+"""A slip of the finger in the word for a deed: "bing me an apple"."""
+
+from collections.abc import Iterator
+
+from rapidfuzz.distance import OSA
+
+from executive.language.meaning import Answer, Unread
+from executive.language.reader import Reader
+
+SHORTEST = 3
+LONG = 6
+"""From so many letters on, two of them may be wrong."""
+
+
+def without_slips(reader: Reader, words: str) -> Iterator[str]:
+    """What was probably meant, if the word at which reading ended, or that before, is a slip."""
+    said = reader.read(words)
+    spoken = reader.plain(words).split()
+    if reader.denial(words) or not spoken:
+        return
+    if isinstance(said, Unread):
+        at = spoken.index(said.at) if said.at in spoken else len(spoken)
+        suspects = {max(at - 1, 0), min(at, len(spoken) - 1)}
+    elif isinstance(said, Answer) and said.things:
+        suspects = {0}
+    else:
+        return
+    for suspect in sorted(suspects):
+        if deed := _near(spoken[suspect], reader.deeds):
+            yield " ".join([*spoken[:suspect], deed, *spoken[suspect + 1 :]])
+
+
+def _near(word: str, deeds: tuple[str, ...]) -> str:
+    """The deed that a word is a slip of; empty if it is of none, or is one."""
+    most = 0 if len(word) < SHORTEST else 1 if len(word) < LONG else 2
+    best = min(deeds, key=lambda deed: OSA.distance(word, deed))
+    return best if 0 < OSA.distance(word, best) <= most else ""

@@ -1,0 +1,188 @@
+"""What words mean, before anyone has looked whether the things and places in them exist."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from executive.language.meaning import (
+    ALL,
+    ME,
+    About,
+    Answer,
+    Choice,
+    Correction,
+    Courtesy,
+    Question,
+    Refusal,
+    Relation,
+    Request,
+    Said,
+    Statement,
+    Task,
+    Thing,
+    Things,
+    Unable,
+    Unread,
+    Verb,
+    Where,
+)
+from executive.language.reader import Reader, english
+
+read = english().read
+
+
+def some(*names: str) -> Things:
+    return Things(tuple(Thing(name, number=1) for name in names))
+
+
+def certain(*names: str) -> Things:
+    return Things(tuple(Thing(name, definite=True) for name in names))
+
+
+def asks(*tasks: Task, in_order: bool = False) -> Request:
+    return Request(tasks, in_order)
+
+
+DESK, KITCHEN = Where("desk", Relation.ON), Where("kitchen", Relation.IN)
+IT = Things((Thing("it", pronoun=True, definite=True),))
+
+
+@pytest.mark.parametrize(
+    ("words", "meaning"),
+    [
+        ("Find the mug on the desk", asks(Task(Verb.FIND, certain("mug"), DESK))),
+        ("Where is the mug?", asks(Task(Verb.FIND, certain("mug")))),
+        (
+            "Bring the mug from the desk or from the bed",
+            asks(Task(Verb.BRING, certain("mug"), Where("desk", others=(Where("bed"),)))),
+        ),
+        (
+            "Take the mug on the desk in the kitchen",
+            asks(
+                Task(Verb.TAKE, certain("mug"), Where("desk", Relation.ON, within=KITCHEN)),
+            ),
+        ),
+        (
+            "Move the mug from the bed to the kitchen",
+            asks(Task(Verb.PUT, certain("mug"), Where("bed"), Where("kitchen"))),
+        ),
+        ("Give the mug to Anna", asks(Task(Verb.PUT, certain("mug"), goal=Where("anna")))),
+        ("Bring Anna the mug", asks(Task(Verb.PUT, certain("mug"), goal=Where("anna")))),
+        ("Bring the mug to me", asks(Task(Verb.BRING, certain("mug"), goal=ME))),
+        (
+            "Put a mug next to the pear",
+            asks(Task(Verb.PUT, some("mug"), goal=Where("pear", Relation.NEXT_TO))),
+        ),
+        ("Put it back", asks(Task(Verb.PUT_BACK, IT))),
+        ("Put it down", asks(Task(Verb.PUT_DOWN, IT))),
+        ("Bring an apple and a pear", asks(Task(Verb.BRING, some("apple", "pear")))),
+        (
+            "Bring two apples",
+            asks(Task(Verb.BRING, Things((Thing("apples", number=2),)))),
+        ),
+        (
+            "Bring all the fruit",
+            asks(Task(Verb.BRING, Things((Thing("fruit", number=ALL, definite=True),)))),
+        ),
+        (
+            "Bring me either a mug or a pitcher",
+            asks(Task(Verb.BRING, Things(some("mug", "pitcher").members, one_of=True))),
+        ),
+        (
+            "Bring me anything but a banana",
+            asks(
+                Task(
+                    Verb.BRING,
+                    Things((Thing(number=1, exceptions=some("banana").members),)),
+                )
+            ),
+        ),
+        (
+            "Bring me something yellow to drink from",
+            asks(Task(Verb.BRING, Things((Thing("yellow", number=1, purpose="drink from"),)))),
+        ),
+        (
+            "Go to the kitchen, find the mug and bring it here",
+            asks(
+                Task(Verb.GO, goal=Where("kitchen")),
+                Task(Verb.FIND, certain("mug")),
+                Task(Verb.BRING, IT, goal=ME),
+                in_order=True,
+            ),
+        ),
+        (
+            "Bring an apple if there is one, otherwise a pear",
+            asks(
+                Task(
+                    Verb.BRING,
+                    some("apple"),
+                    conditional=True,
+                    unless=Task(Verb.BRING, some("pear")),
+                )
+            ),
+        ),
+        ("Clear the table", asks(Task(Verb.CLEAR, source=Where("table")))),
+        ("What is on the desk?", asks(Task(Verb.TELL, source=DESK))),
+        ("Is there a mug on the desk?", asks(Task(Verb.CHECK, some("mug"), DESK))),
+        (
+            "How many mugs are there on the desk?",
+            asks(Task(Verb.COUNT, Things((Thing("mugs"),)), DESK)),
+        ),
+    ],
+)
+def test_reads_what_is_to_be_done(words: str, meaning: Said) -> None:
+    assert read(words) == meaning
+
+
+@pytest.mark.parametrize(
+    ("words", "meaning"),
+    [
+        ("Do not touch the hammer", Refusal("touch the hammer")),
+        ("Leave the hammer alone", Refusal("hammer")),
+        ("Leave the hammer on the desk", Refusal("hammer")),
+        ("Throw the ball", Unable("throw", "the ball")),
+        ("no, the pear", Correction(certain("pear"), denies=True)),
+        ("I mean the pear", Correction(certain("pear"))),
+        ("and the pear", Correction(certain("pear"), adds=True)),
+        (
+            "not the apple, the pear",
+            Correction(certain("pear"), certain("apple"), denies=True),
+        ),
+        ("What can you do?", Question(About.ABILITIES)),
+        ("What do you hold?", Question(About.HAND)),
+        ("The mug is on the desk", Statement(certain("mug"), DESK)),
+        ("I think the pear", Answer(things=certain("pear"))),
+        ("maybe on the desk, in the kitchen", Answer(where=(DESK, KITCHEN))),
+        ("the second one", Answer(place_in_list=2)),
+        ("yes, the pear", Answer(Choice.YES, things=certain("pear"))),
+        ("I don't know", Answer(Choice.UNKNOWN)),
+        ("any of them", Answer(Choice.ANY)),
+        ("both", Answer(Choice.ALL)),
+        ("Hello!", Courtesy.HELLO),
+        ("Thank you very much", Courtesy.THANKS),
+    ],
+)
+def test_reads_what_else_is_said(words: str, meaning: Said) -> None:
+    assert read(words) == meaning
+
+
+@pytest.mark.parametrize(
+    ("words", "at"),
+    [("Bring the mug which I used", "which"), ("Bring me no apple", "no"), ("", "")],
+)
+def test_what_does_not_fit_is_not_read_and_it_is_told_where(words: str, at: str) -> None:
+    assert read(words) == Unread(words, at)
+
+
+@pytest.mark.parametrize("name", ["salt and pepper", "jar with a lid", "do not disturb sign"])
+def test_a_name_with_words_that_mean_something_else_is_a_name(name: str) -> None:
+    reader = Reader(names=[name])
+    assert reader.read(f"Bring me the {name}") == asks(Task(Verb.BRING, certain(name)))
+
+
+WORDS = sorted(english().vocabulary | {",", "mug", "desk", "12", "?", "isn't", "salt_box"})
+
+
+@given(st.lists(st.sampled_from(WORDS), max_size=30))
+def test_whatever_is_said_nothing_is_raised(words: list[str]) -> None:
+    assert read(" ".join(words))

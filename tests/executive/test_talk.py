@@ -1,0 +1,47 @@
+"""Small talk and questions for help at the door: answered, and no mission."""
+
+import json
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from executive.__main__ import main
+
+QUICK = ["--world", "fake", "--llm", "none", "--user", "none"]
+
+
+@pytest.fixture(autouse=True)
+def _own_folder_and_signals(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.chdir(tmp_path)
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+@pytest.mark.parametrize(
+    ("words", "answer"),
+    [
+        ("Hello!", "Hello!"),
+        ("Thanks", "You are welcome."),
+        ("help", "I can find, take, bring"),
+        ("What can you do?", "Say for example 'Find the apple'"),
+    ],
+)
+def test_is_answered_without_a_run_folder(
+    words: str, answer: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*QUICK, words]) == 0
+    said = capsys.readouterr()
+    assert answer in said.err
+    assert (said.out, os.listdir()) == ("", [])
+
+
+def test_who_reads_outcomes_gets_one_for_whatever_is_said(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main([*QUICK, "--json", "Hello!"]) == 1
+    assert json.loads(capsys.readouterr().out)["reason"] == "Hello!"
