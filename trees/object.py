@@ -59,11 +59,9 @@ class OntologyKnowsObject(Step):
 
     def update(self) -> Status:
         """Look the words up."""
-        assert self.situation.request.command
-        target = self.situation.request.command.target
-        named = without_exceptions(
-            self.context, meant(self.context.knowledge, self.situation.request.command)
-        )
+        command = self.situation.request.command
+        assert command
+        named = without_exceptions(self.context, meant(self.context.knowledge, command))
         if len(named) == 1:
             self.situation.request.object = named[0]
             return self.succeed(named[0])
