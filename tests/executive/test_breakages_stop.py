@@ -76,8 +76,8 @@ class _Typing:
     def next_command(self, console: None, prompt: str) -> str | None:
         return self.left.pop(0) if self.left else None
 
-    def talk(self, words: str) -> Outcome | None:
-        return None
+    def talk(self, words: str) -> str:
+        return ""
 
     def run(self, words: str) -> Outcome:
         return self.house.run(words)
