@@ -44,14 +44,25 @@ def _logged(kind: type) -> tuple[tuple[str, str, Callable[[Any], Any] | None], .
     )
 
 
+_ATOMS = frozenset((str, int, float, bool, type(None)))
+"""What most values are; asked first, because this runs for each field at each tick."""
+
+
 def _plain(value: Any) -> Any:
     """The value made of lists, dictionaries and what they can hold; strange things as they are."""
-    if value is None or isinstance(value, str | int | float):
+    kind = value.__class__
+    if kind in _ATOMS:
         return value
-    if isinstance(value, list | tuple):
+    if kind is list or kind is tuple:
         return [_plain(item) for item in value]
-    if isinstance(value, dict):
+    if kind is dict:
         return {name: _plain(item) for name, item in value.items()}
-    if is_dataclass(value):
-        return {field.name: _plain(getattr(value, field.name)) for field in fields(value)}
+    if names := _names(kind):
+        return {name: _plain(getattr(value, name)) for name in names}
     return value
+
+
+@cache
+def _names(kind: Any) -> tuple[str, ...]:
+    """Of the fields, if it is a dataclass; none otherwise."""
+    return tuple(field.name for field in fields(kind)) if is_dataclass(kind) else ()
