@@ -1,6 +1,7 @@
 """Reads English as the tree needs it: what is commanded, answered, said for its own sake."""
 
 from collections.abc import Iterable, Sequence
+from functools import cache
 
 from executive.language.commands import agrees, command_in, talk
 from executive.language.meaning import Answer, Choice, Request, Task, Unread, Verb
@@ -76,6 +77,7 @@ class EnglishInterpreter:
         return None if begun and self._reader.denial(rest) else begun
 
 
+@cache
 def _is_read(name: str) -> bool:
     """Whether the grammar reads a name as one, without being told."""
     plain = english().plain(name)

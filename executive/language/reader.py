@@ -4,13 +4,14 @@ import re
 import tomllib
 from collections.abc import Iterable
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from lark import Lark, UnexpectedInput
 from lark.exceptions import VisitError
-from lark.lexer import BasicLexer, ContextualLexer
 
+from executive.cache import cache_folder
 from executive.language.building import Builder, Unfit
 from executive.language.meaning import Relation, Said, Unread
 from executive.text import LONGEST, one_line, too_long
@@ -21,7 +22,7 @@ NOTHING = r"(?!)x"
 
 
 class Reader:
-    """Reads a language; it takes half a second to build, and then less than a ms a sentence.
+    """Reads a language: some ms for a sentence of a new form, and then less than one.
 
     Args:
         language: the name of its two files, `.lark` and `.toml`.
@@ -107,18 +108,22 @@ def _builder(words: dict[str, Any]) -> Builder:
 
 
 def _parser(grammar: str, **terminals: str) -> Lark:
-    """A parser of the grammar with these terminals added, its scanners compiled."""
+    """A parser of the grammar with these terminals added."""
     priorities = {"NAME": ".5", "DEED_AHEAD": "", "UNABLE": ".1"}
     added = (f"{name}{priorities[name]}: /{pattern}/" for name, pattern in terminals.items())
-    parser = Lark(
-        "\n".join([grammar, *added, ""]), start="said", parser="lalr", maybe_placeholders=False
+    text = "\n".join([grammar, *added, ""])
+    return Lark(
+        text, start="said", parser="lalr", maybe_placeholders=False, cache=_kept(text) or False
     )
-    lexer = parser.parser.lexer
-    assert isinstance(lexer, ContextualLexer)
-    for each in (lexer.root_lexer, *lexer.lexers.values()):
-        assert isinstance(each, BasicLexer)
-        each.scanner  # noqa: B018 - it is compiled when it is first asked for
-    return parser
+
+
+def _kept(grammar: str) -> str | None:
+    """The file in which Lark keeps the tables that it makes of this grammar; None: nowhere.
+
+    They take half a second to make. A file that is damaged, or of another version, is made anew.
+    """
+    folder = cache_folder()
+    return str(folder / f"{sha256(grammar.encode()).hexdigest()}.lark") if folder else None
 
 
 def _any_of(words: Iterable[str]) -> str:
