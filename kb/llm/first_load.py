@@ -19,6 +19,7 @@ from pathlib import Path
 
 import llama_cpp
 
+from executive.cache import cache_folder
 from executive.errors import ModelError
 from executive.text import printable, writable
 from executive.types import Message
@@ -142,8 +143,14 @@ def _mark_of(path: Path) -> str:
 
 
 def _folder() -> Path:
-    cache = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    return Path(cache) / "robot-executive" / "models"
+    """Where marks are kept.
+
+    Raises:
+        OSError: if there is no place for them.
+    """
+    if (folder := cache_folder()) is None:
+        raise OSError("there is no cache folder of our own")
+    return folder / "models"
 
 
 def _recall(mark: str) -> list[str]:
