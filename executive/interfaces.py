@@ -216,6 +216,10 @@ class Facts(Protocol):
         """Each object that is believed to be anywhere, and where: what a recording keeps."""
         ...
 
+    def origins(self) -> Mapping[str, Sequence[str]]:
+        """Each object that the robot took, and from where, the last time first."""
+        ...
+
 
 class PlaceSource(Protocol):
     """Something that knows where things are: a memory, a calendar, a list on the refrigerator.

@@ -7,9 +7,10 @@ knowledge (paper, section "Integrated use of ontological knowledge base and LLM"
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.put_down import HELD
 from executive.types import Source
 from trees.context import MissionContext
-from trees.nodes import Check, Step, fallback, sequence
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskDoYouMean, AskWhichObject
 
 
@@ -34,11 +35,32 @@ def resolve_object(context: MissionContext) -> Behaviour:
 
 def known_object(context: MissionContext) -> Behaviour:
     """What can be told without a question."""
+    request = context.situation.request
+
+    def meant() -> list[str]:
+        return [HELD] if request.command and request.command.target == HELD else []
+
     return fallback(
         "known object",
+        FirstOf("what I hold", meant, lambda _: None, HeldIsMeant("it is in my hand", context)),
         OntologyKnowsObject("ontology knows it", context),
         PersonPrefersOne("the person prefers one", context),
     )
+
+
+class HeldIsMeant(Step):
+    """Succeeds if something is in the hand, of which nobody has to say the name.
+
+    Reads hand.in_hand; writes request.object.
+    """
+
+    def update(self) -> Status:
+        """It is that."""
+        held = self.situation.hand.in_hand
+        if held is None:
+            return self.fail("my hand is empty")
+        self.situation.request.object = held
+        return self.succeed(held)
 
 
 class OntologyKnowsObject(Step):

@@ -184,11 +184,11 @@ class AskWhichObject(Ask):
         assert self.situation.request.command
         target = self.situation.request.command.target
         if (options := self.situation.request.options) and self.situation.request.several:
-            text = f"I can do one thing at a time. Which first: {_either(options)}?"
+            text = f"I can do one thing at a time. Which first: {either(options)}?"
         elif options:
-            text = f"Which {target} do you mean: {_either(options)}?"
+            text = f"Which {target} do you mean: {either(options)}?"
         elif options := self._other_names(target):
-            text = f"I know no '{target}'. Do you mean {_either(options)}, or something else?"
+            text = f"I know no '{target}'. Do you mean {either(options)}, or something else?"
         else:
             text = f"I know no '{target}'. Which thing do you mean?"
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
@@ -219,8 +219,8 @@ class AskWhichObject(Ask):
         assert self.situation.request.command
         target = self.situation.request.command.target
         if self.situation.request.options:
-            return f"'{target}' may be {_either(self.situation.request.options)}"
-        nearest = _either(self.context.knowledge.nearest_names(target))
+            return f"'{target}' may be {either(self.situation.request.options)}"
+        nearest = either(self.context.knowledge.nearest_names(target))
         return f"I know no '{target}'" + (f"; the nearest that I know is {nearest}" * bool(nearest))
 
 
@@ -247,7 +247,7 @@ class AskWhere(Ask):
 
     def understood(self, answer: str) -> bool:
         """Any places that exist become the candidates."""
-        places = _places(self.context, answer)
+        places = places_in(self.context, answer)
         if places:
             assert self.situation.request.object
             self.context.facts.heard(self.situation.request.object, places)
@@ -282,7 +282,7 @@ class AskWhereToPut(Ask):
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
-        self.situation.hand.surfaces = _places(self.context, answer)
+        self.situation.hand.surfaces = places_in(self.context, answer)
         return bool(self.situation.hand.surfaces)
 
     def unresolved(self) -> str:
@@ -330,7 +330,7 @@ class Report(Step):
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {object}, {the_object}, {place}, {surface} and {why}."""
+        """`text` may use {object}, {the_object}, {place}, {surface}, {goal} and {why}."""
         super().__init__(name, context)
         self._text = text
 
@@ -343,6 +343,7 @@ class Report(Step):
                 the_object=the(self.situation.request.object or ""),
                 place=found.place if found else "nowhere",
                 surface=table(self.situation.hand.put_at),
+                goal=table(self.situation.request.goal),
                 why=self.situation.hand.unplaced.get(DELIVERY, ""),
             )
         )
@@ -388,12 +389,13 @@ def the(held: str) -> str:
     return held if held == SOMETHING else f"the {held}"
 
 
-def _places(context: MissionContext, answer: str) -> tuple[str, ...]:
-    """The places that an answer names; the table by the person is one, too."""
+def places_in(context: MissionContext, answer: str) -> tuple[str, ...]:
+    """The places that words name; the table by the person is one, too."""
     if DELIVERY in re.findall(r"[a-z]+", answer.lower()):
         return (DELIVERY,)
     return context.knowledge.places_named(answer)
 
 
-def _either(names: tuple[str, ...]) -> str:
+def either(names: tuple[str, ...]) -> str:
+    """One of these, in a sentence."""
     return " or ".join((", ".join(names[:-1]), names[-1])) if len(names) > 1 else "".join(names)

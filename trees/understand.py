@@ -1,14 +1,19 @@
 """What is asked for? The grammar of commands says, else the language model and the person do."""
 
+from dataclasses import replace
+
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.types import MissionStatus, Question, QuestionKind
+from executive.types import Command, CommandKind, MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import Step, fallback, sequence
 from trees.person import AskYesNo
+from trees.places import TO_THE_PERSON
+
+_CARRYING = (CommandKind.BRING, CommandKind.TAKE, CommandKind.PUT_DOWN)
 
 
 def understand(context: MissionContext) -> Behaviour:
@@ -41,8 +46,18 @@ class ReadCommand(Step):
         command = self.context.interpreter.command(self.situation.request.words)
         if command is None:
             return self.fail("this is no command that the grammar knows")
+        command = _by_its_goal(command)
         self.situation.request.command = command
         return self.succeed(f"{command.kind} {command.target}")
+
+
+def _by_its_goal(command: Command) -> Command:
+    """What is brought or taken somewhere is put there; what is put by the person is brought."""
+    if command.goal.lower() in TO_THE_PERSON and command.kind in (*_CARRYING, CommandKind.PUT):
+        return replace(command, kind=CommandKind.BRING, goal="")
+    if command.goal and command.kind in _CARRYING:
+        return replace(command, kind=CommandKind.PUT)
+    return command
 
 
 class HasKnownName(Step):

@@ -27,7 +27,7 @@ from sim.home.home import Home, recorded_home
 
 T = TypeVar("T")
 
-_BELIEFS = TypeAdapter(dict[str, list[str]])
+_PLACES = TypeAdapter(dict[str, list[str]])
 _home = cache(recorded_home)
 
 
@@ -54,7 +54,9 @@ def recorded_parts(run: Run, inbox: Inbox, absent: Absent, clock: Clock, judge: 
         knowledge=_knowledge(run, settings, home),
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
-        facts=FactStore.believing(_beliefs(run), learns=settings.learn),
+        facts=FactStore.believing(
+            _places(run, "facts.json"), _places(run, "origins.json"), learns=settings.learn
+        ),
         sources=read(str(run.path), run.attachments.get("sources.json", b"[]")),
         in_map=body.in_map,
         blind_to=body.blind_to,
@@ -85,11 +87,14 @@ def _policy(run: Run) -> Change:
     return POLICIES[name]
 
 
-def _beliefs(run: Run) -> dict[str, list[str]]:
+def _places(run: Run, name: str) -> dict[str, list[str]]:
+    """Places of objects, from an attachment; the robot did not always keep where it took them."""
+    if name == "origins.json" and name not in run.attachments:
+        return {}
     try:
-        return _BELIEFS.validate_json(kept(run, run.attachments, "facts.json"))
+        return _PLACES.validate_json(kept(run, run.attachments, name))
     except ValidationError as error:
-        what = f"its facts.json does not say what is where: {error.errors()[0]['msg']}"
+        what = f"its {name} does not say what is where: {error.errors()[0]['msg']}"
         raise InputError(str(run.path), what) from error
 
 

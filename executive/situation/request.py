@@ -1,8 +1,18 @@
 """What is asked for, as far as it is understood."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, field
+from typing import Any
 
+from executive.situation.snapshot import logged_as
 from executive.types import Command, CommandKind
+
+
+def _command(command: Command | None) -> dict[str, Any] | None:
+    """Places only where some were named: commands of earlier recordings had none."""
+    if command is None:
+        return None
+    places = ("source", "goal")
+    return {name: v for name, v in asdict(command).items() if v or name not in places}
 
 
 @dataclass
@@ -10,7 +20,7 @@ class Request:
     """What the person wants, in the order in which it becomes known."""
 
     words: str = ""
-    command: Command | None = None
+    command: Command | None = field(default=None, metadata=logged_as(plain=_command))
     options: tuple[str, ...] = ()
     """Objects that the target may mean."""
     several: bool = False
@@ -18,6 +28,12 @@ class Request:
     guess: str = ""
     """A known name that the target may be a slip of, or that is all of it that is known."""
     object: str | None = None
+    from_places: tuple[str, ...] = ()
+    """The furniture where the thing is by the words, the likeliest first."""
+    goals: tuple[str, ...] = ()
+    """The furniture that will do as the place where it, or the robot, is to go, the best first."""
+    goal: str = ""
+    """That of them which the robot has chosen."""
 
     def asks_to(self, kind: CommandKind) -> bool:
         """Whether this kind of deed was asked for."""

@@ -1,0 +1,268 @@
+"""Which places do the words name? Where the thing is, and where it, or the robot, is to go."""
+
+from collections.abc import Iterable, Sequence
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.situation import table
+from executive.types import PERSON, Command, CommandKind, Place, Question, QuestionKind, Source
+from trees.context import MissionContext
+from trees.nodes import EachOf, Step, fallback, sequence
+from trees.person import NO_PLACE, Ask, AskWhere, either, places_in, tell, the
+
+TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
+"""Words for the goal that is the person who speaks."""
+
+
+def named_places(context: MissionContext) -> Behaviour:
+    """Words for places -> `request.from_places` and `request.goals`; none if there are none."""
+    request = context.situation.request
+
+    def source() -> Sequence[str]:
+        assert request.command
+        return [request.command.source] if request.command.source else []
+
+    def goes() -> Sequence[str]:
+        assert request.command
+        return [request.command.kind] if request.command.kind.means.at_goal else []
+
+    return sequence(
+        "named places",
+        EachOf("if it is somewhere", source, lambda _: None, starting_place(context)),
+        EachOf("if it goes somewhere", goes, lambda _: None, destination(context)),
+    )
+
+
+def starting_place(context: MissionContext) -> Behaviour:
+    """Where the words say that the thing is; nobody has to know that place."""
+    return fallback(
+        "from where",
+        SourceIsKnown("the place is known", context),
+        AskFromWhere("ask where", context),
+        SearchAnyway("search as ever", context),
+    )
+
+
+def destination(context: MissionContext) -> Behaviour:
+    """Where it is to go -> `request.goals`, the best first; asked if it is not known."""
+    return fallback(
+        "to where",
+        GoalIsKnown("the goal is known", context),
+        TakenFrom("it was taken from there", context),
+        UsualPlace("its usual place", context),
+        AskWhereTo("ask where to", context),
+    )
+
+
+class SourceIsKnown(Step):
+    """Succeeds if the home has the place that the words name.
+
+    Reads request.command; writes request.from_places.
+    """
+
+    source = "person"
+
+    def update(self) -> Status:
+        """Of a room, look first where the thing was seen, then where things like it are."""
+        request = self.situation.request
+        assert request.command
+        assert request.object
+        named = places_in(self.context, request.command.source)
+        if not named:
+            return self.fail(f"I know no '{request.command.source}'")
+        likely = (
+            *self.context.facts.places_of(request.object),
+            *self.context.knowledge.usual_places(request.object),
+        )
+        request.from_places = tuple(sorted(named, key=lambda place: place not in likely))
+        return self.succeed(", ".join(request.from_places))
+
+
+class AskFromWhere(AskWhere):
+    """Asks where the thing is if the place that the words name is not known.
+
+    Reads request.command; writes request.from_places.
+    """
+
+    def question(self) -> Question:
+        """Say what is not known."""
+        asked = super().question()
+        text = f"{self.unresolved()}. {asked.text}" if self._tries == 0 else asked.text
+        return Question(asked.kind, asked.about, text)
+
+    def understood(self, answer: str) -> bool:
+        """Look there first."""
+        if not super().understood(answer):
+            return False
+        self.situation.request.from_places = places_in(self.context, answer)
+        return True
+
+    def unresolved(self) -> str:
+        """The place is unknown."""
+        assert self.situation.request.command
+        return f"I know no '{self.situation.request.command.source}'"
+
+
+class SearchAnyway(Step):
+    """Says that a place is unknown, and that the search goes on without it."""
+
+    def update(self) -> Status:
+        """Nothing that was said is passed over in silence."""
+        request = self.situation.request
+        assert request.command
+        said = f"I know no '{request.command.source}'"
+        tell(self.context, f"{said}; I look for the {request.object} where it may be.")
+        return self.succeed(said)
+
+
+class GoalIsKnown(Step):
+    """Succeeds if the words name one place, or one room, whose furniture will all do.
+
+    Reads request.command; writes request.goals.
+    """
+
+    source = "person"
+
+    def update(self) -> Status:
+        """Look the words up."""
+        goal = goal_words(self.context)
+        if not goal:
+            return self.fail("you named no place")
+        if goal.lower() in TO_THE_PERSON:
+            self.situation.request.goals = (PERSON,)
+            return self.succeed(PERSON)
+        named = places_in(self.context, goal)
+        if not named:
+            return self.fail(f"I do not know where '{goal}' is")
+        if not is_one(self.context, named):
+            return self.fail(f"'{goal}' may be {either(named)}")
+        goes = self.situation.request.asks_to(CommandKind.GO)
+        self.situation.request.goals = named if goes else best_first(self.context, named)
+        return self.succeed(", ".join(self.situation.request.goals))
+
+
+class TakenFrom(Step):
+    """Succeeds if the thing is to go back, and the robot knows where it has taken it.
+
+    Writes request.goals.
+    """
+
+    source = Source.MEMORY
+
+    def update(self) -> Status:
+        """What was taken from the delivery table had been brought there before."""
+        request = self.situation.request
+        if not goes_back(request.command):
+            return Status.FAILURE
+        taken = self.context.facts.origins().get(request.object or "", ())
+        known = [place for place in taken if self.context.knowledge.has_place(place)]
+        if not known:
+            return self.fail(f"I do not know where I took the {request.object}")
+        request.goals = (known[0],)
+        return self.succeed(known[0])
+
+
+class UsualPlace(Step):
+    """Succeeds if the thing is to go back, and the ontology knows where it belongs.
+
+    Writes request.goals.
+    """
+
+    source = Source.ONTOLOGY
+
+    def update(self) -> Status:
+        """Say so: it is not where it was."""
+        request = self.situation.request
+        if not goes_back(request.command):
+            return Status.FAILURE
+        usual = self.context.knowledge.usual_places(request.object) if request.object else ()
+        if not usual:
+            return self.fail(f"I do not know where {the(request.object or '')} belongs")
+        request.goals = usual
+        where = either(tuple(map(table, usual)))
+        what = the(request.object or "")
+        tell(self.context, f"I do not know where {what} was; it belongs on {where}.")
+        return self.succeed(", ".join(usual))
+
+
+class AskWhereTo(Ask):
+    """Asks where the thing, or the robot, is to go.
+
+    Reads request.command and request.object; writes request.goals.
+    """
+
+    def question(self) -> Question:
+        """Say what is not known, or offer what is."""
+        goes = self.situation.request.asks_to(CommandKind.GO)
+        kind = QuestionKind.WHERE_TO_GO if goes else QuestionKind.WHERE_TO_PUT
+        about = self.situation.request.object or ""
+        goal, options = goal_words(self.context), self._options()
+        if options:
+            return Question(kind, about, f"Which {goal} do you mean: {either(options)}?", options)
+        text = "Where shall I go?" if goes else f"Where shall I put {the(about)}?"
+        if self._tries:
+            known = ", ".join(place.name for place in self.context.knowledge.places())
+            text = f"{NO_PLACE * (not self._commanded)}{text} I know: {known}."
+        elif goal:
+            text = f"{self.unresolved()}. {text}"
+        return Question(kind, about, text)
+
+    def understood(self, answer: str) -> bool:
+        """One place, or one room; of those that were offered, if any were."""
+        if options := self._options():
+            named = tuple(p for p in places_in(self.context, answer) if p in options)
+            if len(named) != 1:
+                return False
+        else:
+            named = places_in(self.context, answer)
+        self.situation.request.goals = best_first(self.context, named)
+        return bool(named)
+
+    def unresolved(self) -> str:
+        """What is not known."""
+        goal, options = goal_words(self.context), self._options()
+        if options:
+            return f"'{goal}' may be {either(options)}"
+        if goal:
+            return f"I do not know where '{goal}' is"
+        if self.situation.request.asks_to(CommandKind.GO):
+            return "I do not know where to go"
+        return f"I do not know where to put {the(self.situation.request.object or '')}"
+
+    def _options(self) -> tuple[str, ...]:
+        """The places that the words may mean, if they are several."""
+        named = places_in(self.context, goal_words(self.context))
+        return () if is_one(self.context, named) else named
+
+
+def goes_back(command: Command | None) -> bool:
+    """Whether the thing is to go back, and nobody said where that is."""
+    return command is not None and command.kind == CommandKind.PUT_BACK and not command.goal
+
+
+def goal_words(context: MissionContext) -> str:
+    """The words for where to; who only goes has them in the place of a thing, too."""
+    command = context.situation.request.command
+    assert command
+    alone = command.target if command.kind == CommandKind.GO else ""
+    return command.goal or alone
+
+
+def is_one(context: MissionContext, named: Sequence[str]) -> bool:
+    """Whether these are one place (or none), or all the furniture of one room."""
+    if len(named) < 2:
+        return True
+    furniture = {place.name: place for place in context.knowledge.places()}
+    rooms = {furniture[name].room for name in named if name in furniture}
+    return len(rooms) == 1 and _whole(rooms.pop(), named, furniture.values())
+
+
+def _whole(room: str, named: Sequence[str], furniture: Iterable[Place]) -> bool:
+    return {place.name for place in furniture if place.room == room} == set(named)
+
+
+def best_first(context: MissionContext, named: Sequence[str]) -> tuple[str, ...]:
+    """Places where things are put down most easily first."""
+    order = {place: number for number, place in enumerate(context.handiest)}
+    return tuple(sorted(named, key=lambda place: order.get(place, len(order))))
