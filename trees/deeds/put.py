@@ -80,23 +80,28 @@ def put_at_goal(context: MissionContext) -> Behaviour:
 
 def carry(context: MissionContext) -> Behaviour:
     """Take it to the goal at hand and put it down; what falls is picked up once."""
-    situation = context.situation
+    hand = context.situation.hand
+
+    def again(step: Behaviour, *, at_goal: bool) -> Behaviour:
+        return FirstOf(
+            "after a fall",
+            lambda: [hand.lost] if hand.lost else [],
+            lambda _: None,
+            sequence("once more", pick_up_again(context, FLOOR, at_goal=at_goal), step),
+        )
+
     return sequence(
         "carry it there",
-        Check("still in my hand", context, lambda: situation.hand.in_hand is not None),
+        Check("still in my hand", context, lambda: hand.in_hand is not None),
         fallback(
             "get there",
             DriveToGoal("carry", context),
-            sequence("after a fall", pick_up_again(context, FLOOR), DriveToGoal("carry", context)),
+            again(DriveToGoal("carry", context), at_goal=False),
         ),
         fallback(
             "leave it there",
             PutDownAtGoal("put down", context),
-            sequence(
-                "after a fall",
-                pick_up_again(context, FLOOR, at_goal=True),
-                PutDownAtGoal("put down", context),
-            ),
+            again(PutDownAtGoal("put down", context), at_goal=True),
         ),
     )
 
