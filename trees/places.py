@@ -8,7 +8,7 @@ from py_trees.common import Status
 from executive.situation import table
 from executive.types import PERSON, Command, CommandKind, Place, Question, QuestionKind, Source
 from trees.context import MissionContext
-from trees.nodes import EachOf, Step, fallback, sequence
+from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
 from trees.person import NO_PLACE, Ask, AskWhere, either, places_in, tell, the
 
 TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
@@ -46,11 +46,24 @@ def starting_place(context: MissionContext) -> Behaviour:
 
 def destination(context: MissionContext) -> Behaviour:
     """Where it is to go -> `request.goals`, the best first; asked if it is not known."""
+    request = context.situation.request
+
+    def back() -> list[str]:
+        return [request.object or ""] if goes_back(request.command) else []
+
     return fallback(
         "to where",
         GoalIsKnown("the goal is known", context),
-        TakenFrom("it was taken from there", context),
-        UsualPlace("its usual place", context),
+        FirstOf(
+            "back",
+            back,
+            lambda _: None,
+            fallback(
+                "where it was",
+                TakenFrom("it was taken from there", context),
+                UsualPlace("its usual place", context),
+            ),
+        ),
         AskWhereTo("ask where to", context),
     )
 
@@ -143,7 +156,7 @@ class GoalIsKnown(Step):
 
 
 class TakenFrom(Step):
-    """Succeeds if the thing is to go back, and the robot knows where it has taken it.
+    """Succeeds if the robot knows where it has taken the thing.
 
     Writes request.goals.
     """
@@ -153,8 +166,6 @@ class TakenFrom(Step):
     def update(self) -> Status:
         """What was taken from the delivery table had been brought there before."""
         request = self.situation.request
-        if not goes_back(request.command):
-            return Status.FAILURE
         taken = self.context.facts.origins().get(request.object or "", ())
         known = [place for place in taken if self.context.knowledge.has_place(place)]
         if not known:
@@ -164,7 +175,7 @@ class TakenFrom(Step):
 
 
 class UsualPlace(Step):
-    """Succeeds if the thing is to go back, and the ontology knows where it belongs.
+    """Succeeds if the ontology knows where the thing belongs.
 
     Writes request.goals.
     """
@@ -174,8 +185,6 @@ class UsualPlace(Step):
     def update(self) -> Status:
         """Say so: it is not where it was."""
         request = self.situation.request
-        if not goes_back(request.command):
-            return Status.FAILURE
         usual = self.context.knowledge.usual_places(request.object) if request.object else ()
         if not usual:
             return self.fail(f"I do not know where {the(request.object or '')} belongs")

@@ -48,7 +48,9 @@ class ReadCommand(Step):
             return self.fail("this is no command that the grammar knows")
         command = _by_its_goal(command)
         self.situation.request.command = command
-        return self.succeed(f"{command.kind} {command.target}")
+        source = f"from {command.source}" if command.source else ""
+        goal = f"to {command.goal}" if command.goal else ""
+        return self.succeed(" ".join(filter(None, (command.kind, command.target, source, goal))))
 
 
 def _by_its_goal(command: Command) -> Command:

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from reading import laid_down, replayed, session_in, told
+from reading import laid_down, replayed, session_in, session_of, told
 
 from executive.testing.bench import run_mission
 from executive.types import DriveTo, MissionStatus
@@ -34,6 +34,16 @@ def test_of_a_room_any_furniture_will_do() -> None:
         fault=lambda goal: "shut" if goal == DriveTo("cabinet_kitchen") else None,
     )
     assert (run.outcome.status, run.world.at) == (MissionStatus.DONE, "counter_wagon")
+
+
+@pytest.mark.physics
+def test_in_physics_it_gets_there(tmp_path: Path) -> None:
+    session = session_of(tmp_path, world="physics", camera_hz=0.0)
+    for place in ("desk", "person", "kitchen"):
+        assert session.run(f"go | | to {place}").status == MissionStatus.DONE
+        assert session.folder
+        assert replayed(session.folder).parting is None
+    session.close()
 
 
 def test_a_place_that_is_not_known_is_asked_for(tmp_path: Path) -> None:
