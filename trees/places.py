@@ -1,18 +1,21 @@
 """Which places do the words name? Where the thing is, and where it, or the robot, is to go."""
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Sequence
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.situation import table
-from executive.types import PERSON, Command, CommandKind, Place, Question, QuestionKind, Source
+from executive.types import PERSON, SOMETHING, Command, CommandKind, Question, QuestionKind, Source
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
 from trees.person import NO_PLACE, Ask, AskWhere, either, places_in, tell, the
 
 TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
 """Words for the goal that is the person who speaks."""
+BESIDE = ("under ", "next to ")
+"""Beginnings of where nothing can be put."""
 
 
 def named_places(context: MissionContext) -> Behaviour:
@@ -86,7 +89,7 @@ class SourceIsKnown(Step):
             return self.fail(f"I know no '{request.command.source}'")
         likely = (
             *self.context.facts.places_of(request.object),
-            *self.context.knowledge.usual_places(request.object),
+            *usual_places(self.context),
         )
         request.from_places = tuple(sorted(named, key=lambda place: place not in likely))
         return self.succeed(", ".join(request.from_places))
@@ -145,10 +148,10 @@ class GoalIsKnown(Step):
         if goal.lower() in TO_THE_PERSON:
             self.situation.request.goals = (PERSON,)
             return self.succeed(PERSON)
-        named = places_in(self.context, goal)
+        named = goals_in(self.context)
         if not named:
-            return self.fail(f"I do not know where '{goal}' is")
-        if not is_one(self.context, named):
+            return self.fail(unknown(self.context))
+        if options_in(self.context):
             return self.fail(f"'{goal}' may be {either(named)}")
         goes = self.situation.request.asks_to(CommandKind.GO)
         self.situation.request.goals = named if goes else best_first(self.context, named)
@@ -185,7 +188,7 @@ class UsualPlace(Step):
     def update(self) -> Status:
         """Say so: it is not where it was."""
         request = self.situation.request
-        usual = self.context.knowledge.usual_places(request.object) if request.object else ()
+        usual = usual_places(self.context)
         if not usual:
             return self.fail(f"I do not know where {the(request.object or '')} belongs")
         request.goals = usual
@@ -206,7 +209,7 @@ class AskWhereTo(Ask):
         goes = self.situation.request.asks_to(CommandKind.GO)
         kind = QuestionKind.WHERE_TO_GO if goes else QuestionKind.WHERE_TO_PUT
         about = self.situation.request.object or ""
-        goal, options = goal_words(self.context), self._options()
+        goal, options = goal_words(self.context), options_in(self.context)
         if options:
             return Question(kind, about, f"Which {goal} do you mean: {either(options)}?", options)
         text = "Where shall I go?" if goes else f"Where shall I put {the(about)}?"
@@ -219,7 +222,7 @@ class AskWhereTo(Ask):
 
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
-        if options := self._options():
+        if options := options_in(self.context):
             named = tuple(p for p in places_in(self.context, answer) if p in options)
             if len(named) != 1:
                 return False
@@ -230,19 +233,15 @@ class AskWhereTo(Ask):
 
     def unresolved(self) -> str:
         """What is not known."""
-        goal, options = goal_words(self.context), self._options()
-        if options:
-            return f"'{goal}' may be {either(options)}"
-        if goal:
-            return f"I do not know where '{goal}' is"
-        if self.situation.request.asks_to(CommandKind.GO):
-            return "I do not know where to go"
-        return f"I do not know where to put {the(self.situation.request.object or '')}"
+        if options := options_in(self.context):
+            return f"'{goal_words(self.context)}' may be {either(options)}"
+        return unknown(self.context)
 
-    def _options(self) -> tuple[str, ...]:
-        """The places that the words may mean, if they are several."""
-        named = places_in(self.context, goal_words(self.context))
-        return () if is_one(self.context, named) else named
+
+def usual_places(context: MissionContext) -> tuple[str, ...]:
+    """Where the thing belongs; nobody knows of what is in the hand without a name."""
+    name = context.situation.request.object
+    return () if name in (None, SOMETHING) else context.knowledge.usual_places(name)
 
 
 def goes_back(command: Command | None) -> bool:
@@ -258,17 +257,37 @@ def goal_words(context: MissionContext) -> str:
     return command.goal or alone
 
 
+def goals_in(context: MissionContext) -> tuple[str, ...]:
+    """The places that the words for where to name; none if nothing can be put so."""
+    goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
+    return () if goal.startswith(BESIDE) and not goes else places_in(context, goal)
+
+
+def options_in(context: MissionContext) -> tuple[str, ...]:
+    """The places that the words for where to may mean, if they leave open which; "or" does not."""
+    parts = re.split(r"\bor\b", goal_words(context))
+    alike = all(is_one(context, places_in(context, part)) for part in parts)
+    return () if alike else goals_in(context)
+
+
+def unknown(context: MissionContext) -> str:
+    """Why nobody knows where to, as a clause."""
+    request, goal = context.situation.request, goal_words(context)
+    goes = request.asks_to(CommandKind.GO)
+    if goal.startswith(BESIDE) and not goes:
+        return f"I can put things on furniture, or in it, but not '{goal}'"
+    if goal:
+        return f"I do not know where '{goal}' is"
+    return "I do not know where to " + ("go" if goes else f"put {the(request.object or '')}")
+
+
 def is_one(context: MissionContext, named: Sequence[str]) -> bool:
     """Whether these are one place (or none), or all the furniture of one room."""
     if len(named) < 2:
         return True
-    furniture = {place.name: place for place in context.knowledge.places()}
-    rooms = {furniture[name].room for name in named if name in furniture}
-    return len(rooms) == 1 and _whole(rooms.pop(), named, furniture.values())
-
-
-def _whole(room: str, named: Sequence[str], furniture: Iterable[Place]) -> bool:
-    return {place.name for place in furniture if place.room == room} == set(named)
+    furniture = {place.name: place.room for place in context.knowledge.places()}
+    rooms = {furniture.get(name) for name in named}
+    return len(rooms) == 1 and set(named) == {n for n, room in furniture.items() if room in rooms}
 
 
 def best_first(context: MissionContext, named: Sequence[str]) -> tuple[str, ...]:

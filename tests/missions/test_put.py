@@ -97,6 +97,14 @@ def test_what_is_in_the_hand_is_not_searched_for(serve: Serve, thing: str) -> No
     assert (world.held, world.resting_place("hammer")) == (None, "sofa")
 
 
+def test_what_is_not_known_by_name_is_put_back_where_the_person_says(serve: Serve) -> None:
+    session, world = serve("on the desk")
+    world.held = "hammer"
+    del world.things["hammer"]
+    assert session.run("put_back | it").reason == "I put something back on the desk."
+    assert world.resting_place("hammer") == "desk"
+
+
 def test_it_is_not_done_without_room_and_the_thing_stays_in_the_hand(serve: Serve) -> None:
     session, world = serve("I don't know")
     world.fault = without_room("desk")
@@ -134,6 +142,21 @@ def test_who_or_what_is_not_known_is_asked_for_before_anything_is_done(
     asked = f"I do not know where '{place}' is. Where shall I put the hammer?"
     assert asked in told(session)
     assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "desk")
+
+
+@pytest.mark.parametrize("place", ["under the desk", "next to the desk"])
+def test_what_cannot_be_put_so_is_not_put_otherwise(serve: Serve, place: str) -> None:
+    session, world = serve("I don't know")
+    outcome = session.run(f"put | hammer | to {place}")
+    assert (outcome.status, world.resting_place("hammer")) == ("not_done", "shelf_lobby")
+    assert outcome.reason == (
+        f"I can put things on furniture, or in it, but not '{place}', and you could not tell me"
+    )
+
+
+def test_of_places_to_choose_from_any_will_do() -> None:
+    run = put("put | hammer | to sofa or desk", fault=without_room("desk"))
+    assert end_of(run) == (MissionStatus.DONE, "sofa")
 
 
 def test_nothing_is_done_if_nobody_knows_where_to_put_it(serve: Serve) -> None:
