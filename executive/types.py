@@ -99,22 +99,19 @@ class MissionStatus(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A request that was understood: do `kind` to whatever `target` names.
-
-    Attributes:
-        kind: the verb.
-        target: words for the thing; those for what the hand holds are `HELD`.
-        words: all that was said.
-        source: words for where the thing is: "desk", "bedroom"; empty if that was not said.
-        goal: words for where it, or the robot, is to go: furniture, a room or somebody; empty if
-            that was not said.
-    """
+    """A request that was understood: do `kind` to whatever `target` names."""
 
     kind: CommandKind
     target: str
     words: str
     source: str = ""
+    """Where the thing is, by the words; empty if they do not say."""
     goal: str = ""
+    """Where it is to go, by the words; empty if that is left to the verb."""
+
+
+HELD = "it"
+"""As a target: whatever the hand holds."""
 
 
 @dataclass(frozen=True, slots=True)

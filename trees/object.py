@@ -7,8 +7,7 @@ knowledge (paper, section "Integrated use of ontological knowledge base and LLM"
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.language.put_down import HELD
-from executive.types import Source
+from executive.types import HELD, Source
 from trees.context import MissionContext
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskDoYouMean, AskWhichObject

@@ -1,7 +1,6 @@
 """Words that ask for an empty hand: "put it down", "put the mug down", "empty your hand"."""
 
-HELD = "it"
-"""Stands for whatever the hand holds."""
+from executive.types import HELD
 
 _POLITE = ("please", "robot", "hey", "hello", "now", "then", "and", "just")
 _ASKING = ("could you", "can you", "would you", "will you", "i'd like you to", "i want you to")

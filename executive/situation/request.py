@@ -8,11 +8,11 @@ from executive.types import Command, CommandKind
 
 
 def _command(command: Command | None) -> dict[str, Any] | None:
-    """Places only where some were named: commands of earlier recordings had none."""
+    """What was not said is left out, since commands of earlier recordings had no more than these."""
     if command is None:
         return None
-    places = ("source", "goal")
-    return {name: v for name, v in asdict(command).items() if v or name not in places}
+    always = ("kind", "target", "words")
+    return {name: v for name, v in asdict(command).items() if v or name in always}
 
 
 @dataclass

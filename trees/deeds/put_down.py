@@ -5,8 +5,7 @@ from collections.abc import Iterable, Iterator
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.language.put_down import HELD
-from executive.types import DELIVERY, HAND, SOMETHING, CommandKind, Outcome
+from executive.types import DELIVERY, HAND, HELD, SOMETHING, CommandKind, Outcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
