@@ -8,7 +8,7 @@ from executive.types import Command, CommandKind
 
 
 def _command(command: Command | None) -> dict[str, Any] | None:
-    """What was not said is left out, since commands of earlier recordings had no more than these."""
+    """What was not said is left out, as in earlier recordings, whose commands had no places."""
     if command is None:
         return None
     always = ("kind", "target", "words")
