@@ -184,6 +184,10 @@ class Knowledge(Protocol):
         """Furniture that the words name, in their order; a room stands for its furniture."""
         ...
 
+    def is_place(self, words: str) -> bool:
+        """Whether they name furniture or rooms, and nothing else: not "Anna in the kitchen"."""
+        ...
+
 
 class Facts(Protocol):
     """What was seen, said and done so far, in this mission and before it. Never raises."""

@@ -21,6 +21,7 @@ SAYS: Mapping[str, str] = {
     Source.MEMORY: "I remember it there",
 }
 """How the person is told who names a place to look at; other sources say it themselves."""
+NEXT_TO = "next to "
 NO_PLACE = "I know no such place. "
 
 
@@ -394,6 +395,12 @@ def places_in(context: MissionContext, answer: str) -> tuple[str, ...]:
     if DELIVERY in re.findall(r"[a-z]+", answer.lower()):
         return (DELIVERY,)
     return context.knowledge.places_named(answer)
+
+
+def is_place(context: MissionContext, words: str) -> bool:
+    """Whether words name places, or what is beside them, and nothing that would be passed over."""
+    delivery = DELIVERY in re.findall(r"[a-z]+", words.lower())
+    return delivery or context.knowledge.is_place(words.lower().removeprefix(NEXT_TO))
 
 
 def either(names: tuple[str, ...]) -> str:

@@ -10,11 +10,11 @@ from executive.situation import table
 from executive.types import PERSON, SOMETHING, Command, CommandKind, Question, QuestionKind, Source
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
-from trees.person import NO_PLACE, Ask, AskWhere, either, places_in, tell, the
+from trees.person import NEXT_TO, NO_PLACE, Ask, AskWhere, either, is_place, places_in, tell, the
 
 TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
 """Words for the goal that is the person who speaks."""
-BESIDE = ("under ", "next to ")
+BESIDE = ("under ", NEXT_TO)
 """Beginnings of where nothing can be put."""
 
 
@@ -85,7 +85,7 @@ class SourceIsKnown(Step):
         assert request.command
         assert request.object
         named = places_in(self.context, request.command.source)
-        if not named:
+        if not named or not is_place(self.context, request.command.source):
             return self.fail(f"I know no '{request.command.source}'")
         likely = (
             *self.context.facts.places_of(request.object),
@@ -260,7 +260,8 @@ def goal_words(context: MissionContext) -> str:
 def goals_in(context: MissionContext) -> tuple[str, ...]:
     """The places that the words for where to name; none if nothing can be put so."""
     goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
-    return () if goal.startswith(BESIDE) and not goes else places_in(context, goal)
+    beside = goal.startswith(BESIDE) and not goes
+    return places_in(context, goal) if is_place(context, goal) and not beside else ()
 
 
 def options_in(context: MissionContext) -> tuple[str, ...]:

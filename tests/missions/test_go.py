@@ -14,6 +14,7 @@ from executive.types import DriveTo, MissionStatus
     [
         ("go | | to desk", "desk", "I am at the desk."),
         ("go | desk", "desk", "I am at the desk."),
+        ("go | | to next to the desk", "desk", "I am at the desk."),
         ("go | | to kitchen", "cabinet_kitchen", "I am at the cabinet_kitchen."),
         ("go | | to me", "person", "Here I am."),
     ],

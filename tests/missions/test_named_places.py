@@ -61,10 +61,11 @@ def test_where_the_robot_could_not_look_it_does_not_say_that_nothing_is_there(
     session.close()
 
 
-def test_a_place_that_is_not_known_is_asked_for(tmp_path: Path) -> None:
+@pytest.mark.parametrize("place", ["attic", "Anna's desk"])
+def test_a_place_that_is_not_known_is_asked_for(tmp_path: Path, place: str) -> None:
     session, _ = session_in(tmp_path, ["on the coffee table"])
-    outcome = session.run("bring | mug | from attic")
-    assert "I know no 'attic'. Where is the mug?" in told(session)
+    outcome = session.run(f"bring | mug | from {place}")
+    assert f"I know no '{place}'. Where is the mug?" in told(session)
     assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ("coffee_table",))
     session.close()
     assert session.folder

@@ -133,7 +133,7 @@ def test_a_way_that_is_blocked_is_said(serve: Serve) -> None:
     assert outcome.reason.startswith("I could not get to the desk: the way is blocked, and ")
 
 
-@pytest.mark.parametrize("place", ["Anna", "attic"])
+@pytest.mark.parametrize("place", ["Anna", "attic", "Robert in the kitchen"])
 def test_who_or_what_is_not_known_is_asked_for_before_anything_is_done(
     serve: Serve, place: str
 ) -> None:
