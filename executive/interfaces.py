@@ -10,6 +10,7 @@ from typing import Protocol
 
 from executive.records import NodeState, Record, TreeShape
 from executive.types import (
+    Called,
     Candidate,
     ChatRequest,
     Command,
@@ -155,6 +156,10 @@ class Knowledge(Protocol):
 
     def has_place(self, name: str) -> bool:
         """Whether a piece of furniture of this name is in the home."""
+        ...
+
+    def called(self, name: str) -> Called | None:
+        """How one speaks of an object, a class or a piece of furniture; None if it is unknown."""
         ...
 
     def objects_named(self, words: str) -> tuple[str, ...]:

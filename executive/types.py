@@ -196,6 +196,24 @@ class Thing:
 
 
 @dataclass(frozen=True, slots=True)
+class Called:
+    """What a thing or a piece of furniture is called when one speaks of it."""
+
+    words: str
+    """Without an article: "sugar box"."""
+    plural: bool = False
+    """Whether one says "are" of it, as of scissors."""
+    bare: bool = False
+    """Whether it has no article, as a class of things: "fruit"."""
+    preposition: str = "on"
+    """How things are with it, if it is furniture: "in" or "on"."""
+    room: str = ""
+    """What the room is called that it stands in; empty if the words say so, or it is a thing."""
+    says_room: bool = False
+    """Whether nobody would know it without the room."""
+
+
+@dataclass(frozen=True, slots=True)
 class OtherColor:
     """Things that are called as was said, and have none of the colours that were said."""
 

@@ -8,7 +8,7 @@ from trees.context import MissionContext
 from trees.deeds.deed import meaning
 from trees.deeds.put_down import put_down_somewhere
 from trees.nodes import Step, fallback, sequence
-from trees.person import AskToPutDown, full_hand, the
+from trees.person import AskToPutDown, full_hand
 
 
 def hand_is_free(context: MissionContext) -> Behaviour:
@@ -33,7 +33,7 @@ class HandIsFree(Step):
         held = self.situation.hand.in_hand
         if held in (None, self.situation.request.object) or not meaning(self.situation).grasps:
             return Status.SUCCESS
-        return self.fail(full_hand(held))
+        return self.fail(full_hand(held, self.context.say))
 
 
 class HandStaysFull(Step):
@@ -45,5 +45,5 @@ class HandStaysFull(Step):
         if held is None:
             return self.fail(why)
         if self.situation.hand.unplaced:
-            return self.fail(f"{why}; I still hold {the(held)}")
-        return self.fail(full_hand(held))
+            return self.fail(f"{why}; I still hold {self.context.say.the(held)}")
+        return self.fail(full_hand(held, self.context.say))

@@ -7,7 +7,6 @@ from dataclasses import replace
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.situation import table
 from executive.types import (
     FLOOR,
     PERSON,
@@ -49,9 +48,13 @@ class BodyAction(Action):
 
     def failed(self, result: Result) -> Status:
         """Fail for the reason that the robot gives."""
-        why = why_of(result)
+        why = self.why(result)
         self.note_failure(why)
         return self.fail(f"I could not {self.attempt()}: {why}" if why == UNSAID else why)
+
+    def why(self, result: Result) -> str:
+        """Why it failed, in words: what robots say of things and places are names."""
+        return self.context.say.in_words(why_of(result))
 
     def out_of_time(self) -> Status:
         """Fail because it took too long."""
@@ -92,20 +95,22 @@ class RobotAction(BodyAction):
         if isinstance(result, Succeeded):
             return Status.SUCCESS
         if isinstance(result, Failed) and result.lost:
-            self.situation.hand.lost, self.situation.hand.in_hand = why_of(result), None
+            self.situation.hand.lost, self.situation.hand.in_hand = self.why(result), None
         return self.failed(result)
 
     def attempt(self) -> str:
         """By the goal."""
+        say = self.context.say
         match self._goal:
             case DriveTo(place):
-                return f"get to {place}"
+                return f"get to {say.the(place)}"
             case LookAt(place):
-                return f"look at {place}"
+                return f"look at {say.the(place)}"
             case Pick(detection):
-                return f"pick up the {detection.label}"
+                return f"pick up {say.the(detection.label)}"
             case PutDown(place):
-                return f"put it down on {table(place)}"
+                it = say.it(self.situation.request.object or SOMETHING)
+                return f"put {it} down {say.at(place)}"
             case Halt():
                 return "stop"
 
@@ -257,7 +262,7 @@ class PickUp(RobotAction):
         assert search.detection
         name = search.detection.label
         if isinstance(result, Succeeded) and hand.felt is False:
-            result = Failed(f"the {name} slipped from my fingers")
+            result = Failed(f"{self.context.say.the(name)} slipped from my fingers")
         if isinstance(result, Failed) and hand.felt and hand.in_hand == name:
             if not self._finished:
                 self._finished = True
@@ -379,7 +384,8 @@ class DriveToGoal(RobotAction):
         """It cannot be put down there."""
         if self.situation.hand.in_hand:
             place = self.situation.request.goal
-            self.situation.hand.unplaced[place] = f"I could not get to {table(place)}: {why}"
+            there = self.context.say.the(place)
+            self.situation.hand.unplaced[place] = f"I could not get to {there}: {why}"
 
 
 class SeeTarget(BodyAction):
@@ -428,7 +434,7 @@ class SeeTarget(BodyAction):
     def attempt(self) -> str:
         """By the place."""
         candidate = self.situation.search.candidate
-        return f"look at {candidate.place if candidate else 'it'}"
+        return f"look at {self.context.say.the(candidate.place) if candidate else 'it'}"
 
     def note_failure(self, why: str) -> None:
         """A part of the place stays unseen."""
@@ -471,13 +477,14 @@ class SeeLost(SeeTarget):
             return self.failed(result)
         seen = self._surest(result)
         if seen is None:
-            return self.fail(f"I do not see it on the {self.situation.hand.spot}")
+            it = self.context.say.it(self.situation.request.object or SOMETHING)
+            return self.fail(f"I do not see {it} {self.context.say.at(self.situation.hand.spot)}")
         self.situation.search.detection = seen
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
     def attempt(self) -> str:
         """By the spot."""
-        return f"look at the {self.situation.hand.spot}"
+        return f"look at {self.context.say.the(self.situation.hand.spot)}"
 
     def note_failure(self, why: str) -> None:
         """Nothing: this is no search of a place."""

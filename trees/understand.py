@@ -6,7 +6,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Utterance
-from executive.types import HELD, MissionStatus, Question, QuestionKind
+from executive.types import HELD, Command, MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import Step, fallback, sequence
@@ -109,13 +109,11 @@ class ConfirmCommand(AskYesNo):
     def question(self) -> Question:
         """Say what would be done."""
         assert self.situation.request.command
-        kind, target = self.situation.request.command.kind, self.situation.request.command.target
-        knowledge = self.context.knowledge
-        objects = [o for name in knowledge.names_in(target) for o in knowledge.objects_named(name)]
-        place = self.situation.request.command.source
-        what = f"{kind.replace('_', ' ')} {target}" + f" from {place}" * bool(place)
-        text = f"Do you mean: {what}?"
-        return Question(QuestionKind.CONFIRM, target, text, tuple(objects))
+        command, knowledge = self.situation.request.command, self.context.knowledge
+        names = knowledge.names_in(command.target)
+        objects = tuple(one for name in names for one in knowledge.objects_named(name))
+        text = f"Do you mean: {in_one_sentence(self.context, command)}?"
+        return Question(QuestionKind.CONFIRM, command.target, text, objects)
 
     def agreed(self) -> None:
         """The command stands."""
@@ -123,6 +121,24 @@ class ConfirmCommand(AskYesNo):
     def unresolved(self) -> str:
         """It is not known what was asked for."""
         return f"I am not sure what '{self.situation.request.words}' asks for"
+
+
+def in_one_sentence(context: MissionContext, command: Command) -> str:
+    """All that a command asks for, in words: "bring the mug from the desk"."""
+    knowledge, target = context.knowledge, command.target
+    names = [name for name in target.split(" and ") if knowledge.called(name)]
+    named = knowledge.objects_named(target)
+    if names and " and ".join(names) == target:
+        what = " and ".join(map(context.say.the, names))
+    elif len(named) == 1:
+        what = context.say.the(named[0])
+    else:
+        what = context.as_said(target)
+    but = f"but not {' or '.join(command.exceptions)}" if command.exceptions else ""
+    source = f"from {context.as_said(command.source)}" if command.source else ""
+    goal = f"to {context.as_said(command.goal)}" if command.goal else ""
+    verb = command.kind.replace("_", " ")
+    return " ".join(filter(None, (verb, what, but, source, goal)))
 
 
 class NotUnderstood(Step):

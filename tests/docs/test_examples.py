@@ -108,7 +108,7 @@ def test_without_a_name_the_newest_recording_is_told(
     for words in ("Find an apple", "Find the mug"):
         example("bring")["bring"](words, Path("runs"))
     reads()
-    assert "done: The mug is at " in capsys.readouterr().out
+    assert "done: The mug is on " in capsys.readouterr().out
 
 
 def test_without_any_recording_it_is_said_in_a_sentence(reads: Callable[[], object]) -> None:
@@ -120,7 +120,7 @@ def test_a_recording_tells_its_story(tmp_path: Path) -> None:
     outcome = example("bring")["bring"]("Find an apple", tmp_path)
     first, *_, last = example("read_a_recording")["story"](Path(outcome.run_dir))
     assert first.startswith("run ")
-    assert last == "done: The apple is at dining_table."
+    assert last == "done: The apple is on the dining table in the living room."
 
 
 @pytest.mark.parametrize("file", FILES)

@@ -196,7 +196,7 @@ def test_a_pick_that_takes_too_long_with_the_thing_in_the_hand_got_hold_of_it(
     house: House,
 ) -> None:
     stands_in(house, Pick, grips=True)
-    assert house.run("Take the mug").reason == "I took the mug from coffee_table and hold it."
+    assert house.run("Take the mug").reason == "I took the mug from the coffee table and hold it."
     assert hand_is_known(house)
     assert isinstance(house.goals[-1], Halt)
 

@@ -178,7 +178,7 @@ def test_a_terminal_that_knows_ascii_only_is_told_everything(
         timeout=30,
     )
     assert ended.returncode == 1
-    assert "k\\xe4sekuchen \\u2603" in ended.stdout
+    assert "K\\xe4sekuchen \\u2603" in ended.stdout
     assert "Traceback" not in ended.stderr
 
 

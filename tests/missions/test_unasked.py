@@ -61,7 +61,7 @@ def test_what_is_said_not_to_be_meant_is_neither_offered_nor_taken() -> None:
 
 def test_a_slip_in_the_verb_is_asked_about_with_all_that_would_be_done() -> None:
     run = run_mission("Bing me an aple", llm=False, answers=["yes"])
-    assert said(run)[0] == "Do you mean: bring apple?"
+    assert said(run)[0] == "Do you mean: bring the apple?"
     assert (run.outcome.kind, run.outcome.object) == (CommandKind.BRING, "apple")
 
 

@@ -35,7 +35,7 @@ class Deed(ABC):
             whereabouts: the furniture that the thing is on in the end, `HAND`, or nothing.
         """
 
-    def how_far(self, situation: Situation, why: str) -> str:
+    def how_far(self, context: MissionContext, why: str) -> str:
         """What came of it although not all was done, which `why` tells; as a clause, too."""
         return why
 

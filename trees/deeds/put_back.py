@@ -8,4 +8,4 @@ class PutBack(Put):
     """As in "Put the mug back". Where that is, `trees/places.py` finds out."""
 
     kind = CommandKind.PUT_BACK
-    report = "I put {the_object} back on {surface}."
+    report = "I put {the_object} back {put}."
