@@ -39,7 +39,7 @@ def _fault(name: str, value: Identifier, *, of_root: bool) -> str | None:
     if why := unusable(text):
         return f"{shown} {why}"
     if name == NUMBER and text not in (PLURAL, "singular"):
-        return f"{shown} is no number of a word: write {PLURAL}, or leave it out"
+        return f"{shown} is no number: write {PLURAL}, or leave it out"
     begins = text.casefold().startswith(tuple(f"{word} " for word in PURPOSE_WORDS))
     if name == USE and value.language in SAID and not begins:
         return f"{shown} does not say a purpose: write to ... or for ..."

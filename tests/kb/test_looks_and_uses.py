@@ -206,7 +206,7 @@ def test_an_ontology_without_properties_knows_names_only(tmp_path: Path) -> None
         ),
         (
             "<household:number>many</household:number>",
-            "Mug has the number 'many', which is no number of a word: write plural, or leave it out",
+            "Mug has the number 'many', which is no number: write plural, or leave it out",
         ),
         (
             "<household:pronoun>it</household:pronoun>",
