@@ -295,23 +295,6 @@ class AskWhereToPut(Ask):
         return hand.not_put_down or f"I could get to no place to put {the(hand.in_hand or '')}"
 
 
-class AskToPutDown(AskYesNo):
-    """Asks whether the hand may be emptied for what is asked for now."""
-
-    def question(self) -> Question:
-        """Offer it."""
-        held, asked = self.situation.hand.in_hand or "", self.situation.request.object or ""
-        text = f"My hand holds {the(held)}. Shall I put it down first?"
-        return Question(QuestionKind.CONFIRM, held, text, (asked,))
-
-    def agreed(self) -> None:
-        """It will be put down."""
-
-    def unresolved(self) -> str:
-        """The hand stays full."""
-        return full_hand(self.situation.hand.in_hand or "")
-
-
 class Announce(Step):
     """Tells where the robot is going to look, and who says so.
 
@@ -395,9 +378,7 @@ def sentence(text: str) -> str:
 
 def full_hand(held: str) -> str:
     """Why nothing else is taken, as a clause."""
-    if held == SOMETHING:
-        return f"my hand holds {held}; tell me first to put it down"
-    return f"my hand holds {the(held)}; ask me first to bring that"
+    return f"my hand holds {the(held)}"
 
 
 def the(held: str) -> str:
