@@ -15,6 +15,7 @@ from executive.types import (
     ChatRequest,
     Command,
     CommandKind,
+    Commands,
     Detection,
     Frame,
     Goal,
@@ -345,8 +346,12 @@ class Advice:
 class Interpreter(Protocol):
     """Reads what a person says."""
 
+    def commands(self, words: str) -> Commands:
+        """The tasks in the words; none if there are none that can be done."""
+        ...
+
     def command(self, words: str) -> Command | None:
-        """The request in the words, or None if there is none that can be done."""
+        """The first of the tasks in the words, or None if there are none."""
         ...
 
     def remark(self, words: str) -> str:
@@ -356,8 +361,8 @@ class Interpreter(Protocol):
         """
         ...
 
-    def without_slips(self, words: str) -> Command | None:
-        """The command that the words are with the word for the deed spelled right; None if none."""
+    def without_slips(self, words: str) -> Commands:
+        """The tasks that the words are with the word for the deed spelled right; none if none."""
         ...
 
     def talk(self, words: str, things: Sequence[str] = ()) -> str:

@@ -114,6 +114,9 @@ class Command:
     """What is not meant: "anything but a banana"."""
 
 
+Commands = tuple[tuple[Command, ...], ...]
+"""Tasks in the order in which they are to be done; those of one tuple inside in any order."""
+
 HELD = "it"
 """As a target: whatever the hand holds."""
 
@@ -135,8 +138,27 @@ class Candidate:
 
 
 @dataclass(frozen=True, slots=True)
+class TaskOutcome:
+    """What came of one of the tasks of a mission; its fields are as those of `Outcome`."""
+
+    kind: CommandKind
+    target: str
+    object: str | None
+    status: MissionStatus
+    reason: str
+    location: str | None
+    goals: tuple[str, ...] = ()
+    visited: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Outcome:
-    """One mission's result: what `--json` prints and `outcome.json` keeps."""
+    """One mission's result: what `--json` prints and `outcome.json` keeps.
+
+    If there were several tasks, each is in `tasks`; `kind`, `target`, `object`, `source`,
+    `location`, `candidates` and `goals` are those of the last one that was begun, and `done` is
+    only said if all of them were.
+    """
 
     command: str
     kind: CommandKind | None
@@ -158,6 +180,8 @@ class Outcome:
     """Why the language model was of no help, as a clause; empty if it was, or was not asked."""
     goals: tuple[str, ...] = ()
     """The furniture that would do as the place where the thing, or the robot, was to go."""
+    tasks: tuple[TaskOutcome, ...] = ()
+    """What came of each task, in the order in which they ended; those not begun come last."""
 
 
 # --- space ---

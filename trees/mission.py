@@ -18,20 +18,25 @@ from trees.context import MissionContext
 from trees.deeds.deed import Conclude, meaning
 from trees.grasp import grasp
 from trees.hand import hand_is_free
-from trees.nodes import Check, Optionally, fallback, sequence, stages
+from trees.nodes import Check, Optionally, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.places import named_places
 from trees.robot import DriveBack
 from trees.search import eyes_for_it, search
+from trees.tasks import EachTask
 from trees.understand import understand
 
 
 def mission(context: MissionContext) -> Behaviour:
-    """The whole tree. It always ends in success; how the mission ended is in the situation."""
+    """The whole tree, gone through for each task.
+
+    It always ends in success; how the mission ended is in the situation.
+    """
     situation = context.situation
-    return fallback(
+    return EachTask(
         "mission",
+        context,
         stages(
             "serve",
             understand(context),
@@ -51,13 +56,16 @@ def mission(context: MissionContext) -> Behaviour:
 
 
 def come_back(context: MissionContext) -> Behaviour:
-    """Return to the person, if the robot left and can."""
+    """Return to the person, if the robot left and can, and has nothing else to do."""
+    situation = context.situation
     return Optionally(
         "if away",
-        context.situation,
+        situation,
         sequence(
             "come back",
-            Check("is away", context, lambda: context.situation.dialogue.away),
+            Check(
+                "is away", context, lambda: situation.dialogue.away and not situation.agenda.tasks
+            ),
             DriveBack("drive", context, PERSON),
         ),
     )

@@ -11,7 +11,7 @@ from executive.language.wording import Wording
 from executive.records import Activity, Utterance
 from executive.situation import candidates_from
 from executive.text import printable, too_long
-from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
+from executive.types import DELIVERY, Answered, Question, QuestionKind, Result, Source
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
 from trees.unknown import nearest, unknown, unresolved
@@ -301,24 +301,6 @@ class AskWhereToPut(Ask):
         return hand.not_put_down(say) or nowhere
 
 
-class AskToPutDown(AskYesNo):
-    """Asks whether the hand may be emptied for what is asked for now."""
-
-    def question(self) -> Question:
-        """Offer it."""
-        held, asked = self.situation.hand.in_hand or "", self.situation.request.object or ""
-        say = self.context.say
-        text = f"My hand holds {say.the(held)}. Shall I put {say.it(held)} down first?"
-        return Question(QuestionKind.CONFIRM, held, text, (asked,))
-
-    def agreed(self) -> None:
-        """It will be put down."""
-
-    def unresolved(self) -> str:
-        """The hand stays full."""
-        return full_hand(self.situation.hand.in_hand or "", self.context.say)
-
-
 class Announce(Step):
     """Tells where the robot is going to look, and who says so.
 
@@ -413,9 +395,7 @@ def sentence(text: str) -> str:
 
 def full_hand(held: str, say: Wording) -> str:
     """Why nothing else is taken, as a clause."""
-    if held == SOMETHING:
-        return f"my hand holds {held}; tell me first to put it down"
-    return f"my hand holds {say.the(held)}; ask me first to bring that"
+    return f"my hand holds {say.the(held)}"
 
 
 def known_places(context: MissionContext) -> str:

@@ -172,8 +172,7 @@ class TakenFrom(Step):
     def update(self) -> Status:
         """What was taken from the delivery table had been brought there before."""
         request = self.situation.request
-        taken = self.context.facts.origins().get(request.object or "", ())
-        known = [place for place in taken if self.context.knowledge.has_place(place)]
+        known = taken_from(self.context, request.object)
         if not known:
             what = self.context.say.the(request.object or "")
             return self.fail(f"I do not know where I took {what}")
@@ -243,6 +242,12 @@ class AskWhereTo(Ask):
             goal = self.context.as_said(goal_words(self.context))
             return f"'{goal}' may be {self.context.say.any_of(options)}"
         return unknown(self.context)
+
+
+def taken_from(context: MissionContext, name: str | None) -> tuple[str, ...]:
+    """The furniture that the robot took a thing from, the last time first."""
+    taken = context.facts.origins().get(name or "", ())
+    return tuple(place for place in taken if context.knowledge.has_place(place))
 
 
 def usual_places(context: MissionContext) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """From what was said to a command that the tree can carry out, or to a word on why not."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from executive.language.meaning import (
@@ -22,10 +22,10 @@ from executive.language.meaning import (
     Verb,
     Where,
 )
-from executive.types import HELD, Command, CommandKind
+from executive.types import HELD, Command, CommandKind, Commands
 
 _DEEDS = [kind.replace("_", " ") for kind in CommandKind]
-CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one thing at a time"
+CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one after the other"
 CANNOT = {
     Verb.CLEAR: "I cannot tidy up so far",
     Verb.COUNT: "I cannot count things so far",
@@ -39,18 +39,20 @@ COURTESIES = {
     Courtesy.GOODBYE: "Goodbye!",
 }
 THING = "thing"
+THERE = ("there", "over there")
+"""Words for the place that was spoken of."""
 _ALONE = (Verb.FIND, Verb.TAKE, Verb.BRING)
 """Deeds that another one with "it" may follow, which has them in it."""
 
 
-def command_in(said: Said, words: str) -> Command | str | None:
-    """The command; or what to say of it, if it was read but is not to be done, or cannot be.
+def commands_in(said: Said, words: str) -> Commands | str | None:
+    """The tasks; or what to say of it, if it was read but is not to be done, or cannot be.
 
     None if there is nothing to say: it was not read, or answers a question.
     """
     match said:
         case Request():
-            return _command(_folded(said.tasks), words)
+            return _commands(_resolved(_folded(said.tasks)), words)
         case Refusal():
             return "Then I will not."
         case Unable():
@@ -122,19 +124,52 @@ def _is_it(things: Things | None) -> bool:
     return thing.pronoun and not thing.other and thing.number is None
 
 
-def _command(tasks: tuple[Task, ...], words: str) -> Command | str:
-    """What the tree can do: one task, with one kind of thing."""
-    if len(tasks) != 1:
-        return "I can do one thing at a time so far; tell me the first, then the next."
-    [task] = tasks
-    if why := _why_not(task):
-        return f"{why}. {CAN}."
-    if task.goal == ME and task.verb == Verb.PUT:
-        task = replace(task, verb=Verb.BRING)
-    members = task.things.members if task.things else ()
+def _resolved(tasks: Sequence[Task]) -> Iterator[Task]:
+    """The tasks with "it" and "there" as what was spoken of before in the same breath."""
+    things: Things | None = None
+    place: Where | None = None
+    for task in tasks:
+        if things and _is_it(task.things) and task.verb != Verb.PUT_DOWN:
+            task = replace(task, things=things)
+        if place and _is_there(task.source):
+            task = replace(task, source=place)
+        if place and _is_there(task.goal):
+            task = replace(task, goal=place)
+        yield task
+        things = task.things if task.things and not _is_it(task.things) else things
+        named = next((p for p in (task.goal, task.source) if p and not p.pronoun and p != ME), None)
+        place = named or place
+
+
+def _is_there(where: Where | None) -> bool:
+    return where is not None and where.pronoun and where.words in THERE
+
+
+def _commands(tasks: Iterable[Task], words: str) -> Commands | str:
+    """A command for each thing of each task; or why one of them cannot be done."""
+    commands: list[tuple[Command, ...]] = []
+    for task in tasks:
+        if why := _why_not(task):
+            return f"{why}. {CAN}."
+        if task.goal == ME and task.verb == Verb.PUT:
+            task = replace(task, verb=Verb.BRING)
+        commands.append(tuple(_command(task, things, words) for things in _each(task)))
+    return tuple(commands)
+
+
+def _each(task: Task) -> tuple[Things | None, ...]:
+    """Of several things that are all meant, each one."""
+    things = task.things
+    if things is None or things.one_of:
+        return (things,)
+    return tuple(Things((thing,)) for thing in things.members)
+
+
+def _command(task: Task, things: Things | None, words: str) -> Command:
+    members = things.members if things else ()
     return Command(
         CommandKind(task.verb),
-        _held(task.things) if task.verb == Verb.PUT_DOWN else _names(task.things),
+        _held(things) if task.verb == Verb.PUT_DOWN else _names(things),
         words,
         source=_in_words(task.source) if task.source else "",
         goal=_in_words(task.goal) if task.goal and task.verb != Verb.BRING else "",

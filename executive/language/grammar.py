@@ -2,12 +2,13 @@
 
 from collections.abc import Iterable, Sequence
 from functools import cache
+from itertools import chain
 
-from executive.language.commands import agrees, command_in, talk
+from executive.language.commands import agrees, commands_in, talk
 from executive.language.meaning import Answer, Choice, Request, Task, Unread, Verb
 from executive.language.reader import english
 from executive.language.slips import without_slips
-from executive.types import Command
+from executive.types import Command, Commands
 
 
 class EnglishInterpreter:
@@ -23,10 +24,15 @@ class EnglishInterpreter:
         odd = tuple(sorted({name for name in names if not _is_read(name)}))
         self._reader = english(odd) if odd else english()
 
-    def command(self, words: str) -> Command | None:
-        """The request in the words, or None if there is none that can be done."""
+    def commands(self, words: str) -> Commands:
+        """The tasks in the words; none if there are none that can be done."""
         read = self._read(words)
-        return read if isinstance(read, Command) else None
+        return read if isinstance(read, tuple) else ()
+
+    def command(self, words: str) -> Command | None:
+        """The first of the tasks, or None if there are none."""
+        commands = self.commands(words)
+        return commands[0][0] if commands else None
 
     def remark(self, words: str) -> str:
         """What to say of words that were read and are no command to carry out; empty if they are.
@@ -36,14 +42,14 @@ class EnglishInterpreter:
         read = self._read(words)
         return read if isinstance(read, str) else ""
 
-    def _read(self, words: str) -> Command | str | None:
-        """The command; or what to say; nothing to say if somebody else may read it."""
-        read = command_in(self._reader.read(words), words)
+    def _read(self, words: str) -> Commands | str | None:
+        """The tasks; or what to say; nothing to say if somebody else may read it."""
+        read = commands_in(self._reader.read(words), words)
         denial = ""
         if read is None:
             denial = self._reader.denial(words)
-        elif isinstance(read, Command):
-            names = (read.target, read.source, read.goal, read.purpose, *read.exceptions)
+        elif isinstance(read, tuple):
+            names = chain.from_iterable(named_in(command) for group in read for command in group)
             denial = next(filter(None, map(self._reader.denial_in_name, names)), "")
         if denial:
             return f"I do nothing: I hear '{denial}', and do not understand the rest."
@@ -53,12 +59,12 @@ class EnglishInterpreter:
         """The answer to small talk, or to who asks for help; empty if it is neither."""
         return talk(self._reader.read(words), things)
 
-    def without_slips(self, words: str) -> Command | None:
-        """The command that the words are with the word for the deed spelled right; None if none."""
+    def without_slips(self, words: str) -> Commands:
+        """The tasks that the words are with the word for the deed spelled right; none if none."""
         for likely in without_slips(self._reader, words):
-            if command := self.command(likely):
-                return command
-        return None
+            if commands := self.commands(likely):
+                return commands
+        return ()
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
@@ -75,6 +81,11 @@ class EnglishInterpreter:
         first, _, rest = self._reader.plain(answer).partition(" ")
         begun = agrees(self._reader.read(first))
         return None if begun and self._reader.denial(rest) else begun
+
+
+def named_in(command: Command) -> tuple[str, ...]:
+    """All that a command names."""
+    return command.target, command.source, command.goal, command.purpose, *command.exceptions
 
 
 @cache

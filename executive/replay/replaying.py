@@ -183,6 +183,8 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
     outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
     if "thinks" not in run.metadata:  # recorded when outcomes did not tell of the model
         outcome = replace(outcome, model_failure=recorded.model_failure)
+    if not recorded.tasks:  # recorded when there was but one
+        outcome = replace(outcome, tasks=())
     aspects = tuple(outcome_aspects(recorded, outcome, exact=_is_worded(run)))
     return Parting(None, recorded.mission_time_s, aspects) if aspects else None
 

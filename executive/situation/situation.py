@@ -1,5 +1,6 @@
 """What this mission knows so far: the one place that behaviours read from and write to."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, is_dataclass
 from functools import cache
 from typing import Any, Self
@@ -13,6 +14,7 @@ from executive.events import (
     Started,
     StopRequested,
 )
+from executive.situation.agenda import Agenda
 from executive.situation.dialogue import Dialogue
 from executive.situation.ending import Ending
 from executive.situation.hand import Hand
@@ -20,16 +22,20 @@ from executive.situation.model import ModelUse
 from executive.situation.request import Request
 from executive.situation.search import Search
 from executive.situation.snapshot import PART, snapshot
-from executive.types import Outcome, Replied, Scored
+from executive.types import Command, MissionStatus, Outcome, Replied, Scored, TaskOutcome
+
+NOT_BEGUN = "I did not get to it"
 
 
 @dataclass
 class Situation:
     """Facts of one mission, in parts.
 
-    Events are folded in by the loop before each tick; everything else is set by behaviours.
+    Events are folded in by the loop before each tick; everything else is set by behaviours. Of
+    several tasks, what is found out for one is forgotten when the next begins.
     """
 
+    agenda: Agenda = field(default_factory=Agenda, metadata=PART)
     request: Request = field(default_factory=Request, metadata=PART)
     search: Search = field(default_factory=Search, metadata=PART)
     hand: Hand = field(default_factory=Hand, metadata=PART)
@@ -61,6 +67,29 @@ class Situation:
                 self.hand.feel(holding)
             case Ended() | DeadlinePassed():
                 pass
+
+    def begin(self, command: Command) -> None:
+        """Turn to a task: what was found out for another one counts no more."""
+        hand = self.hand
+        held = Hand(in_hand=hand.in_hand, felt=hand.felt, reached_for=hand.reached_for)
+        _renew(self.request, Request(self.request.words, command))
+        _renew(self.search, Search())
+        _renew(hand, held)
+        _renew(self.ending, Ending(restless=self.ending.restless))
+        self.dialogue.no_help = ""
+
+    def end_task(self) -> None:
+        """What came of the task at hand is settled, if there is one."""
+        if self.request.command:
+            self.agenda.ended.append(self._of_task(self.request.command))
+
+    def conclude(self) -> None:
+        """Settle how the whole ended, if there were several tasks: done if all of them were."""
+        ended = self.agenda.ended
+        if len(ended) > 1:
+            all_done = all(task.status == MissionStatus.DONE for task in ended)
+            self.ending.status = MissionStatus.DONE if all_done else MissionStatus.NOT_DONE
+            self.ending.reason = task_by_task(ended)
 
     @property
     def has_it(self) -> bool:
@@ -94,7 +123,7 @@ class Situation:
             source=found.source if found else None,
             location=found.place if found else None,
             inquiries=self.dialogue.inquiries,
-            visited=tuple(self.search.looks.visited),
+            visited=self._visited(),
             llm_calls=self.model.calls,
             candidates=self.search.candidates,
             mission_time_s=round(mission_time_s, 3),
@@ -103,7 +132,57 @@ class Situation:
             run_dir=run_dir,
             model_failure=self.model.failure,
             goals=self.request.goals,
+            tasks=(*self.agenda.ended, *self._unfinished()),
         )
+
+    def _visited(self) -> tuple[str, ...]:
+        """In all tasks: what the one at hand has visited is in those that ended when it has."""
+        at_hand = () if self.agenda.ended and not self._is_at_hand else self.search.looks.visited
+        return (*self.agenda.visited(), *at_hand)
+
+    def _unfinished(self) -> Iterator[TaskOutcome]:
+        """The task at hand, and those not begun, if the mission was cut short."""
+        command = self.request.command
+        if self._is_at_hand and command:
+            yield self._of_task(command)
+        for task in self.agenda.tasks:
+            kind, target = task.command.kind, task.command.target
+            yield TaskOutcome(kind, target, None, self.ending.status, NOT_BEGUN, None)
+
+    @property
+    def _is_at_hand(self) -> bool:
+        """Whether a task was begun that has not ended."""
+        return self.request.command is not None and not self.ending.decided
+
+    def _of_task(self, command: Command) -> TaskOutcome:
+        found = self.search.found
+        return TaskOutcome(
+            kind=command.kind,
+            target=command.target,
+            object=self.request.object,
+            status=self.ending.status,
+            reason=self.ending.why,
+            location=found.place if found else None,
+            goals=self.request.goals,
+            visited=tuple(self.search.looks.visited),
+        )
+
+
+def task_by_task(ended: Sequence[TaskOutcome]) -> str:
+    """What came of each of several tasks, numbered, a sentence each."""
+    return " ".join(
+        f"{number}. {'' if task.status == MissionStatus.DONE else 'Not done: '}{_ended(task)}"
+        for number, task in enumerate(ended, start=1)
+    )
+
+
+def _ended(task: TaskOutcome) -> str:
+    return task.reason if task.reason.endswith((".", "!", "?", "…")) else f"{task.reason}."
+
+
+def _renew(part: Any, fresh: Any) -> None:
+    """Make a part as a fresh one; it stays the same object, which behaviours hold."""
+    vars(part).update(vars(fresh))
 
 
 def _copied(value: Any) -> Any:

@@ -84,15 +84,27 @@ class _Chain:
             at = At(thought.time_s, thought.value)
             states = {node.path: node for node in at.value.nodes}
             yield from _visits(before, at, self._searches)
-            earlier = {node.path: node.status for node in before.value.nodes} if before else {}
-            yield from _outermost(
-                self._decision(at, fallback, states)
-                for fallback in self._family.fallbacks
-                if (status := states[fallback.path].status) in ("SUCCESS", "FAILURE")
-                and earlier.get(fallback.path) != status
-            )
+            ended = list(_tasks_ended(before, at))
+            goes_on = bool(ended) and _goes_on(at)
+            if goes_on:  # what is settled in this tick is so for the next task
+                yield from ended
+                self._reasons.clear()
+            anew = goes_on or before is None
+            yield from _outermost(self._settled(at, states, None if anew else before))
+            if not goes_on:
+                yield from ended
             self._remember(states)
             before = at
+
+    def _settled(
+        self, at: At[Tick], states: dict[str, NodeState], before: At[Tick] | None
+    ) -> Iterator[Decision]:
+        """What was settled in a tick: what was not so before."""
+        earlier = {node.path: node.status for node in before.value.nodes} if before else {}
+        for fallback in self._family.fallbacks:
+            status = states[fallback.path].status
+            if status in ("SUCCESS", "FAILURE") and earlier.get(fallback.path) != status:
+                yield self._decision(at, fallback, states)
 
     def _decision(
         self, at: At[Tick], fallback: NodeShape, states: dict[str, NodeState]
@@ -224,6 +236,23 @@ def _visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> 
         why_not = (now.get("unseen") or {}).get(place)
         seen = f"not all of it seen: {why_not}" if why_not else "not seen there"
         yield Decision(at.time_s, f"look at {place}", seen, "eyes", tip)
+
+
+def _tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
+    """How each task ended that has ended since; nothing if there was but one."""
+    ended = at.value.situation.get("ended") or ()
+    if len(ended) < 2 and not _goes_on(at):
+        return
+    known = len(before.value.situation.get("ended") or ()) if before else 0
+    for number, task in enumerate(ended[known:], start=known + 1):
+        what = f"task {number}: {task['kind'].replace('_', ' ')} {task['target']}".strip()
+        answer = f"{task['status'].replace('_', ' ')}: {task['reason']}"
+        yield Decision(at.time_s, what, answer, "", at.value.tip)
+
+
+def _goes_on(at: At[Tick]) -> bool:
+    """Whether the mission did not end with this tick."""
+    return any(node.status == "RUNNING" for node in at.value.nodes)
 
 
 def _runs(paths: Container[str], at: At[Tick]) -> bool:

@@ -22,10 +22,6 @@ def said(run: Run) -> list[str]:
         ("Leave the mug alone", "Then I will not."),
         ("Bring no apple", "I do nothing: I hear 'no', and do not understand the rest."),
         ("Throw the apple", "I cannot throw."),
-        (
-            "Take the mug. Then bring the apple.",
-            "I can do one thing at a time so far; tell me the first, then the next.",
-        ),
     ],
 )
 def test_nothing_is_done_whoever_answers_whatever_is_asked(
