@@ -8,6 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from executive.language.meaning import Said
+from executive.language.spoken import NOTHING, Spoken
 from executive.records import NodeState, Record, TreeShape
 from executive.types import (
     Candidate,
@@ -340,11 +342,23 @@ class Advice:
 class Interpreter(Protocol):
     """Reads what a person says."""
 
-    def command(self, words: str) -> Command | None:
-        """The request in the words, or None if there is none that can be done."""
+    def read(self, words: str) -> Said:
+        """What the words mean, as far as they can be read."""
         ...
 
-    def remark(self, words: str) -> str:
+    def command(
+        self, words: str, spoken: Spoken = NOTHING, *, holds: bool = False
+    ) -> Command | None:
+        """The request in the words, or None if there is none that can be done.
+
+        Args:
+            words: what was said.
+            spoken: of what was spoken before: "it", "there" and "another" stand for that.
+            holds: whether the hand holds something.
+        """
+        ...
+
+    def remark(self, words: str, spoken: Spoken = NOTHING) -> str:
         """What to say of words that were read and are no command to carry out; empty otherwise.
 
         Nobody else may make a command of them then: they may say what is not to be done.

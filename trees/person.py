@@ -2,12 +2,14 @@
 
 import re
 from abc import abstractmethod
-from collections.abc import Mapping
 from dataclasses import replace
 
 from py_trees.common import Status
 
+from executive.language.answers import named, picked
+from executive.language.meaning import Request, Said
 from executive.records import Activity, Utterance
+from executive.replies import SAYS
 from executive.situation import candidates_from, table
 from executive.text import printable, too_long
 from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
@@ -15,13 +17,6 @@ from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
 from trees.unknown import either, nearest, unknown, unresolved
 
-SAYS: Mapping[str, str] = {
-    Source.ONTOLOGY: "that is its place",
-    Source.LLM: "the language model's guess",
-    Source.USER: "as you said",
-    Source.MEMORY: "I remember it there",
-}
-"""How the person is told who names a place to look at; other sources say it themselves."""
 NEXT_TO = "next to "
 NO_PLACE = "I know no such place. "
 
@@ -189,12 +184,19 @@ class AskWhichObject(Ask):
             text = f"I can do one thing at a time. Which first: {either(options)}?"
         elif options:
             text = f"Which {target} do you mean: {either(options)}?"
+        elif self._all_left_out():
+            text = f"I know no other {target}. Which thing do you mean?"
         elif options := self._other_names(target):
             said = unknown(self.context.knowledge, target)
             text = f"{said}. Do you mean {either(options)}, or something else?"
         else:
             text = f"I know no '{target}'. Which thing do you mean?"
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
+
+    def _all_left_out(self) -> bool:
+        """Whether things were named, and all of them said not to be meant: "another mug"."""
+        assert self.situation.request.command
+        return bool(self.context.knowledge.objects_named(self.situation.request.command.target))
 
     def _other_names(self, target: str) -> tuple[str, ...]:
         """The nearest known names, less the one that the person did not mean."""
@@ -203,20 +205,25 @@ class AskWhichObject(Ask):
 
     def understood(self, answer: str) -> bool:
         """One object is enough; several narrow the next question down."""
-        command = self.context.interpreter.command(answer)
-        named = self.context.knowledge.objects_named(answer)
-        if (
-            self.situation.request.options and command and not named
-        ):  # "Bring the banana", one of them
-            named = self.context.knowledge.objects_named(command.target)
-        if self.situation.request.options:
-            named = tuple(n for n in named if n in self.situation.request.options)
-        named = without_exceptions(self.context, named)
-        if len(named) > 1:
-            self.situation.request.options = named
-        elif named:
-            self.situation.request.object = named[0]
-        return len(named) == 1
+        options, find = self.situation.request.options, self.context.knowledge.objects_named
+        said = self.context.interpreter.read(answer)
+        if chosen := picked(said, self.question().options):
+            meant = tuple(one for name in chosen for one in find(name))
+        else:
+            meant = find(answer) or self._named(said)
+        if options:
+            meant = tuple(one for one in meant if one in options)
+        meant = without_exceptions(self.context, meant)
+        if len(meant) > 1:
+            self.situation.request.options = meant
+        elif meant:
+            self.situation.request.object = meant[0]
+        return len(meant) == 1
+
+    def _named(self, said: Said) -> tuple[str, ...]:
+        """What an answer names in more words; a command is one only for what was offered."""
+        offered = self.situation.request.options or not isinstance(said, Request)
+        return self.context.knowledge.objects_named(named(said)) if offered else ()
 
     def unresolved(self) -> str:
         """Name the nearest known things."""
@@ -224,6 +231,8 @@ class AskWhichObject(Ask):
         target = self.situation.request.command.target
         if self.situation.request.options:
             return f"'{target}' may be {either(self.situation.request.options)}"
+        if self._all_left_out():
+            return f"I know no other {target}"
         knowledge = self.context.knowledge
         return unresolved(knowledge, target, nearest(knowledge, target))
 

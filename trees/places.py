@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.answers import picked
 from executive.situation import table
 from executive.types import PERSON, SOMETHING, Command, CommandKind, Question, QuestionKind, Source
 from trees.context import MissionContext
@@ -224,7 +225,8 @@ class AskWhereTo(Ask):
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
         if options := options_in(self.context):
-            named = tuple(p for p in places_in(self.context, answer) if p in options)
+            chosen = picked(self.context.interpreter.read(answer), options)
+            named = chosen or tuple(p for p in places_in(self.context, answer) if p in options)
             if len(named) != 1:
                 return False
         else:

@@ -47,11 +47,11 @@ class ReadCommand(Step):
     def update(self) -> Status:
         """Read the words."""
         self.context.recorder.record(Utterance("person", self.situation.request.words))
-        command = self.context.interpreter.command(self.situation.request.words)
+        words, spoken = self.situation.request.words, self.situation.dialogue.spoken
+        holds = self.situation.hand.in_hand is not None
+        command = self.context.interpreter.command(words, spoken, holds=holds)
         if command is None:
-            self.situation.request.remark = self.context.interpreter.remark(
-                self.situation.request.words
-            )
+            self.situation.request.remark = self.context.interpreter.remark(words, spoken)
             return self.fail("this is no command that the grammar knows")
         self.situation.request.command = command
         source = f"from {command.source}" if command.source else ""

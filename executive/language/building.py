@@ -9,6 +9,7 @@ from executive.language.meaning import (
     ALL,
     ME,
     About,
+    Again,
     Answer,
     Choice,
     Correction,
@@ -316,6 +317,10 @@ class Builder(Transformer[Token, Said]):
         verb = next(p for p in parts if _is(p, "UNABLE"))
         return Unable(str(verb), _rest(parts))
 
+    def again(self, parts: list[Part]) -> Again:
+        """As in "do that again"."""
+        return Again()
+
     def correction(self, parts: list[Part]) -> Correction:
         """As in "no, the banana"."""
         meant = next(p for p in parts if not isinstance(p, Token))
@@ -387,8 +392,9 @@ class Builder(Transformer[Token, Said]):
         return Courtesy(parts[0].type.lower())
 
     def _number(self, token: Token) -> int:
-        if token.isdecimal():
-            return int(token)
+        digits = token.removeprefix("number ").removesuffix(" one")
+        if digits.isdecimal():
+            return int(digits)
         return self._numbers.get(token) or self._numbers[token.removesuffix(" one")]
 
 

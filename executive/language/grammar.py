@@ -4,9 +4,10 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 
 from executive.language.commands import agrees, command_in, talk
-from executive.language.meaning import Answer, Choice, Request, Task, Unread, Verb
+from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread, Verb
 from executive.language.reader import english
 from executive.language.slips import without_slips
+from executive.language.spoken import NOTHING, Spoken, resolved
 from executive.types import Command
 
 
@@ -23,22 +24,28 @@ class EnglishInterpreter:
         odd = tuple(sorted({name for name in names if not _is_read(name)}))
         self._reader = english(odd) if odd else english()
 
-    def command(self, words: str) -> Command | None:
+    def read(self, words: str) -> Said:
+        """What the words mean, as far as the grammar reads them."""
+        return self._reader.read(words)
+
+    def command(
+        self, words: str, spoken: Spoken = NOTHING, *, holds: bool = False
+    ) -> Command | None:
         """The request in the words, or None if there is none that can be done."""
-        read = self._read(words)
+        read = self._read(words, spoken, holds)
         return read if isinstance(read, Command) else None
 
-    def remark(self, words: str) -> str:
+    def remark(self, words: str, spoken: Spoken = NOTHING) -> str:
         """What to say of words that were read and are no command to carry out; empty if they are.
 
         It is empty, too, if they were not read: then somebody else may.
         """
-        read = self._read(words)
+        read = self._read(words, spoken, False)
         return read if isinstance(read, str) else ""
 
-    def _read(self, words: str) -> Command | str | None:
+    def _read(self, words: str, spoken: Spoken, holds: bool) -> Command | str | None:
         """The command; or what to say; nothing to say if somebody else may read it."""
-        read = command_in(self._reader.read(words), words)
+        read = command_in(resolved(self._reader.read(words), spoken, holds=holds), words)
         denial = ""
         if read is None:
             denial = self._reader.denial(words)

@@ -148,6 +148,11 @@ class Unable:
 
 
 @dataclass(frozen=True, slots=True)
+class Again:
+    """The same once more: "do that again"."""
+
+
+@dataclass(frozen=True, slots=True)
 class Correction:
     """Not that, but this: "no, the banana"; or that and this: "and the pear".
 
@@ -230,4 +235,15 @@ class Unread:
     at: str = ""
 
 
-Said = Request | Refusal | Unable | Correction | Question | Statement | Answer | Courtesy | Unread
+Said = (
+    Request
+    | Refusal
+    | Unable
+    | Again
+    | Correction
+    | Question
+    | Statement
+    | Answer
+    | Courtesy
+    | Unread
+)

@@ -13,6 +13,7 @@ from executive.events import (
     Started,
     StopRequested,
 )
+from executive.language.spoken import NOTHING, Spoken
 from executive.situation.dialogue import Dialogue
 from executive.situation.ending import Ending
 from executive.situation.hand import Hand
@@ -39,11 +40,19 @@ class Situation:
 
     @classmethod
     def at_start(
-        cls, words: str = "", *, in_hand: str | None = None, restless: bool = False
+        cls,
+        words: str = "",
+        *,
+        in_hand: str | None = None,
+        restless: bool = False,
+        spoken: Spoken = NOTHING,
     ) -> Self:
-        """What is known before the first tick: the words, and in what state the robot was left."""
+        """What is known before the first tick: the words, and how things stood before them."""
         return cls(
-            request=Request(words), hand=Hand(in_hand=in_hand), ending=Ending(restless=restless)
+            request=Request(words),
+            hand=Hand(in_hand=in_hand),
+            dialogue=Dialogue(spoken=spoken),
+            ending=Ending(restless=restless),
         )
 
     def fold(self, event: Event) -> None:
