@@ -3,6 +3,7 @@
 import logging
 import sys
 import time
+from collections import deque
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import replace
@@ -18,7 +19,7 @@ from executive.app.run_folder import new_folder, to_json, write
 from executive.app.sources import checked
 from executive.config import Settings
 from executive.errors import ExecutiveError
-from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
+from executive.events import THE_PERSON, Broke, Ended, Heard, Inbox, Started, StopRequested
 from executive.guards import GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
@@ -107,6 +108,8 @@ class Session:
         self._last: Outcome | None = None
         self._restless = False
         self._closed = False
+        self.heard: deque[str] = deque()
+        """What the person has said too late for the mission in which it was said, oldest first."""
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
@@ -187,6 +190,8 @@ class Session:
                 wall_time_s=time.monotonic() - began,
                 run_dir=str(folder) if folder else None,
             )
+            if outcome.status != MissionStatus.STOPPED:
+                self.heard.extend(situation.dialogue.heard)
             try:
                 GuardedRecorder(self.recorder).record(Finished(outcome))
                 if folder:
@@ -311,6 +316,8 @@ class Session:
         Raises:
             KeyboardInterrupt: if a signal says stop.
         """
+        if self.heard:
+            return self.heard.popleft()
         request = console.listen(prompt)
         while True:
             self.parts.clock.wait(None)
@@ -321,12 +328,18 @@ class Session:
                     if event.by != THE_PERSON:
                         raise KeyboardInterrupt
                     command = None  # it was taken back at once
+                    self.heard.clear()
+                elif isinstance(event, Heard):  # between two missions
+                    self.heard.append(event.words)
                 elif isinstance(event, Ended) and event.request == request:
                     if not isinstance(event.result, Answered):
                         return None
                     command = event.result.text
             if command is not None:
-                return command
+                self.heard.append(command)
+            if self.heard:
+                console.cancel(request)
+                return self.heard.popleft()
             if not self.inbox.is_open(request):
                 request = console.listen(prompt)
 

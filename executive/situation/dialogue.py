@@ -23,3 +23,5 @@ class Dialogue:
     """Why the person cannot or will not help, as a clause; empty if they may."""
     spoken: Spoken = field(default=NOTHING, metadata=logged_as(plain=_spoken))
     """What was spoken of before this mission: what "it" and "there" stand for."""
+    heard: list[str] = field(default_factory=list)
+    """What the person has said unasked, and nobody has attended to yet, oldest first."""

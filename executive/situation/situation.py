@@ -10,6 +10,7 @@ from executive.events import (
     Ended,
     Event,
     HandFelt,
+    Heard,
     Started,
     StopRequested,
 )
@@ -66,6 +67,8 @@ class Situation:
                 self.ending.stop(by)
             case Broke(reason):
                 self.ending.break_off(reason)
+            case Heard(words):
+                self.dialogue.heard.append(words)
             case HandFelt(holding):
                 self.hand.feel(holding)
             case Ended() | DeadlinePassed():
