@@ -98,15 +98,22 @@ def serve(
         try:
             if words is None and console:
                 code = converse(session, console, as_json)
-            elif not as_json and session.talk(words or ""):
-                code = DONE
             else:
-                code = conclude(session.run(words or ""), as_json)
+                code = do(session, words or "", as_json)
+                while session.heard:
+                    code = do(session, session.heard.popleft(), as_json)
             leave_within(CLOSED_S, code)
             return code
         except KeyboardInterrupt:
             leave_within(CLOSED_S, STOPPED)
             raise
+
+
+def do(session: "Session", words: str, as_json: bool) -> int:
+    """Do what is said, or answer it; the exit code."""
+    if not as_json and session.talk(words):
+        return DONE
+    return conclude(session.run(words), as_json)
 
 
 def conclude(outcome: Outcome, as_json: bool) -> int:
@@ -140,8 +147,7 @@ def converse(session: "Session", console: Console, as_json: bool) -> int:
     code = DONE
     line = session.next_command(console, f"{PROMPT} (stop ends what I do, quit ends the session)")
     while line is not None:
-        if as_json or not session.talk(line):
-            code = conclude(session.run(line), as_json)
+        code = do(session, line, as_json)
         if session.stopped_by not in ("", THE_PERSON):
             return STOPPED
         line = session.next_command(console, PROMPT)

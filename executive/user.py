@@ -16,7 +16,6 @@ from executive.text import LONGEST, one_line, printable, too_long, writable
 from executive.types import Answered, Failed, Question, QuestionKind
 
 STOPPING = "Stopping."
-BUSY = "I am busy. Say it again when I ask, or say stop."
 FORGOTTEN = "What you said before is forgotten."
 
 MOST_LINES = 1000
@@ -30,9 +29,9 @@ class Console:
 
     One thread reads lines all the time, so that a stop is heard, and answered, at any moment. What
     else is said goes to whoever asks: a question of the robot, or the prompt for a command. From a
-    terminal, a line that comes while nobody asks is not kept: it would become the answer to a
-    question that the person has not seen. Any other source is a script, whose lines are kept in
-    order. What waits when a stop comes is forgotten.
+    terminal, a line that comes while nobody asks is an event of its own: it never becomes the
+    answer to a question that the person has not seen. Any other source is a script, whose lines are
+    kept in order. What waits when a stop comes is forgotten.
     """
 
     def __init__(
@@ -115,7 +114,7 @@ class Console:
         elif why := too_long(line):
             self._say(f"Sorry: {why}.")
         elif words and not self._keep(words):
-            self._say(BUSY)
+            self._inbox.hear(words)
         return said
 
     def _keep(self, words: str) -> bool:

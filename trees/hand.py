@@ -8,8 +8,9 @@ from trees.context import MissionContext
 from trees.deeds.deed import meaning
 from trees.deeds.put_down import go_and_put, put_down_somewhere
 from trees.nodes import FirstOf, Step, fallback, sequence
-from trees.person import full_hand, tell
+from trees.person import full_hand
 from trees.places import taken_from
+from trees.telling import tell
 
 
 def hand_is_free(context: MissionContext) -> Behaviour:

@@ -9,7 +9,7 @@ from executive.records import Activity
 from executive.types import ChatRequest, Command, Replied, Result, Scored, Source
 from trees.context import MissionContext
 from trees.nodes import Action, why_of
-from trees.person import sentence, tell
+from trees.telling import sentence, tell
 
 
 class ModelAction(Action):

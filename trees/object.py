@@ -121,6 +121,8 @@ class GuessName(Step):
         if self.situation.request.options:
             return self.fail(f"'{target}' is known")
         knowledge = self.context.knowledge
+        if knowledge.objects_named(target):
+            return self.fail(f"'{target}' is known, and all of it is said not to be meant")
         if other := knowledge.other_color(target):
             names: tuple[str, ...] = tuple(name for name, _ in other.actual)
             if len(names) > 1:

@@ -2,32 +2,24 @@
 
 import re
 from abc import abstractmethod
-from collections.abc import Mapping
 from dataclasses import replace
 
 from py_trees.common import Status
 
+from executive.language.answers import named, picked
+from executive.language.meaning import Answer, Refusal, Request, Said, Unread
 from executive.language.wording import Wording
 from executive.records import Activity, Utterance
+from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.situation import candidates_from
 from executive.text import printable, too_long
 from executive.types import DELIVERY, Answered, Question, QuestionKind, Result, Source
+from trees.attention import attend_to
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
+from trees.telling import sentence, tell
 from trees.unknown import nearest, unknown, unresolved
 
-SAYS: Mapping[str, str] = {
-    Source.ONTOLOGY: "that is its place",
-    Source.LLM: "the language model's guess",
-    Source.USER: "as you said",
-    Source.MEMORY: "I remember it there",
-}
-"""How the person is told who names a place to look at; other sources say it themselves."""
-SAYS_OF_SEVERAL: Mapping[str, str] = {
-    **SAYS,
-    Source.ONTOLOGY: "that is their place",
-    Source.MEMORY: "I remember them there",
-}
 NEXT_TO = "next to "
 NO_PLACE = "I know no such place. "
 
@@ -45,7 +37,7 @@ class Ask(Action):
         """Wait for each answer as long as the parameters allow."""
         super().__init__(name, context, context.parameters.answer_s)
         self._tries = 0
-        self._commanded = False
+        self._attended = False
 
     @abstractmethod
     def question(self) -> Question:
@@ -59,24 +51,19 @@ class Ask(Action):
     def unresolved(self) -> str:
         """What stays unknown without an answer, as a clause."""
 
-    def busy(self) -> str:
-        """What goes on, for who gives a command instead of an answer, as a clause."""
-        return "I am still at what you asked for before"
-
     def declines(self, answer: str) -> bool:
         """Whether the answer is that there is none."""
         return self.context.interpreter.declines(answer)
 
     def initialise(self) -> None:
         """Ask for the first time."""
-        self._tries, self._commanded = 0, False
+        self._tries, self._attended = 0, False
         super().initialise()
 
     def start(self) -> int:
         """Ask."""
         question = self.question()
-        first = f"{self.busy()}; say stop to end that. " if self._commanded else ""
-        question = replace(question, text=printable(first + question.text))
+        question = replace(question, text=printable(question.text))
         self._tries += 1
         self.situation.dialogue.inquiries += 1
         self.context.recorder.record(Utterance("robot", question.text))
@@ -88,14 +75,29 @@ class Ask(Action):
             return self._no_help(why_of(result))
         self.context.recorder.record(Utterance("person", result.text))
         unread = too_long(result.text)
-        if not unread and self.declines(result.text):
+        said = self.context.interpreter.read(result.text)
+        refuses = isinstance(said, Refusal) and said.words != ""
+        if not unread and not refuses and self.declines(result.text):
             return self._no_help("you could not tell me")
         if not unread and self.understood(result.text):
             return self.succeed(result.text)
-        self._commanded = self.context.interpreter.command(result.text) is not None
+        self._attended = not unread and self._attend_to(result.text)
+        if self.situation.agenda.interrupts:
+            return Status.RUNNING  # until the tree gives it up, in this tick
         if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
+
+    def _attend_to(self, words: str) -> bool:
+        """Answer what is no answer: a further wish, a correction, a question."""
+        if isinstance(self.context.interpreter.read(words), Answer | Unread):
+            return False
+        tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
+        return True
+
+    def doing(self) -> str:
+        """It waits."""
+        return "wait for your answer"
 
     def out_of_time(self) -> Status:
         """Nobody answered."""
@@ -196,11 +198,18 @@ class AskWhichObject(Ask):
             text = f"I can do one thing at a time. Which first: {any_of(options)}?"
         elif options:
             text = f"Which {target} do you mean: {any_of(options)}?"
+        elif self._all_left_out():
+            text = f"I know no other {target}. Which thing do you mean?"
         else:
             options, said = self._other_names(target), unknown(self.context, target)
             meant = f"Do you mean {any_of(options)}, or something else?"
             text = f"{said}. {meant if options else 'Which thing do you mean?'}"
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
+
+    def _all_left_out(self) -> bool:
+        """Whether things were named, and all of them said not to be meant: "another mug"."""
+        assert self.situation.request.command
+        return bool(self.context.knowledge.objects_named(self.situation.request.command.target))
 
     def _other_names(self, target: str) -> tuple[str, ...]:
         """The nearest known names, less the one that the person did not mean."""
@@ -209,20 +218,25 @@ class AskWhichObject(Ask):
 
     def understood(self, answer: str) -> bool:
         """One object is enough; several narrow the next question down."""
-        command = self.context.interpreter.command(answer)
-        named = self.context.knowledge.objects_named(answer)
-        if (
-            self.situation.request.options and command and not named
-        ):  # "Bring the banana", one of them
-            named = self.context.knowledge.objects_named(command.target)
-        if self.situation.request.options:
-            named = tuple(n for n in named if n in self.situation.request.options)
-        named = without_exceptions(self.context, named)
-        if len(named) > 1:
-            self.situation.request.options = named
-        elif named:
-            self.situation.request.object = named[0]
-        return len(named) == 1
+        options, find = self.situation.request.options, self.context.knowledge.objects_named
+        said = self.context.interpreter.read(answer)
+        if chosen := picked(said, self.question().options):
+            meant = tuple(one for name in chosen for one in find(name))
+        else:
+            meant = find(answer) or self._named(said)
+        if options:
+            meant = tuple(one for one in meant if one in options)
+        meant = without_exceptions(self.context, meant)
+        if len(meant) > 1:
+            self.situation.request.options = meant
+        elif meant:
+            self.situation.request.object = meant[0]
+        return len(meant) == 1
+
+    def _named(self, said: Said) -> tuple[str, ...]:
+        """What an answer names in more words; a command is one only for what was offered."""
+        offered = self.situation.request.options or not isinstance(said, Request)
+        return self.context.knowledge.objects_named(named(said)) if offered else ()
 
     def unresolved(self) -> str:
         """Name the nearest known things."""
@@ -231,6 +245,8 @@ class AskWhichObject(Ask):
         if self.situation.request.options:
             options = self.context.say.any_of(self.situation.request.options)
             return f"'{self.context.as_said(target)}' may be {options}"
+        if self._all_left_out():
+            return f"I know no other {target}"
         return unresolved(self.context, target, nearest(self.context, target))
 
 
@@ -247,12 +263,8 @@ class AskWhere(Ask):
         if so_far := self.situation.search.so_far(name, say):
             text = f"{so_far}. {text}"
         if self._tries:
-            text = f"{NO_PLACE * (not self._commanded)}{text} {known_places(self.context)}"
+            text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         return Question(QuestionKind.WHERE_IS, name, text)
-
-    def busy(self) -> str:
-        """It is looked for."""
-        return f"I am still looking for {self.context.say.the(self.situation.request.object or '')}"
 
     def understood(self, answer: str) -> bool:
         """Any places that exist become the candidates."""
@@ -280,14 +292,10 @@ class AskWhereToPut(Ask):
         held = self.situation.hand.in_hand or ""
         text = f"Where shall I put {self.context.say.the(held)}?"
         if self._tries:
-            text = f"{NO_PLACE * (not self._commanded)}{text} {known_places(self.context)}"
+            text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         else:
             text = f"{self.unresolved()}. {text}"
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
-
-    def busy(self) -> str:
-        """It is in the hand."""
-        return f"I am still holding {self.context.say.the(self.situation.hand.in_hand or '')}"
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
@@ -379,18 +387,6 @@ def without_exceptions(context: MissionContext, names: tuple[str, ...]) -> tuple
     names_left_out = (name for but in exceptions for name in (but, *knowledge.names_in(but)))
     left_out = {one for name in names_left_out for one in knowledge.objects_named(name)}
     return tuple(name for name in names if name not in left_out)
-
-
-def tell(context: MissionContext, text: str) -> None:
-    """Say something, on one line, to the person and to the log."""
-    said = printable(text)
-    context.recorder.record(Utterance("robot", said))
-    context.user.tell(said)
-
-
-def sentence(text: str) -> str:
-    """The text with a full stop, unless it has an end."""
-    return text if text.endswith((".", "!", "?", "…")) else f"{text}."
 
 
 def full_hand(held: str, say: Wording) -> str:

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.answers import picked
 from executive.language.wording import either
 from executive.types import PERSON, SOMETHING, Command, CommandKind, Question, QuestionKind, Source
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
-from trees.person import NEXT_TO, NO_PLACE, Ask, AskWhere, is_place, known_places, places_in, tell
+from trees.person import NEXT_TO, NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
+from trees.telling import TO_THE_PERSON, tell
 
-TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
-"""Words for the goal that is the person who speaks."""
 BESIDE = ("under ", NEXT_TO)
 """Beginnings of where nothing can be put."""
 
@@ -220,7 +220,7 @@ class AskWhereTo(Ask):
             return Question(kind, about, text, options)
         text = "Where shall I go?" if goes else f"Where shall I put {say.the(about)}?"
         if self._tries:
-            text = f"{NO_PLACE * (not self._commanded)}{text} {known_places(self.context)}"
+            text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         elif goal:
             text = f"{self.unresolved()}. {text}"
         return Question(kind, about, text)
@@ -228,7 +228,8 @@ class AskWhereTo(Ask):
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
         if options := options_in(self.context):
-            named = tuple(p for p in places_in(self.context, answer) if p in options)
+            chosen = picked(self.context.interpreter.read(answer), options)
+            named = chosen or tuple(p for p in places_in(self.context, answer) if p in options)
             if len(named) != 1:
                 return False
         else:

@@ -98,6 +98,21 @@ class RobotAction(BodyAction):
             self.situation.hand.lost, self.situation.hand.in_hand = self.why(result), None
         return self.failed(result)
 
+    def doing(self) -> str:
+        """By the goal."""
+        say = self.context.say
+        match self._goal:
+            case DriveTo(place):
+                return f"drive to {say.the(place)}"
+            case LookAt(place):
+                return f"look {say.at(place)}"
+            case Pick(detection):
+                return f"pick up {say.the(detection.label)}"
+            case PutDown(place):
+                return f"put {say.the(self.situation.hand.in_hand or SOMETHING)} {say.at(place)}"
+            case Halt():
+                return "stop"
+
     def attempt(self) -> str:
         """By the goal."""
         say = self.context.say

@@ -10,9 +10,10 @@ from executive.types import Candidate, Source
 from trees.context import MissionContext
 from trees.location import resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import Announce, AskWhere, tell
+from trees.person import Announce, AskWhere
 from trees.recall import MemoryKnowsPlaces, Recall
 from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
+from trees.telling import tell
 
 
 def search(context: MissionContext) -> Behaviour:

@@ -13,6 +13,7 @@ from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
 from trees.person import AskYesNo
+from trees.telling import in_one_sentence
 
 
 def understand(context: MissionContext) -> Behaviour:
@@ -74,11 +75,12 @@ class ReadCommand(Step):
 
     def update(self) -> Status:
         """Read the words."""
-        words = self.situation.request.words
+        words, spoken = self.situation.request.words, self.situation.dialogue.spoken
         self.context.recorder.record(Utterance("person", words))
-        commands = self.context.interpreter.commands(words)
+        holds = self.situation.hand.in_hand is not None
+        commands = self.context.interpreter.commands(words, spoken, holds=holds)
         if not commands:
-            self.situation.request.remark = self.context.interpreter.remark(words)
+            self.situation.request.remark = self.context.interpreter.remark(words, spoken)
             return self.fail("this is no command that the grammar knows")
         self.situation.agenda.add(commands)
         begin_next(self.context)
@@ -157,24 +159,6 @@ class ConfirmCommand(AskYesNo):
     def unresolved(self) -> str:
         """It is not known what was asked for."""
         return f"I am not sure what '{self.situation.request.words}' asks for"
-
-
-def in_one_sentence(context: MissionContext, command: Command) -> str:
-    """All that a command asks for, in words: "bring the mug from the desk"."""
-    knowledge, target = context.knowledge, command.target
-    names = [name for name in target.split(" and ") if knowledge.called(name)]
-    named = knowledge.objects_named(target)
-    if names and " and ".join(names) == target:
-        what = " and ".join(map(context.say.the, names))
-    elif len(named) == 1:
-        what = context.say.the(named[0])
-    else:
-        what = context.as_said(target)
-    but = f"but not {' or '.join(command.exceptions)}" if command.exceptions else ""
-    source = f"from {context.as_said(command.source)}" if command.source else ""
-    goal = f"to {context.as_said(command.goal)}" if command.goal else ""
-    verb = command.kind.replace("_", " ")
-    return " ".join(filter(None, (verb, what, but, source, goal)))
 
 
 def named(command: Command) -> str:

@@ -9,6 +9,7 @@ from executive.language.meaning import (
     ALL,
     ME,
     About,
+    Again,
     Answer,
     Choice,
     Correction,
@@ -295,7 +296,7 @@ class Builder(Transformer[Token, Said]):
         return Request(
             tasks,
             in_order,
-            too=any(_is(p, "TOO") for p in parts),
+            too=any(_is(p, "TOO", "LATER") for p in parts),
             agrees=any(_is(p, "YES") for p in parts),
         )
 
@@ -307,21 +308,37 @@ class Builder(Transformer[Token, Said]):
         """As in "do not touch the hammer"."""
         return Refusal(_rest(parts))
 
-    def not_this(self, parts: list[Part]) -> Refusal:
-        """As in "not the hammer"."""
-        return Refusal(parts[-1].said)
+    def not_this(self, parts: list[Part]) -> Refusal | Correction:
+        """As in "not the hammer", "not the hammer but the drill"."""
+        wrong = parts[-1]
+        if wrong.exceptions:
+            meant = Things(wrong.exceptions)
+            return Correction(meant, Things((replace(wrong, exceptions=()),)), denies=True)
+        return Refusal(wrong.said)
 
     def unable(self, parts: list[Part]) -> Unable:
         """As in "throw the ball"."""
         verb = next(p for p in parts if _is(p, "UNABLE"))
         return Unable(str(verb), _rest(parts))
 
+    def again(self, parts: list[Part]) -> Again:
+        """As in "do that again"."""
+        return Again()
+
     def correction(self, parts: list[Part]) -> Correction:
-        """As in "no, the banana"."""
+        """As in "no, the banana", "no, to the kitchen"."""
         meant = next(p for p in parts if not isinstance(p, Token))
-        if not isinstance(meant, Request | Things):
-            raise Unfit(str(parts[0]))
-        return Correction(meant, denies=any(_is(p, "NO") for p in parts))
+        denies = any(_is(p, "NO", "NO_BUT") for p in parts)
+        match meant:
+            case From(place):
+                return Correction(source=place, denies=denies)
+            case To(place):
+                return Correction(goal=place, denies=denies)
+            case Where():
+                return Correction(place=meant, denies=denies)
+            case Request() | Things():
+                return Correction(meant, denies=denies)
+        raise Unfit(str(parts[0]))
 
     def not_that(self, parts: list[Part]) -> Correction:
         """As in "not the apple, the banana"."""
@@ -387,8 +404,9 @@ class Builder(Transformer[Token, Said]):
         return Courtesy(parts[0].type.lower())
 
     def _number(self, token: Token) -> int:
-        if token.isdecimal():
-            return int(token)
+        digits = token.removeprefix("number ").removesuffix(" one")
+        if digits.isdecimal():
+            return int(digits)
         return self._numbers.get(token) or self._numbers[token.removesuffix(" one")]
 
 

@@ -15,6 +15,7 @@ from time import perf_counter
 from executive.app.parts import Build, Change, build_mission, mission_tree
 from executive.errors import InputError
 from executive.events import Inbox
+from executive.language.spoken import Spoken
 from executive.records import Record, Tick, TreeShape
 from executive.replay.recorded import kept, recorded_parts
 from executive.replay.stand_ins import Absent, RecordedTime
@@ -153,8 +154,16 @@ def _is_worded(run: Run) -> bool:
 
 def _situation(run: Run) -> Situation:
     """What was known of the robot before the recorded mission."""
-    restless = run.metadata.get("restless") == str(True)
-    return Situation.at_start(in_hand=run.metadata.get("in_hand") or None, restless=restless)
+    try:
+        spoken = Spoken.from_json(run.metadata.get("spoken", "{}"))
+    except ValueError as error:
+        what = "its metadata do not say of what was spoken before it"
+        raise InputError(str(run.path), what) from error
+    return Situation.at_start(
+        in_hand=run.metadata.get("in_hand") or None,
+        restless=run.metadata.get("restless") == str(True),
+        spoken=spoken,
+    )
 
 
 def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]:
