@@ -156,7 +156,7 @@ class RerunSink:
             raise OSError(f"rerun does not finish its file within {FLUSH_S:g} s")
 
     def _let_go(self) -> None:
-        """Disconnect, and end the threads that rerun would keep for the stream as long as we run."""
+        """Disconnect, and end the threads that rerun keeps for a stream until it is asked to."""
         self._stream.disconnect()
         self._tree = None
         del self._stream, self._candidates
