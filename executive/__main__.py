@@ -27,6 +27,7 @@ from executive.shell import (
     DONE,
     NOT_DONE,
     STOPPED,
+    all_is_kept,
     end_at_once,
     entry_point,
     handle_stop_signals,
@@ -91,9 +92,11 @@ def serve(
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
     console = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
-    from executive.app.session import Session  # heavy: not for --help or a wrong option
+    with all_is_kept():
+        from executive.app.session import Session  # heavy: not for --help or a wrong option
 
-    with Session(settings, inbox=inbox, user=console, view=view, gui=gui) as session:
+        session = Session(settings, inbox=inbox, user=console, view=view, gui=gui)
+    with session:
         stop_on_signals(inbox)
         try:
             if words is None and console:

@@ -1,6 +1,7 @@
 """How every command of the project begins and ends: its signals, streams and exit status."""
 
 import errno
+import gc
 import os
 import signal
 import sys
@@ -64,6 +65,7 @@ def entry_point(main: Callable[[Sequence[str] | None], int]) -> EntryPoint:
 
     @wraps(main)
     def ended(arguments: Sequence[str] | None = None) -> int:
+        gc.enable()
         with standard_streams(), on_stop_signals(_interrupt):
             try:
                 return _flushed(main, arguments)
@@ -78,6 +80,20 @@ def entry_point(main: Callable[[Sequence[str] | None], int]) -> EntryPoint:
                 return NOT_DONE
 
     return ended
+
+
+@contextmanager
+def all_is_kept() -> Iterator[None]:
+    """Python looks for no garbage meanwhile, nor later among what there is then: it is in use.
+
+    Looking takes a tenth of the time in which a program starts.
+    """
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @contextmanager

@@ -7,10 +7,11 @@ Quaternions are (x, y, z, w).
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:  # a quarter of the time that --help takes
+    import numpy as np
+    from numpy.typing import NDArray
 
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -335,8 +336,8 @@ class Frame:
     """
 
     number: int
-    color: NDArray[np.uint8]
-    depth: NDArray[np.float32]
+    color: "NDArray[np.uint8]"
+    depth: "NDArray[np.float32]"
     intrinsics: Intrinsics
     pose: Pose
 
@@ -351,7 +352,9 @@ class Box:
     height: int
 
 
-def _no_points() -> NDArray[np.float32]:
+def _no_points() -> "NDArray[np.float32]":
+    import numpy as np
+
     return np.empty((0, 3), dtype=np.float32)
 
 
@@ -371,8 +374,8 @@ class Detection:
     label: str
     confidence: float
     box: Box
-    mask: NDArray[np.bool_]
-    points: NDArray[np.float32] = field(default_factory=_no_points)
+    mask: "NDArray[np.bool_]"
+    points: "NDArray[np.float32]" = field(default_factory=_no_points)
     cut_off: bool = False
 
     @property
@@ -380,7 +383,9 @@ class Detection:
         """Middle of the visible surface in `map` (metres), or None before it is located."""
         if not len(self.points):
             return None
-        x, y, z = (float(v) for v in np.median(self.points, axis=0))
+        from numpy import median
+
+        x, y, z = (float(v) for v in median(self.points, axis=0))
         return x, y, z
 
 

@@ -73,13 +73,15 @@ class EnglishInterpreter:
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
-        said = self._reader.read(answer)
-        if said in (Answer(Choice.NO), Answer(Choice.UNKNOWN)):
+        if self._reader.declines(answer) or not self._reader.plain(answer).strip("?"):
             return True
-        return self._reader.declines(answer) or not self._reader.plain(answer).strip("?")
+        declining = (Answer(Choice.NO), Answer(Choice.UNKNOWN))
+        return self._reader.knows(answer) and self._reader.read(answer) in declining
 
     def agrees(self, answer: str) -> bool | None:
         """Whether an answer says yes or no; None if it says neither."""
+        if not self._reader.knows(answer):
+            return None
         said = self._reader.read(answer)
         if (agreed := agrees(said)) is not None or not isinstance(said, Unread | Request):
             return agreed
@@ -96,12 +98,10 @@ def named_in(command: Command) -> tuple[str, ...]:
 @cache
 def _is_read(name: str) -> bool:
     """Whether the grammar reads a name as one, without being told."""
-    plain = english().plain(name)
-    parts = plain.split()
-    if all(word.isalpha() and word not in english().vocabulary for word in parts):
+    if not english().knows(name):
         return True
     match english().read(f"find {name}"):
         case Request(tasks=(Task(verb=Verb.FIND, things=things, source=None, goal=None),)):
             assert things
-            return [thing.said for thing in things.members] == [plain]
+            return [thing.said for thing in things.members] == [english().plain(name)]
     return False

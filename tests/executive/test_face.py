@@ -53,6 +53,10 @@ def test_protocols_and_errors_come_without_simulator_or_model():
     assert loaded(f"from executive import {names}", heavy) == "[]"
 
 
+def test_what_help_needs_comes_without_numpy():
+    assert loaded("import executive.__main__", ("numpy", "cv2", "pybullet")) == "[]"
+
+
 def test_replay_is_a_function_of_its_own_package():
     from executive.replay import replay
 
