@@ -8,7 +8,16 @@ from py_trees.common import Status
 
 from executive.language.answers import picked
 from executive.language.wording import either
-from executive.types import PERSON, SOMETHING, Command, CommandKind, Question, QuestionKind, Source
+from executive.types import (
+    DELIVERY,
+    PERSON,
+    SOMETHING,
+    Command,
+    CommandKind,
+    Question,
+    QuestionKind,
+    Source,
+)
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
 from trees.person import NEXT_TO, NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
@@ -150,6 +159,8 @@ class GoalIsKnown(Step):
         if goal.lower() in TO_THE_PERSON:
             self.situation.request.goals = (PERSON,)
             return self.succeed(PERSON)
+        if things := neighbours(self.context):
+            return self._beside(things)
         named = goals_in(self.context)
         if not named:
             return self.fail(unknown(self.context))
@@ -159,6 +170,17 @@ class GoalIsKnown(Step):
         goes = self.situation.request.asks_to(CommandKind.GO)
         self.situation.request.goals = named if goes else best_first(self.context, named)
         return self.succeed(", ".join(self.situation.request.goals))
+
+    def _beside(self, things: Sequence[str]) -> Status:
+        """Beside a thing is on the furniture where that most likely is; say which that is."""
+        known = [place for thing in things for place in likely_places(self.context, thing)]
+        if not known:
+            return self.fail(unknown(self.context))
+        say = self.context.say
+        thing = next(t for t in things if known[0] in likely_places(self.context, t))
+        tell(self.context, f"As far as I know, {say.are(thing)} {say.at(known[0])}.")
+        self.situation.request.goals = (known[0],)
+        return self.succeed(known[0])
 
 
 class TakenFrom(Step):
@@ -270,6 +292,19 @@ def goal_words(context: MissionContext) -> str:
     return command.goal or alone
 
 
+def neighbours(context: MissionContext) -> tuple[str, ...]:
+    """The things beside one of which it is to be put: "next to the mug"."""
+    goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
+    thing = goal.removeprefix(NEXT_TO)
+    return () if goes or thing == goal else context.knowledge.objects_named(thing)
+
+
+def likely_places(context: MissionContext, thing: str) -> tuple[str, ...]:
+    """Where a thing is believed to be, or else belongs."""
+    believed = (*context.facts.places_of(thing), *context.knowledge.usual_places(thing))
+    return tuple(p for p in believed if p == DELIVERY or context.knowledge.has_place(p))
+
+
 def goals_in(context: MissionContext) -> tuple[str, ...]:
     """The places that the words for where to name; none if nothing can be put so."""
     goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
@@ -288,6 +323,8 @@ def unknown(context: MissionContext) -> str:
     """Why nobody knows where to, as a clause."""
     request, goal = context.situation.request, goal_words(context)
     goes = request.asks_to(CommandKind.GO)
+    if things := neighbours(context):
+        return f"I do not know where {context.say.are(things[0])}"
     if goal.startswith(BESIDE) and not goes:
         return f"I can put things on furniture, or in it, but not '{context.as_said(goal)}'"
     if goal:

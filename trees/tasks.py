@@ -5,13 +5,12 @@ from collections.abc import Iterator
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.situation import TAKEN_BACK
 from executive.types import MissionStatus
 from trees.attend import Attend
 from trees.context import MissionContext
 from trees.nodes import Selector
 from trees.order import begin_next
-
-TAKEN_BACK = "you took it back"
 
 
 class EachTask(Selector):

@@ -231,9 +231,10 @@ class Builder(Transformer[Token, Said]):
         return replace(task, verb=Verb.PUT) if task.goal else task
 
     def go(self, parts: list[Part]) -> Task:
-        """As in "go to the kitchen"."""
+        """As in "go to the kitchen"; "go back" is to the person."""
         task = _task(Verb.GO, parts, goes=True)
-        return task if task.goal else replace(task, goal=ME)
+        back = any(_is(p, "BACK") for p in parts)
+        return replace(task, goal=ME) if back and not task.goal else task
 
     def come(self, parts: list[Part]) -> Task:
         """As in "come here"."""
@@ -326,19 +327,25 @@ class Builder(Transformer[Token, Said]):
         return Again()
 
     def correction(self, parts: list[Part]) -> Correction:
-        """As in "no, the banana", "no, to the kitchen"."""
-        meant = next(p for p in parts if not isinstance(p, Token))
-        denies = any(_is(p, "NO", "NO_BUT") for p in parts)
-        match meant:
-            case From(place):
-                return Correction(source=place, denies=denies)
-            case To(place):
-                return Correction(goal=place, denies=denies)
-            case Where():
-                return Correction(place=meant, denies=denies)
-            case Request() | Things():
-                return Correction(meant, denies=denies)
-        raise Unfit(str(parts[0]))
+        """As in "no, the banana", "no, to the kitchen", "no, the mug from the desk"."""
+        said = [p for p in parts if not isinstance(p, Token)]
+        found: dict[str, Any] = {"denies": any(_is(p, "NO", "NO_BUT") for p in parts)}
+        for part in said:
+            match part:
+                case From(place):
+                    new = {"source": place}
+                case To(place):
+                    new = {"goal": place}
+                case Where():
+                    new = {"place": part}
+                case Request() | Things():
+                    new = {"meant": part}
+                case _:
+                    raise Unfit(str(parts[0]))
+            if new.keys() & found.keys():
+                raise Unfit(str(parts[0]))
+            found |= new
+        return Correction(**found)
 
     def not_that(self, parts: list[Part]) -> Correction:
         """As in "not the apple, the banana"."""

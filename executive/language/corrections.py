@@ -21,8 +21,9 @@ def corrected(said: Correction, at_hand: Command, words: str) -> Commands | str:
         return read or f"I do not understand '{words}'."
     if isinstance(said.meant, Request):
         return read
+    placed = _elsewhere(said, at_hand, words)
     return tuple(
-        tuple(replace(one, source=at_hand.source, goal=at_hand.goal) for one in group)
+        tuple(replace(one, source=placed.source, goal=placed.goal) for one in group)
         for group in read
     )
 

@@ -88,7 +88,7 @@ def test_a_signal_that_comes_as_all_is_done_ends_the_conversation(
     by: str, left: list[str], house: House
 ) -> None:
     def tell(text: str) -> None:
-        if text.startswith("The mug is at"):
+        if text.startswith("The mug is on"):
             house.inbox.post(StopRequested(by))
 
     house.session.parts.user.tell = tell  # type: ignore[method-assign]

@@ -155,6 +155,21 @@ def test_what_cannot_be_put_so_is_not_put_otherwise(serve: Serve, place: str) ->
     )
 
 
+def test_beside_a_thing_is_where_that_is_believed_to_be(serve: Serve) -> None:
+    session, world = serve()
+    session.run("The mug is on the sofa")
+    outcome = session.run("Put the hammer next to the mug")
+    assert "As far as I know, the mug is on the sofa." in told(session)
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "sofa")
+
+
+def test_beside_what_nobody_knows_it_is_asked_where_to(serve: Serve) -> None:
+    session, world = serve("on the desk", defaults=False)
+    outcome = session.run("Take the hammer from the shelf in the lobby and put it next to the mug")
+    assert "I do not know where the mug is. Where shall I put the hammer?" in told(session)
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "desk")
+
+
 def test_of_places_to_choose_from_any_will_do() -> None:
     run = put("Put the hammer on the sofa or desk", fault=without_room("desk"))
     assert end_of(run) == (MissionStatus.DONE, "sofa")

@@ -9,9 +9,11 @@ from talking import session_in, told
 from executive.events import Inbox
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
-from executive.types import DriveTo, Goal, MissionStatus, Pick, PutDown
+from executive.types import DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
 from executive.user import Oracle
 from kb.facts import FactStore
+from logs.questions.why import why, why_text
+from logs.recording.reader import Run as Recorded
 
 DONE, NOT_DONE = MissionStatus.DONE, MissionStatus.NOT_DONE
 
@@ -134,6 +136,26 @@ def test_where_the_thing_is_sends_the_robot_there(tmp_path: Path) -> None:
     session.close()
     assert session.folder
     assert replay(session.folder).parting is None
+
+
+def test_why_tells_what_was_heard_and_what_was_given_up_for_it(tmp_path: Path) -> None:
+    session, _ = session_in(tmp_path)
+    start = session.robot.start
+
+    def start_and_say(goal: Goal) -> int:
+        if goal == LookAt("shelf_lobby"):
+            session.inbox.hear("No, the scissors from the desk")
+        return start(goal)
+
+    session.robot.start = start_and_say  # type: ignore[method-assign]
+    session.run("Bring the hammer")
+    session.close()
+    assert session.folder
+    text = why_text(why(Recorded(session.folder)))
+    heard = "heard 'No, the scissors from the desk': All right: I bring the scissors"
+    assert heard in text, text
+    assert "look at shelf_lobby: given up  [person]" in text, text
+    assert "look at desk: seen there  [eyes]" in text, text
 
 
 def test_what_comes_too_late_is_kept_for_the_next(tmp_path: Path) -> None:
