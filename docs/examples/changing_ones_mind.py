@@ -14,8 +14,6 @@ from executive import Inbox, MissionStatus, Session, load_settings
 from executive.records import Record, Transforms
 from logs.recorder import Stamp
 
-WORLD = "physics"
-
 
 class Watching:
     """A Sink that watches where the robot goes, and says something once."""
@@ -46,7 +44,7 @@ class Watching:
 def main(runs: str = "runs") -> None:
     """Ask for one thing, and get the other."""
     inbox = Inbox()
-    settings = load_settings(world=WORLD, runs=Path(runs), llm="none", user="none")
+    settings = load_settings(runs=Path(runs), llm="none", user="none")
     person = Watching(inbox, "No, the scissors!")
     with Session(settings, inbox=inbox, sinks=[person]) as robot:
         robot.run("The scissors are on the desk")

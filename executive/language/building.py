@@ -330,6 +330,7 @@ class Builder(Transformer[Token, Said]):
         """As in "no, the banana", "no, to the kitchen", "no, the mug from the desk"."""
         said = [p for p in parts if not isinstance(p, Token)]
         found: dict[str, Any] = {"denies": any(_is(p, "NO", "NO_BUT") for p in parts)}
+        new: dict[str, Any]
         for part in said:
             match part:
                 case From(place):
