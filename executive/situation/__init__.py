@@ -1,6 +1,6 @@
 """What a mission knows so far, in parts: what behaviours read and write, and the log keeps."""
 
-from executive.situation.agenda import Agenda, Task
+from executive.situation.agenda import Agenda, Task, Whole
 from executive.situation.ending import Ending
 from executive.situation.hand import Hand, table
 from executive.situation.search import Consultation, candidates_from
@@ -13,6 +13,7 @@ __all__ = [
     "Hand",
     "Situation",
     "Task",
+    "Whole",
     "candidates_from",
     "table",
 ]

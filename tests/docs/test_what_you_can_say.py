@@ -8,7 +8,7 @@ import pytest
 from executive.language.grammar import EnglishInterpreter
 from executive.records import Utterance
 from executive.testing.bench import run_mission
-from executive.types import Command
+from executive.types import ALL, Command
 
 PAGE = Path(__file__).parents[2] / "docs" / "what-you-can-say.md"
 read = EnglishInterpreter()
@@ -27,10 +27,15 @@ def rows(title: str) -> list[tuple[str, str]]:
 
 
 def in_words(command: Command) -> str:
-    place = f" ({command.source})" if command.source else ""
+    number = {0: "", 1: "", ALL: "all"}.get(command.number, str(command.number))
+    but = f"but {' and '.join(command.exceptions)}" if command.exceptions else ""
+    place = f"({command.source})" if command.source else ""
     goal = f"→ {command.goal}" if command.goal else ""
-    what = f"{command.target}{place}"
-    return " ".join(filter(None, (command.kind.replace("_", " "), what, goal)))
+    kind = command.kind.replace("_", " ")
+    what = (kind, number, command.superlative, command.target, but, place, goal)
+    deed = " ".join(filter(None, what))
+    instead = f", else {in_words(command.unless)}" if command.unless else ""
+    return f"if so, {deed}{instead}" if command.conditional else deed
 
 
 @pytest.mark.parametrize(("words", "deed"), rows("it does"))

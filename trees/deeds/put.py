@@ -6,7 +6,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.situation import Situation, table
-from executive.types import FLOOR, CommandKind, Outcome
+from executive.types import FLOOR, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to
 from trees.deeds.fall import pick_up_again
@@ -20,6 +20,7 @@ class Put(Deed):
     """As in "Put the mug on the desk", "Take the mug to the kitchen"."""
 
     kind = CommandKind.PUT
+    did = "put"
     already = "The {object} is at {place} already."
     report = "I put {the_object} on {surface}."
 
@@ -44,7 +45,7 @@ class Put(Deed):
             Report("report", context, self.report),
         )
 
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It is on furniture that the goal names."""
         return whereabouts in outcome.goals
 
