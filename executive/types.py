@@ -67,6 +67,14 @@ class CommandKind(StrEnum):
     """Where it was taken from."""
     GO = "go", Meaning(searches=False, at_goal=True)
     """The robot itself, to the goal."""
+    COUNT = "count", Meaning(searches=False, ends_at=PERSON)
+    """How many there are."""
+    TELL = "tell", Meaning(searches=False, ends_at=PERSON)
+    """What is at a place."""
+    CHECK = "check", Meaning(searches=False, ends_at=PERSON)
+    """Whether a thing is there."""
+    CLEAR = "clear", Meaning(searches=False)
+    """A piece of furniture, of all that is seen on it: each thing goes where it belongs."""
 
     def __new__(cls, verb: str, means: Meaning = Meaning()) -> "CommandKind":
         """The verb itself is the value: it stands in recordings."""
@@ -113,8 +121,28 @@ class Command:
     """What it is for, by the words ("drink from"), which are in the target, too."""
     exceptions: tuple[str, ...] = ()
     """What is not meant: "anything but a banana"."""
+    number: int = 0
+    """How many things: `ALL` that there are; 0: as many as the target names."""
+    among: tuple[str, ...] = ()
+    """Names of which one is meant: "either the hammer or the drill"."""
+    superlative: str = ""
+    """Which of them by a measure: "biggest"; empty if that was not said."""
+    conditional: bool = False
+    """Whether it is to be done only if there is such a thing, or what is `sought` is so."""
+    sought: "Command | None" = None
+    """Of a condition: what is to be looked for first; None: the thing itself."""
+    unless: "Command | None" = None
+    """What is to be done instead if there is none; None: nothing."""
+
+    @property
+    def is_plural(self) -> bool:
+        """Whether several tasks have to be made of it, or one of several."""
+        several = self.number > 1 or self.number == ALL or bool(self.among)
+        return self.conditional or (several and self.kind.means.searches)
 
 
+ALL = -1
+"""As a number of things: each one that there is."""
 Commands = tuple[tuple[Command, ...], ...]
 """Tasks in the order in which they are to be done; those of one tuple inside in any order."""
 
@@ -150,6 +178,12 @@ class TaskOutcome:
     location: str | None
     goals: tuple[str, ...] = ()
     visited: tuple[str, ...] = ()
+    things: tuple[str, ...] = ()
+    """Of a question: the things that were seen, and are the answer to it."""
+    among: tuple[str, ...] = ()
+    """Of a question: the things that it was about."""
+    parts: "tuple[TaskOutcome, ...]" = ()
+    """Of a task with several things: what came of each that was begun."""
 
 
 @dataclass(frozen=True, slots=True)

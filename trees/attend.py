@@ -27,7 +27,7 @@ class Attend(Step):
 
     def _doing(self) -> str:
         """What the robot is doing, as a sentence."""
-        command = self.situation.request.command
+        command = self.situation.agenda.whole_of(self.situation.request.command)
         if command is None:
             return "I think about what you said."
         assert self.parent

@@ -36,7 +36,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
     """
     if why := too_long(words):
         return f"Sorry: {why}."
-    at_hand = context.situation.request.command
+    request, agenda = context.situation.request, context.situation.agenda
+    at_hand = agenda.whole_of(request.command)
     spoken = spoken_now(context.situation)
     said = context.interpreter.read(words)
     correction = as_correction(said)
@@ -105,8 +106,9 @@ def _add(context: MissionContext, commands: Commands | str | None, now: str) -> 
 
 
 def _take_back(context: MissionContext, at_hand: Command) -> str:
-    """Do not do it."""
-    context.situation.agenda.taken_back = True
+    """Do not do it, nor any part of it."""
+    context.situation.agenda.take_back()
+    context.situation.request.command = at_hand
     return f"Then I do not {in_one_sentence(context, at_hand)}."
 
 

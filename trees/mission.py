@@ -12,6 +12,7 @@ confirmed     named places    else ontology: its one    if gone, search    or pu
 
 from py_trees.behaviour import Behaviour
 
+from executive.situation import Situation
 from executive.types import PERSON
 from trees.act import act, without_a_search
 from trees.context import MissionContext
@@ -24,6 +25,7 @@ from trees.person import Apologise
 from trees.places import named_places
 from trees.robot import DriveBack
 from trees.search import eyes_for_it, search
+from trees.several import several
 from trees.tasks import EachTask
 from trees.understand import understand
 
@@ -40,7 +42,7 @@ def mission(context: MissionContext) -> Behaviour:
         stages(
             "serve",
             understand(context),
-            Check("about a thing to look for", context, lambda: meaning(situation).searches),
+            Check("about a thing to look for", context, lambda: is_about_one(situation)),
             resolve_object(context),
             *eyes_for_it(context),
             named_places(context),
@@ -50,9 +52,16 @@ def mission(context: MissionContext) -> Behaviour:
             act(context),
             Conclude("done", context),
         ),
+        several(context),
         *without_a_search(context),
         sequence("give up", come_back(context), Apologise("apologise", context)),
     )
+
+
+def is_about_one(situation: Situation) -> bool:
+    """Whether there is one thing to look for."""
+    assert situation.request.command
+    return meaning(situation).searches and not situation.request.command.is_plural
 
 
 def come_back(context: MissionContext) -> Behaviour:

@@ -41,13 +41,20 @@ class Builder(Transformer[Token, Said]):
     Args:
         numbers: what words for numbers and ordinals stand for.
         relations: which relation a preposition says.
+        superlatives: which measure a word like "biggest" is about.
     """
 
-    def __init__(self, numbers: dict[str, int], relations: dict[str, Relation]) -> None:
+    def __init__(
+        self,
+        numbers: dict[str, int],
+        relations: dict[str, Relation],
+        superlatives: dict[str, str],
+    ) -> None:
         """Take the words that have a value."""
         super().__init__()
         self._numbers = numbers
         self._relations = relations
+        self._superlatives = superlatives
 
     # --- things ---
 
@@ -64,7 +71,10 @@ class Builder(Transformer[Token, Said]):
     def noun(self, parts: list[Part]) -> Thing:
         """As in "box of sugar", "tool for nails"."""
         name = " ".join(p for p in parts if type(p) is str or _is(p, "OF", "POSE"))
-        return Thing(name, purpose=_purpose(parts, "USE"), said=_said(parts))
+        first, _, rest = name.partition(" ")
+        most = self._superlatives.get(first, "")
+        words = rest if most else name
+        return Thing(words, purpose=_purpose(parts, "USE"), superlative=most, said=_said(parts))
 
     def thing(self, parts: list[Part]) -> Thing:
         """As in "the two mugs but not the red one"."""

@@ -6,8 +6,7 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-ALL = -1
-"""As a number of things: each one that there is."""
+from executive.types import ALL as ALL  # as a number of things
 
 
 class Verb(StrEnum):
@@ -70,6 +69,7 @@ class Thing:
         other: another one than before.
         exceptions: what it is not to be: "anything but a banana".
         definite: "the mug" is a certain one, "a mug" is any.
+        superlative: which of them by a measure: "biggest"; empty if that was not said.
         said: all of this as it was said, but for articles and exceptions: "two mugs".
     """
 
@@ -80,6 +80,7 @@ class Thing:
     other: bool = False
     exceptions: tuple["Thing", ...] = ()
     definite: bool = False
+    superlative: str = ""
     said: str = field(default="", compare=False)
 
 

@@ -109,7 +109,8 @@ def english(names: tuple[str, ...] = ()) -> Reader:
 
 def _builder(words: dict[str, Any]) -> Builder:
     relations = {said: Relation(name) for name, all_ in words["relations"].items() for said in all_}
-    return Builder(words["numbers"], relations)
+    most = {said: name for name, all_ in words["superlatives"].items() for said in all_}
+    return Builder(words["numbers"], relations, most)
 
 
 def _parser(grammar: str, **terminals: str) -> Lark:

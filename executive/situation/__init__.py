@@ -1,6 +1,6 @@
 """What a mission knows so far, in parts: what behaviours read and write, and the log keeps."""
 
-from executive.situation.agenda import Agenda, Task
+from executive.situation.agenda import Agenda, Task, Whole
 from executive.situation.ending import TAKEN_BACK, Ending
 from executive.situation.hand import Hand
 from executive.situation.search import Consultation, candidates_from
@@ -14,5 +14,6 @@ __all__ = [
     "Hand",
     "Situation",
     "Task",
+    "Whole",
     "candidates_from",
 ]

@@ -24,6 +24,7 @@ from executive.situation.model import ModelUse
 from executive.situation.request import Request
 from executive.situation.search import Search
 from executive.situation.snapshot import PART, snapshot
+from executive.situation.survey import Survey
 from executive.types import Command, MissionStatus, Outcome, Replied, Scored, TaskOutcome
 
 NOT_BEGUN = "I did not get to it"
@@ -40,6 +41,7 @@ class Situation:
     agenda: Agenda = field(default_factory=Agenda, metadata=PART)
     request: Request = field(default_factory=Request, metadata=PART)
     search: Search = field(default_factory=Search, metadata=PART)
+    survey: Survey = field(default_factory=Survey, metadata=PART)
     hand: Hand = field(default_factory=Hand, metadata=PART)
     dialogue: Dialogue = field(default_factory=Dialogue, metadata=PART)
     model: ModelUse = field(default_factory=ModelUse, metadata=PART)
@@ -86,22 +88,23 @@ class Situation:
         held = Hand(in_hand=hand.in_hand, felt=hand.felt, reached_for=hand.reached_for)
         _renew(self.request, Request(self.request.words, command))
         _renew(self.search, Search())
+        _renew(self.survey, Survey())
         _renew(hand, held)
         _renew(self.ending, Ending(restless=self.ending.restless))
         self.dialogue.no_help = ""
 
     def end_task(self) -> None:
-        """What came of the task at hand is settled, if there is one."""
-        if self.request.command:
-            self.agenda.ended.append(self._of_task(self.request.command))
+        """What came of the task at hand is settled, if there is one that is not done in parts."""
+        if self.request.command and not self._is_split:
+            self.agenda.end(self._of_task(self.request.command))
 
     def conclude(self) -> None:
-        """Settle how the whole ended, if there were several tasks: done if all of them were."""
+        """Settle how the whole ended, if there was more than one task: done if all of them were."""
         ended = self.agenda.ended
-        if len(ended) > 1:
+        if len(ended) > 1 or any(task.parts for task in ended):
             all_done = all(task.status == MissionStatus.DONE for task in ended)
             self.ending.status = MissionStatus.DONE if all_done else MissionStatus.NOT_DONE
-            self.ending.reason = task_by_task(ended)
+            self.ending.reason = task_by_task(ended) if len(ended) > 1 else ended[0].reason
 
     @property
     def has_it(self) -> bool:
@@ -124,11 +127,15 @@ class Situation:
 
     def outcome(self, *, mission_time_s: float, wall_time_s: float, run_dir: str | None) -> Outcome:
         """The mission's result."""
-        command, found = self.request.command, self.search.found
+        found = self.search.found
+        if self.ending.decided and self.agenda.ended:  # its last part is none of what was said
+            last: Command | TaskOutcome | None = self.agenda.ended[-1]
+        else:
+            last = self.request.command
         return Outcome(
             command=self.request.words,
-            kind=command.kind if command else None,
-            target=command.target if command else None,
+            kind=last.kind if last else None,
+            target=last.target if last else None,
             object=self.request.object,
             status=self.ending.status,
             reason=self.ending.why,
@@ -162,12 +169,18 @@ class Situation:
             yield TaskOutcome(kind, target, None, self.ending.status, NOT_BEGUN, None)
 
     @property
+    def _is_split(self) -> bool:
+        """Whether the task at hand is done in parts, none of which was begun yet."""
+        wholes = self.agenda.wholes
+        return bool(wholes) and wholes[-1].command is self.request.command
+
+    @property
     def _is_at_hand(self) -> bool:
         """Whether a task was begun that has not ended."""
         return self.request.command is not None and not self.ending.decided
 
     def _of_task(self, command: Command) -> TaskOutcome:
-        found = self.search.found
+        found, answers = self.search.found, not command.kind.means.searches
         return TaskOutcome(
             kind=command.kind,
             target=command.target,
@@ -177,6 +190,8 @@ class Situation:
             location=found.place if found else None,
             goals=self.request.goals,
             visited=tuple(self.search.looks.visited),
+            things=tuple(self.survey.found) if answers else (),
+            among=(self.survey.about or ()) if answers else (),
         )
 
 

@@ -143,11 +143,11 @@ def _llm_calls(run: Run) -> Iterator[Row]:
 
 _STRINGS = pa.list_(pa.string())
 _CANDIDATE = {"place": pa.string(), "source": pa.string(), "probability": pa.float64()}
-_TASK = {
+_PART = {
     **dict.fromkeys(("kind", "target", "object", "status", "reason", "location"), pa.string()),
-    "goals": _STRINGS,
-    "visited": _STRINGS,
+    **dict.fromkeys(("goals", "visited", "things", "among"), _STRINGS),
 }
+_TASK = {**_PART, "parts": pa.list_(pa.struct(_PART))}
 _VERIFIED = {
     "label": pa.string(),
     "accepted": _STRINGS,

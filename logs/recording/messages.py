@@ -274,10 +274,13 @@ def finished_to_fields(finished: Finished) -> dict[str, Any]:
             {"place": c.place, "source": c.source, "probability": c.probability}
             for c in outcome.candidates
         ],
-        "tasks": [
-            {name: getattr(task, name) for name in TaskOutcome.__slots__} for task in outcome.tasks
-        ],
+        "tasks": list(map(_task_to_fields, outcome.tasks)),
     }
+
+
+def _task_to_fields(task: TaskOutcome) -> dict[str, Any]:
+    fields = {name: getattr(task, name) for name in TaskOutcome.__slots__}
+    return {**fields, "parts": list(map(_task_to_fields, task.parts))}
 
 
 def finished_from_message(message: Any) -> Finished:
@@ -324,6 +327,9 @@ def _task(message: Any) -> TaskOutcome:
         location=_optional(message, "location"),
         goals=tuple(message.goals),
         visited=tuple(message.visited),
+        things=tuple(message.things),
+        among=tuple(message.among),
+        parts=tuple(map(_task, message.parts)),
     )
 
 

@@ -137,6 +137,9 @@ OUTCOME: Definitions = {
         "location": "optional string",
         "goals": "repeated string",
         "visited": "repeated string",
+        "things": "repeated string",
+        "among": "repeated string",
+        "parts": "repeated TaskOutcome",
     },
     "Outcome": {
         **STAMPED,

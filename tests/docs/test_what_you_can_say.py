@@ -11,7 +11,7 @@ from executive.language.grammar import EnglishInterpreter
 from executive.language.spoken import NOTHING, after
 from executive.records import Utterance
 from executive.testing.bench import run_mission
-from executive.types import Command, Goal
+from executive.types import ALL, Command, Goal
 from kb.facts import FactStore
 
 PAGE = Path(__file__).parents[2] / "docs" / "what-you-can-say.md"
@@ -31,12 +31,15 @@ def rows(title: str, begins: str = "say") -> list[tuple[str, str]]:
 
 
 def in_words(command: Command) -> str:
-    """As the page has it."""
-    place = f" ({command.source})" if command.source else ""
-    but = "".join(f", not {name}" for name in command.exceptions)
+    number = {0: "", 1: "", ALL: "all"}.get(command.number, str(command.number))
+    but = f"but {' and '.join(command.exceptions)}" if command.exceptions else ""
+    place = f"({command.source})" if command.source else ""
     goal = f"→ {command.goal}" if command.goal else ""
-    what = f"{command.target}{place}{but}"
-    return " ".join(filter(None, (command.kind.replace("_", " "), what, goal)))
+    kind = command.kind.replace("_", " ")
+    what = (kind, number, command.superlative, command.target, but, place, goal)
+    deed = " ".join(filter(None, what))
+    instead = f", else {in_words(command.unless)}" if command.unless else ""
+    return f"if so, {deed}{instead}" if command.conditional else deed
 
 
 @pytest.mark.parametrize(("words", "deed"), rows("it does"))

@@ -62,10 +62,10 @@ def test_what_is_to_go_somewhere_is_put_there(words: str) -> None:
 
 def test_a_campaign_knows_whether_it_is_there() -> None:
     outcome = put("Put the hammer in the bedroom").outcome
-    assert completed(outcome, "desk")
-    assert completed(outcome, "bed")
-    assert not completed(outcome, "sofa")
-    assert not completed(outcome, HAND)
+    assert completed(outcome, lambda name: "desk")
+    assert completed(outcome, lambda name: "bed")
+    assert not completed(outcome, lambda name: "sofa")
+    assert not completed(outcome, lambda name: HAND)
 
 
 def test_in_a_room_it_is_put_where_that_is_easiest_and_else_on_other_furniture_there() -> None:

@@ -114,6 +114,24 @@ def test_what_is_taken_back_is_not_done(heard: str) -> None:
     assert not any(isinstance(goal, Pick | PutDown) for goal in mission.goals)
 
 
+@pytest.mark.parametrize(
+    ("heard", "kinds", "told"),
+    [
+        ("No, the hammer", [("bring", "hammer", DONE)], "I bring the hammer instead."),
+        ("Do not bring them", [("bring", None, NOT_DONE)], "Then I do not bring"),
+    ],
+)
+def test_what_is_done_in_parts_is_corrected_as_a_whole(
+    heard: str, kinds: list[tuple[str, str | None, str]], told: str
+) -> None:
+    mission = run("Bring two fruits", heard)
+    assert [(kind, status) for kind, _, status in tasks(mission)] == [
+        (kind, status) for kind, _, status in kinds
+    ]
+    assert any(told in answer for answer in answers(mission))
+    assert mission.world.held is None
+
+
 def test_the_others_are_done_if_one_is_taken_back() -> None:
     mission = run("Bring the hammer. Then find the power drill.", "Do not bring it")
     assert tasks(mission) == [("bring", "hammer", NOT_DONE), ("find", "power_drill", DONE)]

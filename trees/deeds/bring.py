@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
 
-from executive.types import DELIVERY, FLOOR, CommandKind, Outcome
+from executive.types import DELIVERY, FLOOR, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.deeds.fall import SayItFell, pick_up_again
@@ -18,6 +18,7 @@ class Bring(Deed):
     """As in "Bring me the mug"."""
 
     kind = CommandKind.BRING
+    did = "brought"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
         """It may be on the delivery table already."""
@@ -30,7 +31,7 @@ class Bring(Deed):
         )
         yield sequence("bring", asked_to(context, self.kind), deliver(context), say_where(context))
 
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It is on the delivery table."""
         return whereabouts == DELIVERY
 

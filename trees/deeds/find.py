@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
 
-from executive.types import PERSON, CommandKind, Outcome
+from executive.types import PERSON, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.nodes import sequence
@@ -16,6 +16,7 @@ class Find(Deed):
     """As in "Where is the mug?"."""
 
     kind = CommandKind.FIND
+    did = "found"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
         """Come back with the news."""
@@ -27,7 +28,7 @@ class Find(Deed):
             Report("report", context, "{The_object} {is_} {at}."),
         )
 
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """The robot went to the furniture that it names, and the thing is there."""
         return whereabouts == outcome.location and whereabouts in outcome.visited
 

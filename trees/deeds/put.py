@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import FLOOR, CommandKind, Outcome
+from executive.types import FLOOR, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to
 from trees.deeds.fall import pick_up_again
@@ -19,6 +19,7 @@ class Put(Deed):
     """As in "Put the mug on the desk", "Take the mug to the kitchen"."""
 
     kind = CommandKind.PUT
+    did = "put"
     already = "{The_object} {is_} {at} already."
     report = "I put {the_object} {put}."
 
@@ -43,7 +44,7 @@ class Put(Deed):
             Report("report", context, self.report),
         )
 
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It is on furniture that the goal names."""
         return whereabouts in outcome.goals
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import DELIVERY, HAND, HELD, SOMETHING, CommandKind, Outcome
+from executive.types import DELIVERY, HAND, HELD, SOMETHING, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
@@ -30,7 +30,7 @@ class PutDown(Deed):
             Conclude("done", context),
         )
 
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It is on some furniture."""
         return whereabouts not in (HAND, "")
 

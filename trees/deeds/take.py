@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
 
-from executive.types import HAND, CommandKind, Outcome
+from executive.types import HAND, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.nodes import Check, sequence
@@ -15,6 +15,7 @@ class Take(Deed):
     """As in "Take the mug"."""
 
     kind = CommandKind.TAKE
+    did = "took"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
         """It is in the hand already."""
@@ -26,7 +27,7 @@ class Take(Deed):
             Report("report", context, "I took {the_object} from {place} and hold {it}."),
         )
 
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It is in the hand."""
         return whereabouts == HAND
 
