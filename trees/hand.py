@@ -10,7 +10,7 @@ from trees.deeds.put_down import go_and_put, put_down_somewhere
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.person import full_hand
 from trees.places import taken_from
-from trees.telling import tell
+from trees.telling import sentence, tell
 
 
 def hand_is_free(context: MissionContext) -> Behaviour:
@@ -38,6 +38,7 @@ def hand_is_free(context: MissionContext) -> Behaviour:
                 ),
             ),
         ),
+        FellOut("it fell", context),
         HandStaysFull("not free", context),
     )
 
@@ -84,11 +85,24 @@ class SayWhatFirst(Step):
         return self.succeed(said)
 
 
+class FellOut(Step):
+    """Succeeds if what was held fell, and says so: the hand is free by that.
+
+    Reads hand.in_hand and hand.lost.
+    """
+
+    def update(self) -> Status:
+        """Nobody wants it now."""
+        if self.situation.hand.in_hand is not None:
+            return Status.FAILURE
+        tell(self.context, sentence(self.situation.hand.lost or "It fell from my hand"))
+        return self.succeed()
+
+
 class HandStaysFull(Step):
     """Says why the hand is not free; always fails."""
 
     def update(self) -> Status:
-        """There was no room for what it holds, or it fell."""
-        held, why = self.situation.hand.in_hand, self.why_before()
-        held_still = f"{why}; I still hold {self.context.say.the(held)}" if held else why
-        return self.fail(held_still)
+        """There was no room for what it holds."""
+        held, why = self.situation.hand.in_hand or "", self.why_before()
+        return self.fail(f"{why}; I still hold {self.context.say.the(held)}")

@@ -174,6 +174,23 @@ class Visit(DriveToCandidate):
         return super().ended(result)
 
 
+class ComeToRest(RobotAction):
+    """Stands still, so that the fingers tell what was got hold of; always fails: then one goes on.
+
+    Reads and writes agenda.unsettled.
+    """
+
+    def goal(self) -> Goal:
+        """Do nothing."""
+        return Halt()
+
+    def ended(self, result: Result) -> Status:
+        """What the hand holds is known by now."""
+        self.situation.agenda.unsettled = False
+        super().ended(result)
+        return Status.FAILURE
+
+
 class DriveBack(RobotAction):
     """Goes to where things are asked for or delivered: `person` or `delivery`.
 

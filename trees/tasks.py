@@ -5,12 +5,14 @@ from collections.abc import Iterator
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.records import Activity
 from executive.situation import TAKEN_BACK
 from executive.types import MissionStatus
 from trees.attend import Attend
 from trees.context import MissionContext
-from trees.nodes import Selector
+from trees.nodes import Action, Check, Selector, sequence
 from trees.order import begin_next
+from trees.robot import ComeToRest
 
 
 class EachTask(Selector):
@@ -25,7 +27,7 @@ class EachTask(Selector):
     def __init__(self, name: str, context: MissionContext, *ways: Behaviour) -> None:
         """`ways` are what is tried for each task, until one succeeds; the last one always does."""
         self._attend = Attend("hear", context)
-        super().__init__(name, memory=True, children=[self._attend, *ways])
+        super().__init__(name, memory=True, children=[self._attend, stand_still(context), *ways])
         self._context = context
 
     def tick(self) -> Iterator[Behaviour]:
@@ -52,6 +54,7 @@ class EachTask(Selector):
         """Give up the task at hand; whether there is another."""
         situation = self._context.situation
         agenda = situation.agenda
+        agenda.unsettled |= any(map(_handles, self.iterate()))
         self.stop(Status.INVALID)
         if instead := agenda.instead:
             agenda.instead, agenda.taken_back = None, False
@@ -65,3 +68,17 @@ class EachTask(Selector):
             return True
         situation.conclude()
         return False
+
+
+def stand_still(context: MissionContext) -> Behaviour:
+    """Of what was given up in the middle of a grasp, the fingers know more at rest."""
+    agenda = context.situation.agenda
+    return sequence(
+        "stand still",
+        Check("it was handling something", context, lambda: agenda.unsettled),
+        ComeToRest("come to rest", context),
+    )
+
+
+def _handles(node: Behaviour) -> bool:
+    return isinstance(node, Action) and node.is_under_way and node.activity == Activity.HANDLING

@@ -64,6 +64,8 @@ class Agenda:
     """What is to be done at once in place of the task at hand; None for nothing."""
     taken_back: bool = False
     """Whether the task at hand is not to be done after all."""
+    unsettled: bool = False
+    """Whether the robot was handling something when the task was given up."""
     _groups: int = field(default=0, metadata=NOT_LOGGED)
 
     def add(self, commands: Iterable[tuple[Command, ...]]) -> None:

@@ -16,13 +16,15 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
+
+from interrupting import Interrupting
 from progress import measure
 
 from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import THE_PERSON, Event, Heard, Inbox, StopRequested
-from executive.interfaces import Clock
 from executive.records import Record, Transforms
 from executive.types import MissionStatus
 from logs.recorder import Stamp
@@ -32,34 +34,6 @@ THINGS = ("hammer", "power_drill", "scissors", "mustard_bottle", "sugar_box", "b
 KINDS = ("find", "take", "bring")
 LATEST_S = {"fake": 20.0, "physics": 40.0}
 """Until when something is said (mission time)."""
-
-
-class Interrupting:
-    """A Clock at which something happens at a certain time."""
-
-    def __init__(self, clock: Clock, inbox: Inbox, time_s: float, event: Event) -> None:
-        """Post the event then, once."""
-        self._clock, self._inbox = clock, inbox
-        self._time_s, self._event = time_s, event
-        self.interrupted = False
-
-    def now(self) -> float:
-        """As ever."""
-        return self._clock.now()
-
-    def restart(self) -> None:
-        """As ever."""
-        self._clock.restart()
-
-    def wait(self, deadline: float | None) -> None:
-        """No longer than until then."""
-        if self.interrupted:
-            self._clock.wait(deadline)
-            return
-        self._clock.wait(self._time_s if deadline is None else min(deadline, self._time_s))
-        if self.now() >= self._time_s:
-            self.interrupted = True
-            self._inbox.post(self._event)
 
 
 class Way:

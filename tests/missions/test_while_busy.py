@@ -1,12 +1,18 @@
 """What is said while the robot is at something is answered at once, and the tree goes by it."""
 
+import io
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from interrupting import Interrupting
 from talking import session_in, told
 
-from executive.events import Inbox
+from executive.app.parts import Parts
+from executive.app.session import Session
+from executive.config import load_settings
+from executive.events import Heard, Inbox
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
 from executive.types import DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
@@ -51,6 +57,25 @@ def test_a_correction_takes_the_place_of_the_task_at_any_moment(at: int) -> None
     assert "All right: I bring the power drill instead." in answers(mission)
     assert mission.world.resting_place("power_drill") == "delivery"
     assert mission.world.resting_place("hammer") == "shelf_lobby"
+
+
+@pytest.mark.physics
+def test_what_was_half_taken_in_physics_is_put_away_first(tmp_path: Path) -> None:
+    inbox, clocks = Inbox(), []
+
+    def change(parts: Parts) -> Parts:
+        clocks.append(Interrupting(parts.clock, inbox, 24.1, Heard("No, the power drill")))
+        return replace(parts, clock=clocks[0])
+
+    settings = load_settings(
+        world="physics", llm="none", user="none", camera_hz=0.0, detector="simulated", runs=tmp_path
+    )
+    with Session(settings, inbox=inbox, change=change, out=io.StringIO()) as session:
+        outcome = session.run("Bring the hammer")
+        held = session.world.resting_place("hammer") if session.world else None
+    assert clocks[0].interrupted
+    assert (outcome.status, outcome.object) == (DONE, "power_drill"), outcome.reason
+    assert held is not None
 
 
 def test_a_correction_counts_from_where_the_robot_is() -> None:
