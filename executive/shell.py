@@ -33,6 +33,8 @@ class EntryPoint(Protocol):
         ...
 
 
+_at_leave: list[Callable[[], None]] = []
+
 _is_program = False
 """Whether the process is ours, and not one that calls a `main`."""
 
@@ -56,6 +58,7 @@ def begin() -> None:
 def end_at_once(number: int, frame: FrameType | None) -> None:
     """What a signal does while nothing is under way that must be ended in order."""
     if _is_program:
+        _put_in_order()
         os._exit(STOPPED)
     raise KeyboardInterrupt
 
@@ -109,11 +112,23 @@ def on_stop_signals(handler: Handler) -> Iterator[None]:
 
 def leave(status: int) -> None:
     """End the process now, whatever its threads do; what was printed is written first."""
+    _put_in_order()
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             with suppress(OSError, ValueError):
                 stream.flush()
     os._exit(status)
+
+
+def at_leave(action: Callable[[], None]) -> None:
+    """Have this done before the process ends: the terminal is put in order."""
+    _at_leave.append(action)
+
+
+def _put_in_order() -> None:
+    while _at_leave:
+        with suppress(Exception):
+            _at_leave.pop()()
 
 
 def leave_within(seconds: float, status: int) -> None:

@@ -26,6 +26,8 @@ from executive.types import (
 )
 from trees.context import MissionContext
 from trees.nodes import UNSAID, Action, why_of
+from trees.progress import on_the_way, on_to_the_next
+from trees.telling import tell
 
 
 class BodyAction(Action):
@@ -82,8 +84,14 @@ class RobotAction(BodyAction):
     def goal(self) -> Goal:
         """What to pursue."""
 
+    def progress(self) -> str:
+        """What to tell the person when it begins, who cannot see it; empty if that is known."""
+        return ""
+
     def start(self) -> int:
-        """Hand the goal to the robot."""
+        """Hand the goal to the robot, and tell the person."""
+        if said := self.progress():
+            tell(self.context, said)
         self._goal = self.goal()
         self.feedback_message = _in_words(self._goal)
         self.situation.ending.restless = True
@@ -163,8 +171,12 @@ class DriveToCandidate(RobotAction):
 class Visit(DriveToCandidate):
     """Goes to a place for the first time: it counts as visited if it is reached.
 
-    Reads search.candidate; writes search.looks.
+    Reads search.candidate and search.looks; writes search.looks.
     """
+
+    def progress(self) -> str:
+        """The first place was announced; of the next ones, say why."""
+        return on_to_the_next(self.context)
 
     def ended(self, result: Result) -> Status:
         """Count only a place that was reached."""
@@ -203,6 +215,10 @@ class DriveBack(RobotAction):
         """Name the place."""
         super().__init__(name, context)
         self._place = place
+
+    def progress(self) -> str:
+        """Say what comes of it."""
+        return on_the_way(self.context, self._place)
 
     def goal(self) -> Goal:
         """Drive there."""
@@ -387,6 +403,10 @@ class DriveToSurface(RobotAction):
 
     activity = Activity.DRIVING
 
+    def progress(self) -> str:
+        """Say where to."""
+        return on_the_way(self.context, self.situation.hand.surface)
+
     def goal(self) -> Goal:
         """Drive there; the person is not there."""
         self.situation.dialogue.away = True
@@ -400,6 +420,10 @@ class DriveToGoal(RobotAction):
     """
 
     activity = Activity.DRIVING
+
+    def progress(self) -> str:
+        """Say where to."""
+        return on_the_way(self.context, self.situation.request.goal)
 
     def goal(self) -> Goal:
         """Drive there."""

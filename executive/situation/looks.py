@@ -59,10 +59,16 @@ class Looks:
         some = "saw only a part of" if self._without.get(place) else "could not look at"
         return f"I {some} {say.the(place)}: {self.unseen[place]}"
 
+    def why_not(self, thing: str, place: str, say: Wording) -> str:
+        """Why it is not known whether the thing is at a place, as a clause."""
+        if why := self.unreached.get(place):
+            return f"I could not get to {say.the(place)}: {why}"
+        return self.why_not_all(thing, place, say)
+
     def clauses(self, thing: str, say: Wording) -> Iterator[str]:
         """What the search came to, at most a clause for each place."""
         there = [p for p in dict.fromkeys(self.visited) if p not in self.unreached]
         if seen := [place for place in there if self.all_without(place)]:
             yield f"I did not find {say.the(thing)} {either(say.at_each(seen))}"
-        yield from (self.why_not_all(thing, p, say) for p in there if not self.all_without(p))
-        yield from (f"I could not get to {say.the(p)}: {why}" for p, why in self.unreached.items())
+        others = (p for p in there if not self.all_without(p))
+        yield from (self.why_not(thing, place, say) for place in (*others, *self.unreached))
