@@ -27,6 +27,10 @@ class ModelAction(Action):
         self.advice: Advice = context.advice
         self._began: float | None = None
 
+    def doing(self) -> str:
+        """It thinks."""
+        return "ask the language model"
+
     def initialise(self) -> None:
         """Mark the time, and start."""
         self._began = self.context.clock.now()

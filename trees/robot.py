@@ -192,6 +192,8 @@ class ComeToRest(RobotAction):
     Reads and writes agenda.unsettled.
     """
 
+    activity = Activity.HANDLING
+
     def goal(self) -> Goal:
         """Do nothing."""
         return Halt()
@@ -457,6 +459,11 @@ class SeeTarget(BodyAction):
         """`closer`, a part of the thing is enough."""
         super().__init__(name, context)
         self._closer = closer
+
+    def doing(self) -> str:
+        """It sees."""
+        candidate = self.situation.search.candidate
+        return f"look {self.context.say.at(candidate.place)}" if candidate else ""
 
     def start(self) -> int:
         """Look."""
