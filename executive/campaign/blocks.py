@@ -93,6 +93,7 @@ class _Rest:
     def __init__(self, block: Block) -> None:
         self._recorded = block.recorded
         self._settings = block.settings_used
+        self._question_s = block.settings.question_s  # for all policies, whatever they set
         self._policy_name = block.policy
         self._policy = policy_named(block.policy)
         self._inbox = Inbox()
@@ -117,7 +118,9 @@ class _Rest:
         ) as session:
             world = truth_of(session)
             try:
-                row = _row(turn, key, session.run(key.command), session, world, observed)
+                row = _row(
+                    turn, key, session.run(key.command), session, world, observed, self._question_s
+                )
             except Exception as error:
                 row = crash(turn, key, error, str(session.folder or ""))
                 self._inbox.take_all()  # what the broken mission left
@@ -164,6 +167,7 @@ def _row(
     session: Session,
     world: SimulatedHome,
     observed: Observed,
+    question_s: float,
 ) -> Row:
     truth = whereabouts(outcome.object or "", world)
     routes = routes_in(session.settings.home)
@@ -198,6 +202,8 @@ def _row(
         handling_s=round(observed.seconds["handling"], 3),
         mission_time_s=outcome.mission_time_s,
         wall_time_s=outcome.wall_time_s,
+        search_s=round(observed.searching_s, 3),
+        cost_s=round(observed.searching_s + question_s * outcome.inquiries, 3),
         path_m=round(observed.path_m(leg_m), 3),
         shortest_m=round(shortest_m(outcome, parts.home, routes), 3),
         model=parts.model.name if parts.model else "",

@@ -14,6 +14,7 @@ from executive.records import (
     Mishap,
     Note,
     Picture,
+    Planned,
     PlannedPath,
     Record,
     Scene,
@@ -25,6 +26,7 @@ from executive.records import (
     TreeShape,
     Utterance,
     Verified,
+    WaysTold,
 )
 from executive.types import Frame, Intrinsics
 from logs.images import jpeg_scaled
@@ -109,6 +111,12 @@ class RerunSink:
             case SourceAnswer(source, thing, places):
                 where = ", ".join(places) or "not known"
                 text = f"{source}: {thing}: {where}"
+                self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
+            case Planned():
+                self._candidates.plan(record)
+                self._stream.log(blueprint.LOG, rr.TextLog(record.text, level="INFO"))
+            case WaysTold(start, places):
+                text = f"ways from {start} to {', '.join(places)}"
                 self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
             case Mishap(fault, text):
                 self._stream.log(blueprint.LOG, rr.TextLog(f"{fault}: {text}", level="WARN"))

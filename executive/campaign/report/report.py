@@ -92,6 +92,7 @@ def report(
         parts += [Heading(heading), tables.measure(found, title), *plots.get(title, ())]
         parts += [tables.differences(found, title)]
     parts += plots.get("distributions", ())
+    parts += [Heading("What the search cost"), Text(SEARCHING), tables.searching(found)]
     parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
     if len(found) > 1:
         parts += [Heading("Policies, homes and models compared"), Text(COMPARED)]
@@ -111,6 +112,12 @@ def not_counted(rows: Sequence[Row]) -> str:
         f"{'is' if len(rows) == 1 else 'are'} not counted; run again to try them."
     )
 
+
+SEARCHING = (
+    "Search: the seconds of going to places and looking there. Cost: the same, and for each "
+    "question to the person its price, the setting question_s. Stars: the cost differs from that "
+    "of the first variant in the same condition, by command, Holm-corrected over the variants."
+)
 
 COMPARED = (
     "Stars: the difference from the first variant in the same condition, by command, Holm-"
