@@ -121,7 +121,8 @@ class Ordered(Ranker):
         request = super().ranking(name, among)
         words = dict(zip(request.places, request.options, strict=True))
         places = tuple(self._order(name, request.places))
-        return replace(request, places=places, options=tuple(words[place] for place in places))
+        options = tuple(words[place] for place in places)
+        return replace(request, places=places, options=options, place_kinds=())
 
 
 def nearest(parts: Parts) -> Order:
