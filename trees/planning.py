@@ -18,9 +18,13 @@ from trees.person import SAYS, AskWhere, tell
 
 MOST_PLANNED = 60
 """Among so many places it is planned, the likeliest; the others come in when those are done."""
+WORTH_TELLING = 0.01
+"""What is less likely is no candidate, unless it is next."""
 MOST_TOLD = 3
 """So many places the person is told of at once."""
 NOBODY_SAYS = "it may be anywhere"
+USUALLY = "it is usually there"
+"""Where the ontology has several default locations."""
 
 
 class Ways:
@@ -66,12 +70,13 @@ class PlanNext(Step):
         self.context.recorder.record(planned(self.situation.request.object or "", plan, belief))
         if plan.is_over or plan.asks:
             return self.fail(said)
-        likely = [belief.of(place) for place in plan.order]
+        first, *others = (belief.of(place) for place in plan.order)
+        likely = [first, *(other for other in others if other.probability >= WORTH_TELLING)]
         search = self.situation.search
         search.candidates = tuple(Candidate(o.place, o.source, o.probability) for o in likely)
         search.candidate = search.candidates[0]
         whereabouts.named.discard(search.candidate.place)
-        return self.succeed(str(likely[0]))
+        return self.succeed(str(first))
 
     def _plan(self, belief: Belief) -> Plan:
         search, parameters = self.situation.search, self.context.parameters
@@ -176,6 +181,8 @@ class TellWhere(Step):
     def _tell(self, places: tuple[str, ...], source: str) -> None:
         own = {source.name: source.says for source in self.context.sources}
         says = {**SAYS, ANYWHERE: NOBODY_SAYS, **own}
+        if self.situation.search.default_locations:
+            says[Source.ONTOLOGY] = USUALLY
         why = printable(says.get(source, f"so says the {source}"))
         where = ", then ".join(places)
         tell(self.context, f"I look for the {self.situation.request.object} at {where}: {why}.")

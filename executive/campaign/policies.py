@@ -351,5 +351,5 @@ def policy_named(name: str) -> Policy:
         return POLICIES[name]
     named = Named("--policy", name, RIGHT)
     own = named.imported()
-    settings = own.settings if isinstance(own, Policy) else {}
+    settings = own.settings if isinstance(own, Policy) else PAPER
     return Policy("of somebody's own", settings, lambda parts: named.called(own, parts, Parts))

@@ -29,8 +29,8 @@ WORLD = "world"
 """Whose doing an ordered fault is."""
 PLAN = "look or ask"
 """What a plan settles."""
-MOST_TOLD = 5
-"""So many places that are less likely are told of."""
+MOST_TOLD, LEAST = 5, 0.005
+"""So many places that are less likely are told of, if they are as likely as this."""
 NOT_NEEDED = "not needed"
 _VERB = re.compile(r"\b(is|was|may)\b")
 
@@ -75,7 +75,7 @@ def why(run: Run) -> list[Decision]:
         Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
         for at in run.mishaps()
     )
-    decisions = list(merge(planned, _Chain(run).decisions(), ordered, key=lambda d: d.time_s))
+    decisions = list(merge(_Chain(run).decisions(), planned, ordered, key=lambda d: d.time_s))
     outcome = run.outcome()
     if outcome is not None:
         ending = outcome.reason or outcome.status
@@ -251,7 +251,9 @@ def _runs(paths: Container[str], at: At[Tick]) -> bool:
 def _less_likely(planned: Planned) -> Iterator[Alternative]:
     """The likeliest of the places that are not next, and who says so of each."""
     told = zip(planned.places, planned.probabilities, planned.says, strict=False)
-    others = ((place, p, says) for place, p, says in told if place not in planned.order[:1])
+    others = (
+        (place, p, says) for place, p, says in told if place not in planned.order[:1] and p >= LEAST
+    )
     for place, probability, says in islice(others, MOST_TOLD):
         yield Alternative(place, f"{probability:.2f} ({says})" if says else f"{probability:.2f}")
 
