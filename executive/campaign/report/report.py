@@ -92,7 +92,8 @@ def report(
         parts += [Heading(heading), tables.measure(found, title), *plots.get(title, ())]
         parts += [tables.differences(found, title)]
     parts += plots.get("distributions", ())
-    parts += [Heading("What the search cost"), Text(SEARCHING), tables.searching(found)]
+    if any(row.search_s for row in ran):  # results of earlier days do not tell
+        parts += [Heading("What the search cost"), Text(SEARCHING), tables.searching(found)]
     parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
     if len(found) > 1:
         parts += [Heading("Policies, homes and models compared"), Text(COMPARED)]
