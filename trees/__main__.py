@@ -32,20 +32,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     show.add_argument(
         "--elicit", choices=["generate", "rank"], default="rank", help="default: %(default)s"
     )
+    show.add_argument(
+        "--search", choices=["plan", "paper"], default="plan", help="default: %(default)s"
+    )
     show.add_argument("--svg", type=Path, metavar="FILE", help="draw it, too")
     options = parser.parse_args(arguments)
     from py_trees.display import unicode_tree
 
     from trees.drawing import svg
 
-    tree = build(options.knowledge, options.elicit)
+    tree = build(options.knowledge, options.elicit, options.search)
     print(unicode_tree(tree), end="")
     if options.svg:
         _write(options.svg, svg(tree))
     return DONE
 
 
-def build(knowledge: str, elicit: str) -> "Behaviour":
+def build(knowledge: str, elicit: str, search: str = "plan") -> "Behaviour":
     """The tree of these settings, with nobody in the context: it is to be looked at, not ticked."""
     from executive.app.parts import Parts, build_context
     from executive.situation import Situation
@@ -67,7 +70,7 @@ def build(knowledge: str, elicit: str) -> "Behaviour":
         knowledge=nobody,
         model=llm,
         advice=llm,
-        parameters=Parameters(elicit=elicit),
+        parameters=Parameters(elicit=elicit, search=search),
     )
     return mission(build_context(parts, Situation()))
 

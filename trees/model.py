@@ -68,14 +68,16 @@ class ModelAction(Action):
 class RankPlaces(ModelAction):
     """Has every allowed place scored, and keeps the likeliest."""
 
+    @property
+    def among(self) -> tuple[str, ...]:
+        """The places that are allowed; all are, if there are none."""
+        return self.situation.search.default_locations
+
     def start(self) -> int:
         """Ask for the scores."""
         assert self.situation.request.object
-        return self.model.rank(
-            self.advice.ranker.ranking(
-                self.situation.request.object, self.situation.search.default_locations
-            )
-        )
+        ranking = self.advice.ranker.ranking(self.situation.request.object, self.among)
+        return self.model.rank(ranking)
 
     def ended(self, result: Result) -> Status:
         """Keep as many as are worth a visit; all of them if the ontology named them."""

@@ -7,7 +7,7 @@ from executive.types import Message, RankRequest
 from kb.llm.context import Context
 from kb.llm.gguf import Checkpoint, Gguf
 from kb.llm.kept import Kept
-from kb.llm.precedents import LIKELIHOOD_WEIGHT, log_expected, shares
+from kb.llm.precedents import likelihood_weight, log_expected, shares
 
 SCORED_AT_ONCE = 63
 """Options that are scored side by side."""
@@ -59,13 +59,13 @@ class Scorer:
         likelihoods = self._likelihood(request.messages, request.options, checkpoint)
         if request.neutral:
             likelihoods = likelihoods - self._neutral(request.neutral, request.options, checkpoint)
-        scores = LIKELIHOOD_WEIGHT * likelihoods
+        scores = likelihood_weight(len(request.precedents)) * likelihoods
         if known := request.precedents:
             chats = [request.messages, *(precedent.messages for precedent in known)]
             states = np.stack([self._state(chat, checkpoint) for chat in chats])
             kinds = [request.kind, *(precedent.kind for precedent in known)]
             at = shares([precedent.places for precedent in known], request.places)
-            scores += log_expected(states, kinds, at)
+            scores += log_expected(states, kinds, at, request.place_kinds)
         return scores
 
     def prepare(self, request: RankRequest, checkpoint: Checkpoint) -> None:

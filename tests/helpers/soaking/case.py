@@ -130,6 +130,8 @@ class Soak:
             action_timeout_s=chance.choice((1.0, 5.0, 120.0, 120.0)),
             answer_timeout_s=chance.choice((5.0, 120.0)),
             llm_timeout_s=chance.choice((5.0, 60.0)),
+            search=chance.choice(("plan", "plan", "paper")),
+            question_s=chance.choice((0.0, 20.0, 60.0, 1000.0)),
         )
 
     def run(self) -> Iterator[str]:
