@@ -58,6 +58,7 @@ class Session:
         out: TextIO | None = None,
         recorded: bool = True,
         sinks: Sequence[Sink] = (),
+        watched: bool = False,
         sources: Sequence[PlaceSource] = (),
         policy: str = OURS,
         change: Change = as_they_are,
@@ -76,7 +77,7 @@ class Session:
         """
         self.settings = settings
         self.inbox = inbox or Inbox()
-        self.recorder = FanOut(lambda: self.parts.clock.now(), live=view)
+        self.recorder = FanOut(lambda: self.parts.clock.now(), live=view or watched)
         used = files_used(settings)
         given = checked(sources)
         with ExitStack() as opened:
