@@ -58,6 +58,10 @@ class Page:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        """Close."""
+        self.close()
+
+    def close(self) -> None:
         """Tell the open pages that it is over, and serve no more."""
         self.board.put("doing", {"state": "over"})
         self.board.put("question", None)

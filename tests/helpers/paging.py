@@ -51,7 +51,7 @@ class Robot:
 def robot(runs: Path, *, recorded: bool = False, **settings: Any) -> Iterator[Robot]:
     """A robot in the instant world whose page is served, in a conversation."""
     inbox = Inbox()
-    given = {"world": "fake", "llm": "none", "runs": runs, **settings}
+    given = {"world": "fake", "llm": "none", "runs": runs, "answer_timeout_s": 3600.0, **settings}
     with Page(inbox, Address(port=0), token=TOKEN) as page:
         made = Robot(page)
 
@@ -69,10 +69,12 @@ def robot(runs: Path, *, recorded: bool = False, **settings: Any) -> Iterator[Ro
 
         thread = threading.Thread(target=live, daemon=True)
         thread.start()
-        yield made
-        page.stops()
-        page.says("quit")
-        thread.join(60)
+        try:
+            yield made
+        finally:
+            page.stops()
+            page.says("quit")
+            thread.join(60)
 
 
 @contextmanager

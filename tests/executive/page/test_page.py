@@ -2,6 +2,7 @@
 
 import json
 import time
+from collections.abc import Iterator
 from contextlib import closing
 from itertools import islice
 from pathlib import Path
@@ -13,7 +14,7 @@ from executive.page.site import MOST_BYTES
 
 
 @pytest.fixture
-def talking(tmp_path: Path) -> Robot:
+def talking(tmp_path: Path) -> Iterator[Robot]:
     with robot(tmp_path) as made:
         heard(made.page, "doing", state="ready")
         yield made
