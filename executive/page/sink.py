@@ -131,6 +131,7 @@ class PageSink:
         self._board.put("camera", shown)
 
     def _finish(self, outcome: Outcome) -> None:
+        self._board.put("doing", {"state": "rest"})
         self._board.put("path", [])
         self._board.put("places", self._places.at_the_end())
         self._board.put(

@@ -143,9 +143,9 @@ def told(page: Page, **given: Any) -> Iterator[Told]:
                 fields = {}
 
 
-def heard(page: Page, name: str, **values: Any) -> Any:
+def heard(page: Page, name: str, *, token: str = TOKEN, **values: Any) -> Any:
     """The first of this name that a page is told, and that has these values."""
-    with closing(told(page)) as reading:
+    with closing(told(page, token=token)) as reading:
         return next(
             one.value
             for one in reading

@@ -7,6 +7,7 @@ const map = document.getElementById("map");
 const list = document.getElementById("places");
 const MARGIN_M = 0.1;
 const LETTER_M = 0.15;
+const ABOVE_M = 0.36;
 const MARKS = { open: "?", current: "→", empty: "✕", unreached: "!", found: "✓" };
 const layers = {};
 let home = null;
@@ -118,11 +119,9 @@ export function showPlaces(found) {
   list.replaceChildren(...(places.length
     ? [table(found), plan(found)].filter(Boolean) : [element("p", {}, text("no_search"))]));
   if (!home) return;
-  layers.marks.replaceChildren(...places.map(mark).filter(Boolean));
-  if (found?.sighting?.length) {
-    const [x, y] = found.sighting;
-    layers.marks.append(drawn("circle", { class: "sighting", cx: x, cy: -y, r: 0.2 }));
-  }
+  const [x, y] = found?.sighting ?? [];
+  const sighting = x === undefined ? null : drawn("circle", { class: "sighting", cx: x, cy: -y, r: 0.25 });
+  layers.marks.replaceChildren(...[sighting, ...places.map(mark)].filter(Boolean));
 }
 
 function labelOf(name) {
@@ -133,7 +132,8 @@ function mark({ place, state, turn }) {
   const piece = home.furniture.find((one) => one.name === place);
   if (!piece) return null;
   const [x, y] = piece.at;
-  return drawn("g", { class: `mark ${state}`, transform: `translate(${x} ${-y - 0.36})` },
+  const beside = y + ABOVE_M > home.extent[3] - 0.15 ? ABOVE_M : -ABOVE_M; // none is outside
+  return drawn("g", { class: `mark ${state}`, transform: `translate(${x} ${-y + beside})` },
     drawn("title", {}, `${piece.label}: ${text(`states.${state}`)}`),
     drawn("circle", { r: 0.21 }),
     drawn("text", { "text-anchor": "middle", y: 0.1 }, sign(state, turn)));

@@ -61,7 +61,7 @@ function showDoing(state) {
     Object.assign(progress.querySelector("progress"), { max: steps, value: state.step });
     progress.querySelector("span").textContent = text("progress", state);
   }
-  const ended = state?.state === "ready" && board.outcome;
+  const ended = ["ready", "rest"].includes(state?.state) && board.outcome;
   last.hidden = !ended;
   if (ended) last.textContent = textOr(`last.${board.outcome.status}`, board.outcome.status);
   suggest();
