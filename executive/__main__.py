@@ -130,7 +130,6 @@ def serve(
         view=view,
         gui=gui,
         sinks=[page.sink] if page else (),
-        watched=page is not None,
     ) as session:
         if page:
             page.follow(session)

@@ -58,7 +58,6 @@ class Session:
         out: TextIO | None = None,
         recorded: bool = True,
         sinks: Sequence[Sink] = (),
-        watched: bool = False,
         sources: Sequence[PlaceSource] = (),
         policy: str = OURS,
         change: Change = as_they_are,
@@ -77,7 +76,7 @@ class Session:
         """
         self.settings = settings
         self.inbox = inbox or Inbox()
-        self.recorder = FanOut(lambda: self.parts.clock.now(), live=view or watched)
+        self.recorder = FanOut(lambda: self.parts.clock.now(), live=view)
         used = files_used(settings)
         given = checked(sources)
         with ExitStack() as opened:

@@ -2,6 +2,7 @@
 
 import math
 import threading
+import time
 from collections import OrderedDict
 from typing import Any
 
@@ -27,17 +28,24 @@ from logs.recorder import Stamp
 
 KEPT_FRAMES = 2
 """A page may still ask for the picture before the latest."""
+PICTURE_S = 0.5
+"""So often are pictures shown that were taken on the way; a simulation may be faster."""
 BASE = "base_link"
 
 
 class PageSink:
     """Implements Sink: writes on the board. It outlives missions: to close it changes nothing."""
 
+    live = True
+    """Someone watches: it is flushed soon."""
+
     def __init__(self, board: Board) -> None:
         """Nothing is known of the robot yet."""
         self._board = board
         self._doing: Doing | None = None
         self._lock = threading.Lock()
+        self._pictured_s = -PICTURE_S
+        """When a picture was shown last that was taken on the way (s)."""
         self._frames: OrderedDict[int, Frame] = OrderedDict()
         self._pose: Pose | None = None
         self._places = Places()
@@ -109,7 +117,9 @@ class PageSink:
             self._frames[frame.number] = frame
             while len(self._frames) > KEPT_FRAMES:
                 self._frames.popitem(last=False)
-        self._show_picture(frame, None)
+        if (now := time.monotonic()) - self._pictured_s >= PICTURE_S:
+            self._pictured_s = now
+            self._show_picture(frame, None)
 
     def _show_seen(self, seen: Seen) -> None:
         with self._lock:

@@ -54,7 +54,7 @@ def from_event_to_page(page: Page, tab: Tab, times: int) -> None:
     """Sentences come at once; what is recorded, with the recorder's next round."""
     page.board.put("home", plan(load_home("four_rooms")))
     page.board.flush()
-    recorder = FanOut(lambda: 0.0, live=True)
+    recorder = FanOut(lambda: 0.0)
     recorder.open([page.sink], datetime.now(UTC))
 
     def moved(number: int) -> None:
@@ -89,7 +89,7 @@ def mission(page: Page | None, runs: Path, seed: int) -> tuple[float, float]:
     settings = load_settings(
         llm="none", user="oracle", detector="simulated", runs=runs, seed=seed, world="physics"
     )
-    shown = {"sinks": [page.sink], "watched": True} if page else {}
+    shown = {"sinks": [page.sink]} if page else {}
     with Session(settings, **shown) as session:
         if page:
             page.follow(session)

@@ -61,7 +61,6 @@ def robot(runs: Path, *, recorded: bool = False, **settings: Any) -> Iterator[Ro
                 inbox=inbox,
                 user=page.person,
                 sinks=[page.sink],
-                watched=True,
                 recorded=recorded,
             ) as session:
                 page.follow(session)
