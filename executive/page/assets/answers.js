@@ -7,10 +7,13 @@ import { spoken, text } from "./texts.js";
 const box = document.getElementById("answers");
 const suggestions = document.getElementById("suggestions");
 const SUGGESTED = 4;
-const PLACES = ["where_is", "where_to_put"];
+const PLACES = ["where_is", "where_to_put", "where_to_go"];
 
-export function asksForPlace(question) {
-  return question !== null && PLACES.includes(question.kind);
+/** Whether a place is the answer, and this one may be. */
+export function mayBe(question, piece) {
+  if (!PLACES.includes(question?.kind)) return false;
+  if (question.options.length) return question.options.includes(piece.name);
+  return piece.searched || question.kind !== "where_is";
 }
 
 export function showAnswers(question, things, home, say) {
@@ -32,8 +35,8 @@ function buttons(question, things, home, say) {
       button(text("no"), () => say("no")),
     ];
   }
-  if (asksForPlace(question) && home) {
-    return [rooms(home, question.kind, say), element("p", {}, text("choose_on_map")), dontKnow(say)];
+  if (home?.furniture.some((piece) => mayBe(question, piece))) {
+    return [rooms(home, question, say), element("p", {}, text("choose_on_map")), dontKnow(say)];
   }
   const chosen = question.options.map((name) =>
     button(labelOf(name, things), () => say(name), pictureOf(name, things)));
@@ -44,8 +47,8 @@ function dontKnow(say) {
   return button(text("unknown"), () => say("I don't know"), null, "answer plain");
 }
 
-function rooms(home, kind, say) {
-  const offered = home.furniture.filter((piece) => piece.searched || kind === "where_to_put");
+function rooms(home, question, say) {
+  const offered = home.furniture.filter((piece) => mayBe(question, piece));
   const groups = home.rooms.map((room) => {
     const here = offered.filter((piece) => piece.room === room.name);
     return here.length && element("fieldset", {},

@@ -36,17 +36,17 @@ export function showHome(plan) {
     }));
   layers.people.append(figure(plan.person));
   showRobot(plan.robot);
-  offerPlaces(null);
+  offerPlaces(null, () => false);
 }
 
-/** Draw the furniture; if a place is asked for, each piece can be chosen. */
-export function offerPlaces(choose) {
+/** Draw the furniture; if a place is asked for, those pieces that it may be can be chosen. */
+export function offerPlaces(choose, mayBe) {
   if (!home) return;
   layers.furniture.replaceChildren(...home.furniture.map((piece) => {
     const [x, y, yaw] = piece.at;
     const [depth, width] = piece.size;
     const turned = `translate(${x} ${-y}) rotate(${(-yaw * 180) / Math.PI})`;
-    const choice = choose ? { class: "choice", onclick: () => choose(piece.name) } : {};
+    const choice = mayBe(piece) ? { class: "choice", onclick: () => choose(piece.name) } : {};
     return drawn("g", choice,
       drawn("rect", { class: "furniture", transform: turned, rx: 0.04,
         x: -depth / 2, y: -width / 2, width: depth, height: width }),

@@ -1,6 +1,6 @@
 // The person's page: shows the board of the robot, and sends what the person says.
 
-import { asksForPlace, showAnswers, showSuggestions } from "./answers.js";
+import { mayBe, showAnswers, showSuggestions } from "./answers.js";
 import { showCamera } from "./camera.js";
 import * as conversation from "./conversation.js";
 import { offerPlaces, showHome, showPlaces, showRobot, showWay } from "./home.js";
@@ -86,7 +86,7 @@ function sentenceOf(state) {
 
 function showQuestion(question = null) {
   const had = showAnswers(question, board.things ?? {}, board.home, say);
-  offerPlaces(asksForPlace(question) ? say : null);
+  offerPlaces(say, (piece) => mayBe(question, piece));
   if (had && !question) focusWords();
   conversation.toEnd();
 }

@@ -6,7 +6,7 @@ from importlib.resources import files
 from typing import Any
 
 from executive.records import Activity
-from executive.types import MissionStatus, Source
+from executive.types import MissionStatus, QuestionKind, Source
 
 ASSETS = files("executive.page").joinpath("assets")
 TEXTS: dict[str, Any] = json.loads(ASSETS.joinpath("english.json").read_text("utf-8"))
@@ -34,6 +34,12 @@ def test_there_is_a_sentence_for_each_activity_status_and_source() -> None:
     assert set(Activity) <= set(TEXTS["doing"])
     assert set(MissionStatus) <= set(TEXTS["last"])
     assert set(Source) <= set(TEXTS["sources"])
+
+
+def test_there_are_buttons_for_each_kind_of_question() -> None:
+    answers = ASSETS.joinpath("answers.js").read_text("utf-8")
+    # a thing is the answer to which_object: its options are shown
+    assert all(f'"{kind}"' in answers for kind in set(QuestionKind) - {QuestionKind.WHICH_OBJECT})
 
 
 def test_nothing_is_made_of_markup() -> None:
