@@ -121,9 +121,11 @@ def main() -> None:
         browser = stack.enter_context(chromium())
         tab, _ = (stack.enter_context(opened(browser, page)) for _ in range(2))
         tab.wait_for_timeout(2000)
-        from_event_to_page(page, tab, options.times)
+        if options.times:
+            from_event_to_page(page, tab, options.times)
         idle(options.idle_s)
-        overhead(page, runs, options.missions)
+        if options.missions:
+            overhead(page, runs, options.missions)
 
 
 if __name__ == "__main__":
