@@ -5,12 +5,14 @@ from dataclasses import replace
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.placed import placed
 from executive.records import Utterance
-from executive.types import HELD, Command, MissionStatus, Question, QuestionKind
+from executive.types import HELD, Command, CommandKind, MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import Step, fallback, sequence
-from trees.person import AskYesNo
+from trees.person import AskYesNo, is_place, places_in
+from trees.places import TO_THE_PERSON
 
 
 def understand(context: MissionContext) -> Behaviour:
@@ -89,7 +91,8 @@ class ReadPastSlips(Step):
 class HasKnownName(Step):
     """Succeeds if a known thing is named, so that there is something to do it with.
 
-    What the grammar did read is not the model's to read otherwise: it may say what not to do.
+    What the grammar did read is not the model's to read otherwise: it may say what not to do. A
+    model that writes and cannot score, behind a server, may know other words for the things.
     """
 
     def update(self) -> Status:
@@ -97,7 +100,8 @@ class HasKnownName(Step):
         if self.situation.request.remark:
             return self.fail("it was read")
         names = self.context.knowledge.names_in(self.situation.request.words)
-        if not names:
+        model = self.context.model
+        if not names and (self.context.parameters.elicit == "rank" or not model or model.can_rank):
             return self.fail("no known thing is named")
         self.situation.request.guess = " and ".join(names)
         return self.succeed(self.situation.request.guess)
@@ -113,6 +117,8 @@ class ConfirmCommand(AskYesNo):
         names = knowledge.names_in(command.target)
         objects = tuple(one for name in names for one in knowledge.objects_named(name))
         text = f"Do you mean: {in_one_sentence(self.context, command)}?"
+        if others := passed_over(self.context, command):
+            text += f" I make nothing of {' and '.join(map(repr, others))}."
         return Question(QuestionKind.CONFIRM, command.target, text, objects)
 
     def agreed(self) -> None:
@@ -135,10 +141,44 @@ def in_one_sentence(context: MissionContext, command: Command) -> str:
     else:
         what = context.as_said(target)
     but = f"but not {' or '.join(command.exceptions)}" if command.exceptions else ""
-    source = f"from {context.as_said(command.source)}" if command.source else ""
-    goal = f"to {context.as_said(command.goal)}" if command.goal else ""
+    source = _where(context, command.source, "from") if command.source else ""
+    to = "to" if command.kind == CommandKind.GO else ""
+    goal = _where(context, command.goal, to) if command.goal else ""
     verb = command.kind.replace("_", " ")
     return " ".join(filter(None, (verb, what, but, source, goal)))
+
+
+def _where(context: MissionContext, words: str, to: str) -> str:
+    """A place that a command names, as one says it: "from the desk", "in the kitchen"."""
+    named = places_in(context, words) if is_place(context, words) else ()
+    if words.lower() in TO_THE_PERSON:
+        return f"{to or 'to'} you"
+    if len(named) == 1:
+        return f"{to} {context.say.the(named[0])}" if to else context.say.at(named[0])
+    article = "the " if named else ""
+    return f"{to or 'in'} {article}{context.as_said(words)}"
+
+
+def passed_over(context: MissionContext, command: Command) -> list[str]:
+    """Things and places in the words of which nothing was made, as they were said."""
+    knowledge, words = context.knowledge, context.situation.request.words
+    read = " and ".join((command.target, *command.exceptions))
+    things = [name for name in knowledge.names_in(words) if name not in knowledge.names_in(read)]
+    places = [
+        place
+        for place in placed(words, knowledge.is_place)
+        if place and not {*places_in(context, place)} <= _places_of(context, command)
+    ]
+    return [*(context.as_said(context.say.words(name)) for name in things), *places]
+
+
+def _places_of(context: MissionContext, command: Command) -> set[str]:
+    """The furniture that a command speaks of."""
+    return {
+        *places_in(context, command.source),
+        *places_in(context, command.goal),
+        *(places_in(context, command.target) if command.kind == CommandKind.GO else ()),
+    }
 
 
 class NotUnderstood(Step):
