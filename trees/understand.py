@@ -194,5 +194,5 @@ class NotUnderstood(Step):
         said = f"'{words}'" if words.strip() else "what you said"
         return self.fail(
             f"I do not understand {said}; "
-            'say for example "Find an apple", "Take the mug" or "Bring a sugar_box"'
+            'say for example "Find an apple", "Take the mug" or "Bring a sugar box"'
         )
