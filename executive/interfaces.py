@@ -340,8 +340,11 @@ class CommandReader(Protocol):
         """`command`: what do the words ask for?"""
         ...
 
-    def read(self, reply: str) -> tuple[CommandKind, str] | None:
-        """Kind and object of the reply, if it has the format and the object exists."""
+    def read(self, reply: str) -> str:
+        """What the reply asks for, as a plain sentence for the grammar.
+
+        It is empty if the reply has not the format, or names a thing or a place that is not there.
+        """
         ...
 
 

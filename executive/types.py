@@ -241,6 +241,10 @@ class Place:
     """Name of the room that it stands in."""
     room_kind: str
     """The room's class in the ontology: `Kitchen`, `Bedroom`, ..."""
+    label: str = ""
+    """What the robot calls it ("Anna's desk"); empty: what its name says."""
+    room_label: str = ""
+    """The same of the room."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -167,7 +167,7 @@ class Soak:
         chaos.rate = rate
         say = Wording(self._session.parts.knowledge.called)
         places = [place.name for place in self._home.places()]
-        words = Names(say, self._home.objects, places)
+        words = Names(say, tuple(self._home.objects), places)
         self._witness = Witness(self._world, self._home.objects, words)
 
     def _disturb(self, parts: Parts) -> Parts:
