@@ -322,5 +322,6 @@ def _input_error(where: str, fault: ErrorDetails) -> InputError:
             return InputError(where, f"{key} is missing", EXAMPLE)
         case "value_error" if not isinstance(fault["input"], str | list | tuple):
             return InputError(where, f"{key}: {said}" if key else said)
-        case _:
-            return InputError(where, f"{key} is {str(fault['input'])[:80]!r}", said.lower())
+        case kind:
+            right = said if kind == "value_error" else said.lower()
+            return InputError(where, f"{key} is {str(fault['input'])[:80]!r}", right)

@@ -39,6 +39,8 @@ FLOOR_AHEAD_M = 0.9
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
 FACING_S = 0.5
+STOPPING_S = 3.0
+"""So long a halt waits for a link that was lost: with it come the means to stop."""
 
 
 class Places(Protocol):
@@ -183,6 +185,11 @@ class WireRobot:
                 return await self._halt()
 
     async def _halt(self) -> Succeeded | Failed:
+        if self._link.loss:
+            try:
+                await self._link.ready(STOPPING_S)
+            except LinkError as error:
+                return Failed(f"I cannot be told to stop, and may go on: {in_words(error)}")
         failures = await self._brake.cancel_all()
         unrest = await self._brake.rest()
         unstopped = [s for s in failures if s in self._actions.used]

@@ -18,6 +18,8 @@ CANCELLING_S = 1.0
 REST_S = 2.0
 """The longest that anything moves on (real time)."""
 LOOK_S = 0.02
+AGAIN_S = 0.5
+"""After so long it is asked anew how the robot moves."""
 REFUSED = 1
 """`action_msgs/srv/CancelGoal`: the server goes on."""
 SPEED_TOPIC, SPEED_TYPE = "/speed_limit", "nav2_msgs/msg/SpeedLimit"
@@ -78,10 +80,14 @@ class Brake:
 
     async def rest(self) -> str:
         """Wait for rest; what still moves then, as a clause, or nothing."""
-        self._senses.feel_motion_anew()
-        latest = asyncio.get_running_loop().time() + REST_S
-        while (unrest := self._senses.unrest) and asyncio.get_running_loop().time() < latest:
+        time = asyncio.get_running_loop().time
+        latest, again = time() + REST_S, 0.0
+        while True:
+            if time() >= again:
+                self._senses.feel_motion_anew()
+                again = time() + AGAIN_S
+            await asyncio.sleep(LOOK_S)
             if self._link.loss:
                 return f"nobody can tell whether I move: {self._link.loss}"
-            await asyncio.sleep(LOOK_S)
-        return unrest
+            if not (unrest := self._senses.unrest) or time() > latest:
+                return unrest

@@ -47,6 +47,7 @@ ACTIONS = {
     "/acme/go": "acme_msgs/action/Go",
     "/acme/grab": "acme_msgs/action/Grab",
     "/acme/drop": "acme_msgs/action/Drop",
+    "/acme/way": "nav2_msgs/action/ComputePathToPose",
 }
 EYE_M = 1.0
 WIDTH, HEIGHT, FOCAL = 64, 48, 60.0
@@ -160,12 +161,12 @@ class SecondRobot:
             "/rosapi/action_servers": {"action_servers": list(ACTIONS)},
         }.get(service, {})
 
-    async def _end(self, action: str, status: GoalStatus, said: str = "") -> None:
+    async def _end(self, action: str, status: GoalStatus, said: str = "", **more: Any) -> None:
         client, goal = self._under_way.pop(action, (None, None))
         if action == "/acme/go" and status == GoalStatus.CANCELED:
             self.speed = 0.0
         if client is not None and goal is not None:
-            values = {"message": said}
+            values = {"message": said, **more}
             done = status == GoalStatus.SUCCEEDED
             with suppress(ConnectionClosed):
                 await client.send(encode(ActionResult(action, done, status, values, goal.id)))
@@ -186,6 +187,8 @@ class SecondRobot:
         with suppress(ConnectionClosed):
             await client.send(encode(ActionFeedback(action, {"fine": True}, goal.id)))
         match action:
+            case "/acme/way":
+                await self._end(action, GoalStatus.SUCCEEDED, **self._way(goal.args["goal"]))
             case "/acme/go":
                 await self._go(goal.args["where"]["pose"])
             case "/acme/grab":
@@ -198,6 +201,15 @@ class SecondRobot:
                 held, self.holds = self.holds, ""
                 said = "" if held else "my hand is empty"
                 await self._end(action, GoalStatus.SUCCEEDED if held else GoalStatus.ABORTED, said)
+
+    def _way(self, goal: dict[str, Any]) -> dict[str, Any]:
+        """A straight line, a pose each 5 cm."""
+        end = goal["pose"]["position"]
+        number = max(2, int(math.dist(self.at[:2], (end["x"], end["y"])) / 0.05))
+        ways = np.linspace(self.at[:2], (end["x"], end["y"]), number)
+        turn = goal["pose"]["orientation"]
+        poses = [{"position": {"x": x, "y": y, "z": 0.0}, "orientation": turn} for x, y in ways]
+        return {"path": {"poses": [{"pose": pose} for pose in poses]}}
 
     async def _go(self, pose: dict[str, Any]) -> None:
         x, y, _ = self.at

@@ -1,8 +1,11 @@
 """A robot with other names and encodings keeps the contracts by its profile alone."""
 
+import math
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from second_robot import PROFILE, SecondRobot
@@ -10,9 +13,10 @@ from second_robot import PROFILE, SecondRobot
 from executive.events import Inbox
 from executive.ros.address import read_address
 from executive.ros.connection import Connection, connect
-from executive.ros.profile import load_profile
+from executive.ros.profile import Profile, load_profile
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.camera import CameraBench, CameraContract
+from executive.testing.contracts.requests import end_of
 from executive.testing.contracts.robot import Bench, RobotContract
 from executive.types import DriveTo, Failed, Halt, Succeeded
 
@@ -26,12 +30,15 @@ class Linked:
 
 
 @pytest.fixture
-def linked() -> Iterator[Linked]:
+def profile() -> Profile:
+    return load_profile(str(PROFILE))
+
+
+@pytest.fixture
+def linked(profile: Profile) -> Iterator[Linked]:
     home, inbox = four_rooms(), Inbox()
     with SecondRobot(home.robot_start) as there:
-        here = connect(
-            read_address(there.url), load_profile(str(PROFILE)), home, inbox, PROFILE.name
-        )
+        here = connect(read_address(there.url), profile, home, inbox, PROFILE.name)
 
         def advance(at_most: float) -> float:
             began = time.monotonic()
@@ -79,6 +86,25 @@ def test_a_goal_looks_as_the_profile_has_it(linked: Linked) -> None:
     assert goal["where"]["pose"]["position"] == {"x": x, "y": y, "z": 0.0}
 
 
+class TestLegs:
+    @pytest.fixture
+    def profile(self, tmp_path: Path) -> Profile:
+        file = tmp_path / "legs.toml"
+        legs = 'silent_s = 3.0\npath = "/acme/way"\nleg_m = 1.5'
+        file.write_text(PROFILE.read_text().replace("silent_s = 3.0", legs))
+        return load_profile(str(file))
+
+    def test_a_drive_goes_in_legs_that_end_where_it_should(self, linked: Linked) -> None:
+        began = linked.there.at[:2]
+        assert linked.bench.do(DriveTo("desk")) == Succeeded()
+        goals = [goal["where"]["pose"] for action, goal in linked.there.goals if "where" in goal]
+        ends = [(pose["position"]["x"], pose["position"]["y"]) for pose in goals]
+        legs = [math.dist(a, b) for a, b in pairwise([began, *ends])]
+        assert len(legs) > 2
+        assert max(legs) < 1.5 * 1.5 + 0.1
+        assert ends[-1] == pytest.approx(four_rooms().stand("desk")[:2])
+
+
 def test_fingers_that_something_keeps_open_hold_it(linked: Linked) -> None:
     assert linked.here.robot.holding is False
     linked.there.holds = "mug"
@@ -100,6 +126,19 @@ def test_what_cannot_be_stopped_is_said(linked: Linked) -> None:
     result = linked.bench.do(Halt())
     assert isinstance(result, Failed)
     assert "cannot stop my base" in result.reason
+
+
+def test_a_halt_without_a_link_does_not_pretend() -> None:
+    home, inbox = four_rooms(), Inbox()
+    with SecondRobot(home.robot_start) as there:
+        here = connect(read_address(there.url), load_profile(str(PROFILE)), home, inbox, "")
+    request = here.robot.start(Halt())
+    try:
+        result = end_of(inbox, request)
+    finally:
+        here.close()
+    assert isinstance(result, Failed)
+    assert "I cannot be told to stop, and may go on" in result.reason
 
 
 def test_a_link_that_is_lost_is_told(linked: Linked) -> None:
