@@ -32,7 +32,8 @@ from executive.types import (
     Result,
     Succeeded,
 )
-from sim.home.home import Home
+from sim.goals import GoTo
+from sim.home.home import Home, PlanarPose
 from sim.objects.objects import why_not_taken
 
 SPEED_M_S = 0.8
@@ -152,14 +153,14 @@ class FakeRobot:
         """One look is enough here."""
         return 1
 
-    def start(self, goal: Goal) -> int:
+    def start(self, goal: Goal | GoTo) -> int:
         """Pursue a goal for its nominal time."""
         if self._request is not None and self._world.forget(self._request):
             self._world.inbox.end(self._request, Failed("replaced by another goal"))
         delay, effect = self._plan(goal)
 
         def finish() -> Result:
-            reason = self._world.fault(goal)
+            reason = None if isinstance(goal, GoTo) else self._world.fault(goal)
             return Failed(reason) if reason else effect()
 
         self._request = self._world.schedule(delay, finish)
@@ -170,8 +171,10 @@ class FakeRobot:
         self._world.forget(request)
         self._world.inbox.drop(request)
 
-    def _plan(self, goal: Goal) -> tuple[float, Callable[[], Result]]:
+    def _plan(self, goal: Goal | GoTo) -> tuple[float, Callable[[], Result]]:
         match goal:
+            case GoTo(x, y, yaw):
+                return self._go((x, y, yaw), None)
             case DriveTo(place):
                 return self._drive(place)
             case LookAt(place, view):
@@ -190,12 +193,15 @@ class FakeRobot:
         world = self._world
         if not self._knows(place):
             return 0.0, lambda: Failed(f"there is no {place} in this home")
-        goal = world.home.stand(place)
-        distance = math.dist(goal[:2], world.pose[:2])
+        return self._go(world.home.stand(place), place)
+
+    def _go(self, pose: PlanarPose, place: str | None) -> tuple[float, Callable[[], Result]]:
+        world = self._world
+        distance = math.dist(pose[:2], world.pose[:2])
         world.at = world.looking_at = None
 
         def arrive() -> Result:
-            world.at, world.pose = place, goal
+            world.at, world.pose = place, pose
             world.describe()
             return Succeeded()
 

@@ -30,6 +30,12 @@ def test_a_name_that_is_too_long_is_not_read_as_another_one() -> None:
     assert read(tag("a" * (LONGEST + 1))) == ""
 
 
+@given(NAMES, st.integers(0, 2**32 - 1))
+def test_a_tag_is_read_through_a_little_noise(name: str, seed: int) -> None:
+    noise = np.random.default_rng(seed).normal(0.0, 5.0, (16, 16, 3))
+    assert read((tag(name) + noise).clip(0, 255).astype(np.uint8)) == read(tag(name))
+
+
 @given(st.integers(0, 2**32 - 1))
 def test_what_is_no_tag_spells_nothing(seed: int) -> None:
     assert read(np.random.default_rng(seed).integers(0, 256, (16, 16, 3), np.uint8)) == ""
