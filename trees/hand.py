@@ -47,3 +47,20 @@ class HandStaysFull(Step):
         if self.situation.hand.unplaced:
             return self.fail(f"{why}; I still hold {the(held)}")
         return self.fail(full_hand(held))
+
+
+def arm_for_it(context: MissionContext) -> tuple[Behaviour, ...]:
+    """What declines at once what a robot without an arm cannot do; nothing if it has one."""
+    return () if context.has_arm else (NeedsNoArm("needs no arm", context),)
+
+
+class NeedsNoArm(Step):
+    """Fails if what was asked for takes an arm."""
+
+    def update(self) -> Status:
+        """Only looking takes none."""
+        assert self.situation.request.command
+        means = self.situation.request.command.kind.means
+        if means.grasps or not means.searches:
+            return self.fail("I have no arm: I can find things, but not take them")
+        return Status.SUCCESS
