@@ -193,6 +193,10 @@ class Knowledge(Protocol):
         """Furniture that the words name, in their order; a room stands for its furniture."""
         ...
 
+    def is_place(self, words: str) -> bool:
+        """Whether they name furniture or rooms, and nothing else: not "Anna in the kitchen"."""
+        ...
+
 
 class Facts(Protocol):
     """What was seen, said and done so far, in this mission and before it. Never raises."""
@@ -223,6 +227,10 @@ class Facts(Protocol):
 
     def beliefs(self) -> Mapping[str, Sequence[str]]:
         """Each object that is believed to be anywhere, and where: what a recording keeps."""
+        ...
+
+    def origins(self) -> Mapping[str, Sequence[str]]:
+        """Each object that the robot took, and from where, the last time first."""
         ...
 
 

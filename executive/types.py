@@ -36,16 +36,18 @@ class Meaning:
         grasps: whether the robot has to pick that thing up.
         ends_at: where the robot is in the end, and the thing with it if it grasps: `PERSON`,
             `DELIVERY`; None: where the thing was found.
+        at_goal: whether it is at the command's goal instead.
     """
 
     searches: bool = True
     grasps: bool = False
     ends_at: str | None = None
+    at_goal: bool = False
 
     @property
     def carries(self) -> bool:
         """Whether the thing is in another place in the end."""
-        return self.grasps and self.ends_at is not None
+        return self.grasps and (self.at_goal or self.ends_at is not None)
 
 
 class CommandKind(StrEnum):
@@ -58,6 +60,12 @@ class CommandKind(StrEnum):
     BRING = "bring", Meaning(grasps=True, ends_at=DELIVERY)
     PUT_DOWN = "put_down", Meaning(searches=False)
     """What is in the hand, by the person."""
+    PUT = "put", Meaning(grasps=True, at_goal=True)
+    """On the furniture, or in the room, that the goal names."""
+    PUT_BACK = "put_back", Meaning(grasps=True, at_goal=True)
+    """Where it was taken from."""
+    GO = "go", Meaning(searches=False, at_goal=True)
+    """The robot itself, to the goal."""
 
     def __new__(cls, verb: str, means: Meaning = Meaning()) -> "CommandKind":
         """The verb itself is the value: it stands in recordings."""
@@ -67,8 +75,8 @@ class CommandKind(StrEnum):
         return kind
 
 
-SEARCHING = tuple(kind for kind in CommandKind if kind.means.searches)
-"""The deeds for which a thing is looked for: a language model may read these into words."""
+SEARCHING = tuple(kind for kind in CommandKind if kind.means.searches and not kind.means.at_goal)
+"""The deeds that are about a thing and nothing else: a language model may read these into words."""
 
 
 class Source(StrEnum):
@@ -148,6 +156,8 @@ class Outcome:
     run_dir: str | None
     model_failure: str = ""
     """Why the language model was of no help, as a clause; empty if it was, or was not asked."""
+    goals: tuple[str, ...] = ()
+    """The furniture that would do as the place where the thing, or the robot, was to go."""
 
 
 # --- space ---
@@ -413,6 +423,7 @@ class QuestionKind(StrEnum):
     WHERE_IS = "where_is"
     CONFIRM = "confirm"
     WHERE_TO_PUT = "where_to_put"
+    WHERE_TO_GO = "where_to_go"
 
 
 @dataclass(frozen=True, slots=True)

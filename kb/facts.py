@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
 from pathlib import Path
+from types import MappingProxyType
 from typing import Self
 
 from executive.errors import InputError
@@ -22,6 +23,8 @@ log = logging.getLogger(__name__)
 
 MOST_BELIEFS, MOST_PLACES, MOST_NAME = 10_000, 100, 200
 """Objects that are believed to be anywhere; places of one; letters of a name."""
+MOST_LOOKED_BACK = 20_000
+"""Facts among which it is looked for where the robot took things from: some milliseconds."""
 
 
 class FactKind(StrEnum):
@@ -81,14 +84,21 @@ class FactStore:
         """Whether the person knows that it does not work."""
 
     @classmethod
-    def believing(cls, beliefs: Mapping[str, Sequence[str]], *, learns: bool = True) -> Self:
+    def believing(
+        cls,
+        beliefs: Mapping[str, Sequence[str]],
+        origins: Mapping[str, Sequence[str]] = MappingProxyType({}),
+        *,
+        learns: bool = True,
+    ) -> Self:
         """A store that lasts as long as the process and believes what another one did."""
         store = cls()
-        store.load(
-            Fact(FactKind.SAID, name, place, 0.0)
-            for name, places in beliefs.items()
-            for place in reversed(places)
-        )
+        for kind, known in ((FactKind.TAKEN, origins), (FactKind.SAID, beliefs)):
+            store.load(
+                Fact(kind, name, place, 0.0)
+                for name, places in known.items()
+                for place in reversed(places)
+            )
         store._learns = learns
         return store
 
@@ -142,6 +152,21 @@ class FactStore:
             return {}
         known = {name: self.places_of(name) for name in names if _is_name(name)}
         return {name: places for name, places in known.items() if places}
+
+    def origins(self) -> dict[str, tuple[str, ...]]:
+        """Each object that the robot took, and from where, the last time first."""
+        query = (
+            "SELECT object, place FROM fact WHERE kind = ? AND number > "
+            "(SELECT max(number) FROM fact) - ? ORDER BY number DESC"
+        )
+        known: dict[str, dict[str, None]] = {}
+        try:
+            for name, place in self._database.execute(query, (FactKind.TAKEN, MOST_LOOKED_BACK)):
+                if _is_name(name) and _is_name(place):
+                    known.setdefault(name, {})[place] = None
+        except _FAILURES as error:
+            self._warn("facts could not be read", error)
+        return {name: tuple(places)[:MOST_PLACES] for name, places in known.items()}
 
     def all(self) -> tuple[Fact, ...]:
         """Every fact, oldest first; rows that are none are passed over.

@@ -1,6 +1,6 @@
 """Homes on the command line: `view` draws one, `check` names its faults, `generate` makes one.
 
-`view objects` draws all objects.
+`view objects` draws all objects. `serve` has the robot in one driven from outside.
 """
 
 from executive.start import begin
@@ -31,6 +31,7 @@ from sim.bullet.client import connect
 from sim.home.home import Home, load_home
 from sim.objects.objects import ObjectModel, load_objects
 from sim.objects.ycb import with_scans
+from sim.served.command import add_serving
 from sim.tools.catalogue import contact_sheet
 from sim.tools.checking import check_home, notes_on
 from sim.tools.generation import generate_home
@@ -70,6 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     generate.add_argument("--seed", type=int, default=0, metavar="N", help="default: 0")
     generate.add_argument("--out", type=Path, metavar="FILE.toml", help="default: print it")
     generate.set_defaults(run=_generate)
+    add_serving(commands)
     options = parser.parse_args(arguments)
     return int(options.run(options))
 

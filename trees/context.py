@@ -73,6 +73,10 @@ class NoFacts:
         """None."""
         return {}
 
+    def origins(self) -> dict[str, tuple[str, ...]]:
+        """None."""
+        return {}
+
 
 @dataclass(frozen=True, slots=True)
 class MissionContext:
@@ -83,7 +87,8 @@ class MissionContext:
     (`has_arm`) takes nothing.
     The `sources` know where things are without looking; they are asked in this order, after memory.
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
-    the delivery table has no room. `pending` is what the behaviours wait for: the loop that ticks
+    the delivery table has no room; `handiest` is all furniture, that where things are put down most
+    easily first. `pending` is what the behaviours wait for: the loop that ticks
     them has to be given the same.
     """
 
@@ -102,6 +107,7 @@ class MissionContext:
     sources: tuple[PlaceSource, ...] = ()
     place_at: Callable[[Vector3], str | None] = lambda point: None
     near_person: tuple[str, ...] = ()
+    handiest: tuple[str, ...] = ()
     blind_to: tuple[str, ...] = ()
     has_arm: bool = True
     pending: Pending = field(default_factory=Pending)

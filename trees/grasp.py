@@ -17,7 +17,8 @@ def grasp(context: MissionContext) -> Behaviour:
 
     def may_stay() -> bool:
         asked, found = meaning(situation), situation.search.found
-        is_there = asked.carries and found is not None and found.place == asked.ends_at
+        ends = situation.request.goals if asked.at_goal else (asked.ends_at,)
+        is_there = asked.carries and found is not None and found.place in ends
         return is_there or not asked.grasps
 
     return fallback(

@@ -1,11 +1,13 @@
 """The mission: from words to a deed, and to an honest word when it cannot be done.
 
 understand ─> which object ─> search ──────────────────> grasp ───────────> act ─────> report
-grammar       ontology        memory: where it was      pick it up         find, take
-else LLM,     else person     else ontology: its one    else look again    or bring;
-confirmed     hand is free    place; else LLM, verified if gone, search    table full:
-  │           else put down   else person; visit, look; again              other furniture
-  └─> put down what is held   not seen: ask the person                     else person
+grammar       ontology        where the words say       pick it up         find, take,
+else LLM,     else person     else memory: where it was else look again    bring, put
+confirmed     named places    else ontology: its one    if gone, search    or put back;
+  │           else ask        place; else LLM, verified again              no room there:
+  │           hand is free    else person; visit, look;                    other furniture
+  │           else put down   not seen: ask the person                     else person
+  └─> put down what is held, or go somewhere
 """
 
 from py_trees.behaviour import Behaviour
@@ -19,6 +21,7 @@ from trees.hand import arm_for_it, hand_is_free
 from trees.nodes import Check, Optionally, fallback, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
+from trees.places import named_places
 from trees.robot import DriveBack
 from trees.search import eyes_for_it, search
 from trees.understand import understand
@@ -36,6 +39,7 @@ def mission(context: MissionContext) -> Behaviour:
             Check("about a thing to look for", context, lambda: meaning(situation).searches),
             resolve_object(context),
             *eyes_for_it(context),
+            named_places(context),
             hand_is_free(context),
             search(context),
             grasp(context),

@@ -8,9 +8,9 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.interfaces import Knowledge
-from executive.types import Command, Source
+from executive.types import HELD, Command, Source
 from trees.context import MissionContext
-from trees.nodes import Check, Step, fallback, sequence
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskDoYouMean, AskWhichObject, without_exceptions
 
 
@@ -35,8 +35,14 @@ def resolve_object(context: MissionContext) -> Behaviour:
 
 def known_object(context: MissionContext) -> Behaviour:
     """What can be told without a question."""
+    request = context.situation.request
+
+    def held() -> list[str]:
+        return [HELD] if request.command and request.command.target == HELD else []
+
     return fallback(
         "known object",
+        FirstOf("what I hold", held, lambda _: None, HeldIsMeant("it is in my hand", context)),
         OntologyKnowsObject("ontology knows it", context),
         PersonPrefersOne("the person prefers one", context),
     )
@@ -47,6 +53,21 @@ def meant(knowledge: Knowledge, command: Command) -> tuple[str, ...]:
     if command.purpose:
         return knowledge.objects_for(command.purpose)
     return knowledge.objects_named(command.target)
+
+
+class HeldIsMeant(Step):
+    """Succeeds if something is in the hand, of which nobody has to say the name.
+
+    Reads hand.in_hand; writes request.object.
+    """
+
+    def update(self) -> Status:
+        """It is that."""
+        held = self.situation.hand.in_hand
+        if held is None:
+            return self.fail("my hand is empty")
+        self.situation.request.object = held
+        return self.succeed(held)
 
 
 class OntologyKnowsObject(Step):

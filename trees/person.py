@@ -22,6 +22,7 @@ SAYS: Mapping[str, str] = {
     Source.MEMORY: "I remember it there",
 }
 """How the person is told who names a place to look at; other sources say it themselves."""
+NEXT_TO = "next to "
 NO_PLACE = "I know no such place. "
 
 
@@ -250,7 +251,7 @@ class AskWhere(Ask):
 
     def understood(self, answer: str) -> bool:
         """Any places that exist become the candidates."""
-        places = _places(self.context, answer)
+        places = places_in(self.context, answer)
         if places:
             assert self.situation.request.object
             self.context.facts.heard(self.situation.request.object, places)
@@ -285,7 +286,7 @@ class AskWhereToPut(Ask):
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
-        self.situation.hand.surfaces = _places(self.context, answer)
+        self.situation.hand.surfaces = places_in(self.context, answer)
         return bool(self.situation.hand.surfaces)
 
     def unresolved(self) -> str:
@@ -334,7 +335,7 @@ class Report(Step):
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {object}, {the_object}, {place}, {surface} and {why}."""
+        """`text` may use {object}, {the_object}, {place}, {surface}, {goal} and {why}."""
         super().__init__(name, context)
         self._text = text
 
@@ -347,6 +348,7 @@ class Report(Step):
                 the_object=the(self.situation.request.object or ""),
                 place=found.place if found else "nowhere",
                 surface=table(self.situation.hand.put_at),
+                goal=table(self.situation.request.goal),
                 why=self.situation.hand.unplaced.get(DELIVERY, ""),
             )
         )
@@ -403,8 +405,14 @@ def the(held: str) -> str:
     return held if held == SOMETHING else f"the {held}"
 
 
-def _places(context: MissionContext, answer: str) -> tuple[str, ...]:
-    """The places that an answer names; the table by the person is one, too."""
+def places_in(context: MissionContext, answer: str) -> tuple[str, ...]:
+    """The places that words name; the table by the person is one, too."""
     if DELIVERY in re.findall(r"[a-z]+", answer.lower()):
         return (DELIVERY,)
     return context.knowledge.places_named(answer)
+
+
+def is_place(context: MissionContext, words: str) -> bool:
+    """Whether words name places, or what is beside them, and nothing that would be passed over."""
+    delivery = DELIVERY in re.findall(r"[a-z]+", words.lower())
+    return delivery or context.knowledge.is_place(words.lower().removeprefix(NEXT_TO))

@@ -9,6 +9,8 @@ from py_trees.common import Status
 from executive.records import Activity
 from executive.situation import table
 from executive.types import (
+    FLOOR,
+    PERSON,
     SOMETHING,
     Candidate,
     Detection,
@@ -262,10 +264,9 @@ class PickUp(RobotAction):
                 return self.start_again()
             result = Succeeded()
         if isinstance(result, Succeeded):
-            assert search.found
             hand.in_hand, hand.lost = name, ""
             hand.unplaced.clear()
-            self.context.facts.took(name, search.found.place)
+            self.context.facts.took(name, search.found.place if search.found else FLOOR)
         return super().ended(result)
 
     def out_of_time(self) -> Status:
@@ -327,6 +328,20 @@ class PutDownThere(PutDownAt):
         return self.situation.hand.surface
 
 
+class PutDownAtGoal(PutDownAt):
+    """Puts the held thing down where it is to go.
+
+    Reads request.goal.
+    """
+
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Wait for the goal to be chosen."""
+        super().__init__(name, context, "")
+
+    def _place_now(self) -> str:
+        return self.situation.request.goal
+
+
 class DriveToSurface(RobotAction):
     """Goes to the furniture where the held thing may be put down.
 
@@ -339,6 +354,32 @@ class DriveToSurface(RobotAction):
         """Drive there; the person is not there."""
         self.situation.dialogue.away = True
         return DriveTo(self.situation.hand.surface)
+
+
+class DriveToGoal(RobotAction):
+    """Goes to where the thing, or the robot, is to go.
+
+    Reads request.goal; writes dialogue.away, and hand.unplaced if there is something in the hand.
+    """
+
+    activity = Activity.DRIVING
+
+    def goal(self) -> Goal:
+        """Drive there."""
+        self.situation.dialogue.away = True
+        return DriveTo(self.situation.request.goal)
+
+    def ended(self, result: Result) -> Status:
+        """Be with the person, if that is the goal."""
+        if isinstance(result, Succeeded) and self.situation.request.goal == PERSON:
+            self.situation.dialogue.away = False
+        return super().ended(result)
+
+    def note_failure(self, why: str) -> None:
+        """It cannot be put down there."""
+        if self.situation.hand.in_hand:
+            place = self.situation.request.goal
+            self.situation.hand.unplaced[place] = f"I could not get to {table(place)}: {why}"
 
 
 class SeeTarget(BodyAction):

@@ -1,16 +1,18 @@
-"""Go and look: where it was, where it may be, where the person says, until the thing is seen."""
+"""Go and look, until the thing is seen: where the words say, where it was, where it may be, ask."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.types import Candidate
+from executive.situation import candidates_from
+from executive.types import Candidate, Source
 from trees.context import MissionContext
 from trees.location import resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import Announce, AskWhere
+from trees.person import Announce, AskWhere, tell
 from trees.recall import MemoryKnowsPlaces, Recall
 from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
+from trees.unknown import either
 
 
 def search(context: MissionContext) -> Behaviour:
@@ -23,6 +25,7 @@ def search(context: MissionContext) -> Behaviour:
     return fallback(
         "search",
         Check("in my hand", context, lambda: situation.hand.in_hand == situation.request.object),
+        look_where_the_words_say(context),
         look("look where it was", MemoryKnowsPlaces("memory knows it", context)),
         *(
             look(f"look where the {source.name} says", Recall("it knows a place", context, source))
@@ -35,6 +38,30 @@ def search(context: MissionContext) -> Behaviour:
             AskWhere("ask where", context),
         ),
         GiveUpSearch("not found", context),
+    )
+
+
+def look_where_the_words_say(context: MissionContext) -> Behaviour:
+    """Where the thing is as it was asked for: "the mug from the desk"; nothing if nobody said."""
+    situation = context.situation
+
+    def named() -> list[tuple[Candidate, ...]]:
+        places = candidates_from(situation.request.from_places, Source.USER)
+        new = situation.search.not_visited(places)
+        return [new] if new else []
+
+    def choose(candidates: tuple[Candidate, ...]) -> None:
+        situation.search.candidates = candidates
+
+    return FirstOf(
+        "look where the words say",
+        named,
+        choose,
+        fallback(
+            "there",
+            sequence("look", Announce("announce", context), visit_candidates(context)),
+            SayNotThere("say it is not there", context),
+        ),
     )
 
 
@@ -129,6 +156,23 @@ class NotHere(Step):
         self.context.facts.missed(name, place)
         search.gone = search.detection is not None
         return self.fail(f"no {name} at {place}")
+
+
+class SayNotThere(Step):
+    """Tells that the thing is not where the words say, before it is looked for elsewhere; fails.
+
+    Reads request.from_places and search.looks.
+    """
+
+    def update(self) -> Status:
+        """Say it of what was seen; of what was not, say why."""
+        name, search = self.situation.request.object, self.situation.search
+        places = [c.place for c in search.candidates]
+        said = f"the {name} is not at {either(tuple(places))}"
+        if not all(map(search.looks.all_without, places)):
+            said = search.so_far(name)
+        tell(self.context, f"{said[0].upper()}{said[1:]}. I look further.")
+        return self.fail(said)
 
 
 class GiveUpSearch(Step):

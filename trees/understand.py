@@ -53,11 +53,10 @@ class ReadCommand(Step):
                 self.situation.request.words
             )
             return self.fail("this is no command that the grammar knows")
-        if command.source and not self.context.knowledge.places_named(command.source):
-            self.situation.request.remark = f"I know no place '{command.source}'."
-            return self.fail(f"'{command.source}' is no place of this home")
         self.situation.request.command = command
-        return self.succeed(f"{command.kind} {command.target}")
+        source = f"from {command.source}" if command.source else ""
+        goal = f"to {command.goal}" if command.goal else ""
+        return self.succeed(" ".join(filter(None, (command.kind, command.target, source, goal))))
 
 
 class ReadPastSlips(Step):

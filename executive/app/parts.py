@@ -83,6 +83,9 @@ class Parts:
     parameters: Parameters = Parameters()
 
 
+HANDY_M = (0.6, 1.1)
+"""Heights of a surface that are most easily reached from above (metres), as tables have them."""
+
 Change = Callable[[Parts], Parts]
 """Puts other parts in, as a policy does."""
 
@@ -169,6 +172,7 @@ def build_context(parts: Parts, situation: Situation) -> MissionContext:
         sources=tuple(GuardedSource(source, recorder) for source in parts.sources),
         place_at=place_at(parts),
         near_person=near_person(parts.home),
+        handiest=handiest(parts.home),
         blind_to=parts.blind_to,
         has_arm=parts.has_arm,
     )
@@ -207,3 +211,14 @@ def near_person(home: Home) -> tuple[str, ...]:
         return piece.room != home.delivery.room, math.dist(here, home.stand(piece.name)[:2])
 
     return tuple(piece.name for piece in sorted(home.furniture, key=far))
+
+
+def handiest(home: Home) -> tuple[str, ...]:
+    """The furniture by how easily things are put down there: open, at hand's height, and large."""
+
+    def hard(piece: Furniture) -> tuple[bool, bool, float]:
+        surface = piece.surfaces()[0]
+        at_hand = HANDY_M[0] <= surface.center[2] <= HANDY_M[1]
+        return surface.clearance < math.inf, not at_hand, -surface.length_x * surface.length_y
+
+    return tuple(piece.name for piece in sorted(home.furniture, key=hard))

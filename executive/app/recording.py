@@ -50,6 +50,8 @@ class Recording:
             **self.parts.knowledge.files(),
             "facts.json": json.dumps(self.parts.facts.beliefs()).encode(),
         }
+        if origins := self.parts.facts.origins():
+            attachments["origins.json"] = json.dumps(origins).encode()
         if self.parts.sources:
             attachments["sources.json"] = written(self.parts.sources)
         metadata = {

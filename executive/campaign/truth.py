@@ -36,6 +36,7 @@ def shortest_m(outcome: Outcome, home: Home, routes: Routes) -> float:
     if place is None:
         return 0.0
     end = outcome.kind.means.ends_at if outcome.kind else None
-    stops = (place, end) if end else (place,)
+    ends = outcome.goals or ((end,) if end else ())
     x, y, _ = home.robot_start
-    return routes.tour(((x, y), *map(routes.stand, stops)))
+    there = ((x, y), routes.stand(place))
+    return min((routes.tour((*there, routes.stand(e))) for e in ends), default=routes.tour(there))

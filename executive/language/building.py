@@ -132,9 +132,13 @@ class Builder(Transformer[Token, Said]):
 
     def where(self, parts: list[Part]) -> Where:
         """As in "on the desk": where it is or where it is to go, as the verb says."""
-        said = [p for p in parts if not _is(p, "THAT_IS", "OR")]
-        pairs = zip(said[::2], said[1::2], strict=True)
-        return _either([replace(place, relation=self._relations[p]) for p, place in pairs])
+        places, relation = [], Relation.AT
+        for part in parts:
+            if _is(part, "RELATION"):
+                relation = self._relations[part]
+            elif isinstance(part, Where):
+                places.append(replace(part, relation=relation))
+        return _either(places)
 
     def source(self, parts: list[Part]) -> "From":
         """As in "from the desk"."""
@@ -211,10 +215,8 @@ class Builder(Transformer[Token, Said]):
         return _task(Verb.BRING, parts)
 
     def put(self, parts: list[Part]) -> Task:
-        """As in "put the mug on the desk"; what has no goal cannot be done."""
+        """As in "put the mug on the desk"; where to may be left for the robot to ask."""
         task = _task(Verb.PUT, parts, goes=True)
-        if task.goal is None:
-            raise Unfit(str(parts[0]))
         return replace(task, verb=Verb.BRING) if task.goal == ME else task
 
     def put_down(self, parts: list[Part]) -> Task:

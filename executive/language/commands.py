@@ -27,9 +27,6 @@ from executive.types import HELD, Command, CommandKind
 _DEEDS = [kind.replace("_", " ") for kind in CommandKind]
 CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one thing at a time"
 CANNOT = {
-    Verb.PUT: "I cannot put things where you say so far",
-    Verb.PUT_BACK: "I cannot put things back so far",
-    Verb.GO: "I cannot just go somewhere so far",
     Verb.CLEAR: "I cannot tidy up so far",
     Verb.COUNT: "I cannot count things so far",
     Verb.TELL: "I cannot tell what is there so far",
@@ -132,6 +129,8 @@ def _command(tasks: tuple[Task, ...], words: str) -> Command | str:
     [task] = tasks
     if why := _why_not(task):
         return f"{why}. {CAN}."
+    if task.goal == ME and task.verb == Verb.PUT:
+        task = replace(task, verb=Verb.BRING)
     members = task.things.members if task.things else ()
     return Command(
         CommandKind(task.verb),

@@ -29,7 +29,7 @@ from sim.home.home import Home, recorded_home
 
 T = TypeVar("T")
 
-_BELIEFS = TypeAdapter(dict[str, list[str]])
+_PLACES = TypeAdapter(dict[str, list[str]])
 _home = cache(recorded_home)
 
 
@@ -66,7 +66,9 @@ def recorded_parts(
         knowledge=knowledge,
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
-        facts=FactStore.believing(_beliefs(run), learns=settings.learn),
+        facts=FactStore.believing(
+            _places(run, "facts.json"), _places(run, "origins.json"), learns=settings.learn
+        ),
         sources=_sources(run),
         interpreter=EnglishInterpreter(knowledge.names()),
         in_map=body.in_map,
@@ -103,11 +105,14 @@ def _policy(run: Run) -> Change:
     return POLICIES[name]
 
 
-def _beliefs(run: Run) -> dict[str, list[str]]:
+def _places(run: Run, name: str) -> dict[str, list[str]]:
+    """Places of objects, from an attachment; the robot did not always keep where it took them."""
+    if name == "origins.json" and name not in run.attachments:
+        return {}
     try:
-        return _BELIEFS.validate_json(kept(run, run.attachments, "facts.json"))
+        return _PLACES.validate_json(kept(run, run.attachments, name))
     except ValidationError as error:
-        what = f"its facts.json does not say what is where: {error.errors()[0]['msg']}"
+        what = f"its {name} does not say what is where: {error.errors()[0]['msg']}"
         raise InputError(str(run.path), what) from error
 
 

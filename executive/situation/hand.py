@@ -28,6 +28,9 @@ class Hand:
     put_at: str = ""
     """Where the robot has put down what it held; empty if it has not."""
 
+    elsewhere: str = ""
+    """Where that is, if it was to go somewhere else; empty if it was not."""
+
     def feel(self, holding: bool | None) -> None:
         """What is in the hand is what the fingers feel; its name is that of what they reached for.
 

@@ -1,8 +1,18 @@
 """What is asked for, as far as it is understood."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, field
+from typing import Any
 
+from executive.situation.snapshot import logged_as
 from executive.types import Command, CommandKind
+
+
+def _command(command: Command | None) -> dict[str, Any] | None:
+    """What was not said is left out, as in earlier recordings, whose commands had no places."""
+    if command is None:
+        return None
+    always = ("kind", "target", "words")
+    return {name: v for name, v in asdict(command).items() if v or name in always}
 
 
 @dataclass
@@ -10,7 +20,7 @@ class Request:
     """What the person wants, in the order in which it becomes known."""
 
     words: str = ""
-    command: Command | None = None
+    command: Command | None = field(default=None, metadata=logged_as(plain=_command))
     remark: str = ""
     """What to say of the words if they were read, and are no command to carry out."""
     options: tuple[str, ...] = ()
@@ -20,6 +30,12 @@ class Request:
     guess: str = ""
     """A known name that the target may be a slip of, or that is all of it that is known."""
     object: str | None = None
+    from_places: tuple[str, ...] = ()
+    """The furniture where the thing is by the words, the likeliest first."""
+    goals: tuple[str, ...] = ()
+    """The furniture that will do as the place where it, or the robot, is to go, the best first."""
+    goal: str = ""
+    """That of them which the robot has chosen."""
 
     def asks_to(self, kind: CommandKind) -> bool:
         """Whether this kind of deed was asked for."""

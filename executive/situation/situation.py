@@ -102,6 +102,7 @@ class Situation:
             wall_time_s=round(wall_time_s, 3),
             run_dir=run_dir,
             model_failure=self.model.failure,
+            goals=self.request.goals,
         )
 
 

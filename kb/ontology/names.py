@@ -1,7 +1,7 @@
 """Names as people write them, brought to one form, so that "The Sugar-Boxes" finds sugar_box."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rapidfuzz import process
@@ -77,14 +77,18 @@ class PlaceNames:
         ("dinning table") is read as the word that it is near to.
         """
         found: list[str] = []
-        for clause in CLAUSE_ENDS.split(text.casefold()):
-            if NEGATION.search(clause):
-                continue
-            reading = self._read(map(self._without_slip, place_words(clause)))
+        for reading in self._readings(text):
             found.extend(reading.furniture)
             for room in reading.rooms:
                 found.extend(self._pieces_in[room])
         return unique(found)
+
+    def covers(self, text: str) -> bool:
+        """Whether each clause names a place, and has no word that does not belong to its name."""
+        readings = list(self._readings(text))
+        return bool(readings) and all(
+            not reading.unknown and (reading.furniture or reading.rooms) for reading in readings
+        )
 
     def exactly(self, name: str) -> Reading:
         """The one piece of furniture or the one room that all of a name fits, else nothing."""
@@ -96,6 +100,12 @@ class PlaceNames:
     def rooms_of(self, furniture: Iterable[str]) -> tuple[str, ...]:
         """The rooms that these pieces of furniture stand in."""
         return unique(self._room_of[name] for name in furniture if name in self._room_of)
+
+    def _readings(self, text: str) -> Iterator[Reading]:
+        """Of each clause with a word in it that does not deny."""
+        for clause in CLAUSE_ENDS.split(text.casefold()):
+            if not NEGATION.search(clause) and (words := place_words(clause)):
+                yield self._read(map(self._without_slip, words))
 
     def _read(self, content: Iterable[str]) -> Reading:
         """The places in the words of one phrase: "in the cupboard of the kitchen".

@@ -184,6 +184,10 @@ class Ontology:
         """Furniture that the words name, in their order; a room stands for its furniture."""
         return self.place_names.find(words)
 
+    def is_place(self, words: str) -> bool:
+        """Whether they name furniture or rooms, and nothing else: not "Anna in the kitchen"."""
+        return self.place_names.covers(words)
+
     def preferred(self, names: Sequence[str]) -> tuple[str, ...]:
         """Those of the objects that the person at home prefers; none if nobody knows who it is."""
         return tuple(

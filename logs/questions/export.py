@@ -183,6 +183,7 @@ TABLES: dict[str, tuple[Callable[[Run], Iterable[Row]], Columns]] = {
             wall_time_s=pa.float64(),
             run_dir=pa.string(),
             model_failure=pa.string(),
+            goals=_STRINGS,
         ),
     ),
     "ticks": (

@@ -104,8 +104,8 @@ class _Chain:
                 alternatives.append(Alternative(child.name, NOT_NEEDED))
             elif states[child.path].status == "SUCCESS":
                 taken = child
-            else:
-                alternatives.append(Alternative(child.name, self._reason(child, states)))
+            elif reason := self._reason(child, states):
+                alternatives.append(Alternative(child.name, reason))
         if taken is None:
             return Decision(at.time_s, fallback.name, "nothing worked", "", "", tuple(alternatives))
         last = self._last(taken, lambda leaf: states[leaf.path].status == "SUCCESS") or taken
@@ -135,12 +135,15 @@ class _Chain:
         self._thoughts.clear()
 
     def _reason(self, child: NodeShape, states: dict[str, NodeState]) -> str:
-        """Why a child failed: the message of the last leaf in it that failed, now or before."""
+        """Why a child failed: the message of the last leaf in it that failed, now or before.
+
+        Empty if none has: there was nothing to try.
+        """
         leaf = self._last(
             child, lambda leaf: states[leaf.path].status == "FAILURE" or leaf.path in self._reasons
         )
         if leaf is None:
-            return "did not succeed"
+            return ""
         now = states[leaf.path]
         said = now.message if now.status == "FAILURE" else self._reasons[leaf.path]
         return said or ("no" if leaf is child else denied(leaf.name))

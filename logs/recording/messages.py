@@ -304,5 +304,6 @@ def finished_from_message(message: Any) -> Finished:
         wall_time_s=finite(message.wall_time_s),
         run_dir=optional("run_dir"),
         model_failure=message.model_failure,
+        goals=tuple(message.goals),
     )
     return Finished(outcome)

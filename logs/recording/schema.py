@@ -147,6 +147,7 @@ OUTCOME: Definitions = {
         "wall_time_s": "double",
         "run_dir": "optional string",
         "model_failure": "string",
+        "goals": "repeated string",
     },
 }
 

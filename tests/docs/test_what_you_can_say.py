@@ -29,7 +29,9 @@ def test_does_what_is_said(words: str, deed: str) -> None:
     command = read.command(words)
     assert command
     place = f" ({command.source})" if command.source else ""
-    assert f"{command.kind.replace('_', ' ')} {command.target}{place}" == deed
+    goal = f"→ {command.goal}" if command.goal else ""
+    what = f"{command.target}{place}"
+    assert " ".join(filter(None, (command.kind.replace("_", " "), what, goal))) == deed
 
 
 @pytest.mark.parametrize(("words", "question"), rows("it asks"))

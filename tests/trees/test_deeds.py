@@ -3,7 +3,7 @@
 import pytest
 
 from executive.language.grammar import EnglishInterpreter
-from executive.types import DELIVERY, PERSON, CommandKind
+from executive.types import DELIVERY, PERSON, SEARCHING, CommandKind
 from trees.deeds import DEEDS
 
 
@@ -11,7 +11,7 @@ def test_every_kind_of_command_is_done_by_one_deed() -> None:
     assert sorted(deed.kind for deed in DEEDS) == sorted(CommandKind)
 
 
-@pytest.mark.parametrize("kind", [kind for kind in CommandKind if kind.means.searches])
+@pytest.mark.parametrize("kind", SEARCHING)
 def test_every_verb_about_a_thing_is_a_word_that_is_read(kind: CommandKind) -> None:
     command = EnglishInterpreter().command(f"{kind} the mug")
     assert command
@@ -23,4 +23,5 @@ def test_a_verb_says_what_becomes_of_the_thing() -> None:
     assert ends[CommandKind.FIND] == (False, PERSON)
     assert ends[CommandKind.TAKE] == (True, None)
     assert ends[CommandKind.BRING] == (True, DELIVERY)
-    assert [kind for kind in CommandKind if kind.means.carries] == [CommandKind.BRING]
+    carrying = [kind for kind in CommandKind if kind.means.carries]
+    assert carrying == [CommandKind.BRING, CommandKind.PUT, CommandKind.PUT_BACK]

@@ -3,10 +3,13 @@
 from trees.deeds.bring import Bring
 from trees.deeds.deed import Deed
 from trees.deeds.find import Find
+from trees.deeds.go import Go
+from trees.deeds.put import Put
+from trees.deeds.put_back import PutBack
 from trees.deeds.put_down import PutDown
 from trees.deeds.take import Take
 
-DEEDS: tuple[Deed, ...] = (Bring(), Find(), Take(), PutDown())
+DEEDS: tuple[Deed, ...] = (Bring(), Find(), Take(), PutDown(), Put(), PutBack(), Go())
 """In the order in which the tree has them."""
 
 

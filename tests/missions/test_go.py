@@ -1,0 +1,69 @@
+"""Go somewhere."""
+
+from pathlib import Path
+
+import pytest
+from talking import session_in, session_of, told
+
+from executive.replay.replaying import replay
+from executive.testing.bench import run_mission
+from executive.types import DriveTo, MissionStatus
+
+
+@pytest.mark.parametrize(
+    ("words", "there", "said"),
+    [
+        ("Go to the desk", "desk", "I am at the desk."),
+        ("Drive to the desk", "desk", "I am at the desk."),
+        ("Go next to the desk", "desk", "I am at the desk."),
+        ("Go to the kitchen", "cabinet_kitchen", "I am at the cabinet_kitchen."),
+        ("Go to me", "person", "Here I am."),
+    ],
+)
+def test_the_robot_goes_to_furniture_rooms_and_the_person(
+    words: str, there: str, said: str
+) -> None:
+    run = run_mission(words, llm=False)
+    assert (run.outcome.status, run.world.at) == (MissionStatus.DONE, there)
+    assert run.outcome.reason == said
+
+
+def test_of_a_room_any_furniture_will_do() -> None:
+    run = run_mission(
+        "Go to the kitchen",
+        llm=False,
+        fault=lambda goal: "shut" if goal == DriveTo("cabinet_kitchen") else None,
+    )
+    assert (run.outcome.status, run.world.at) == (MissionStatus.DONE, "counter_wagon")
+
+
+@pytest.mark.physics
+def test_in_physics_it_gets_there(tmp_path: Path) -> None:
+    session = session_of(tmp_path, world="physics", camera_hz=0.0)
+    for place in ("desk", "person", "kitchen"):
+        assert session.run(f"Go to {place}").status == MissionStatus.DONE
+        assert session.folder
+        assert replay(session.folder).parting is None
+    session.close()
+
+
+def test_a_place_that_is_not_known_is_asked_for(tmp_path: Path) -> None:
+    session, world = session_in(tmp_path, ["to the bed"])
+    assert session.run("Go to Anna").status == MissionStatus.DONE
+    assert "I do not know where 'anna' is. Where shall I go?" in told(session)
+    assert world.at == "bed"
+    session.close()
+    assert session.folder
+    assert replay(session.folder).parting is None
+
+
+def test_what_it_holds_goes_with_it_and_why_it_could_not_go_is_said(tmp_path: Path) -> None:
+    session, world = session_in(tmp_path)
+    session.run("Take the hammer")
+    world.fault = lambda goal: "the way is blocked" if goal == DriveTo("bed") else None
+    outcome = session.run("Go to the bed")
+    assert (outcome.status, world.held) == (MissionStatus.NOT_DONE, "hammer")
+    assert outcome.reason == "I could not get to the bed: the way is blocked"
+    session.close()
+    assert session.folder
+    assert replay(session.folder).parting is None

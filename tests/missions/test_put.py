@@ -1,0 +1,269 @@
+"""Put something somewhere: it is there in the end, or it is said where it is instead."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from talking import session_in, session_of, told, without_room
+
+from executive.app.session import Session
+from executive.campaign.truth import completed, whereabouts
+from executive.replay.replaying import replay
+from executive.testing.bench import Run, run_mission
+from executive.types import DELIVERY, HAND, CommandKind, DriveTo, MissionStatus, Pick
+from logs.questions.why import why, why_text
+from logs.recording.reader import Run as Recorded
+from sim.fake import FakeWorld
+
+Serve = Callable[..., tuple[Session, FakeWorld]]
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Serve]:
+    """Makes a session whose missions all have to replay as recorded."""
+    sessions: list[Session] = []
+
+    def make(*answers: str | None, **settings: object) -> tuple[Session, FakeWorld]:
+        session, world = session_in(tmp_path / str(len(sessions)), answers, **settings)
+        sessions.append(session)
+        return session, world
+
+    yield make
+    for session in sessions:
+        session.close()
+        for run in session.settings.runs.iterdir():
+            assert replay(run).parting is None
+
+
+def put(words: str, **given: object) -> Run:
+    return run_mission(words, llm=False, **given)
+
+
+def end_of(run: Run) -> tuple[str, str]:
+    """How it ended, and where the thing is."""
+    return run.outcome.status, whereabouts(run.outcome.object or "", run.world)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Put the hammer on the desk",
+        "Put the hammer on the desk in the bedroom",
+        "Bring the hammer to the desk",
+        "Take the hammer to the desk",
+    ],
+)
+def test_what_is_to_go_somewhere_is_put_there(words: str) -> None:
+    run = put(words)
+    assert end_of(run) == (MissionStatus.DONE, "desk")
+    assert run.outcome.kind == CommandKind.PUT
+    assert run.outcome.reason == "I put the hammer on the desk."
+
+
+def test_a_campaign_knows_whether_it_is_there() -> None:
+    outcome = put("Put the hammer in the bedroom").outcome
+    assert completed(outcome, "desk")
+    assert completed(outcome, "bed")
+    assert not completed(outcome, "sofa")
+    assert not completed(outcome, HAND)
+
+
+def test_in_a_room_it_is_put_where_that_is_easiest_and_else_on_other_furniture_there() -> None:
+    assert end_of(put("Put the hammer in the bedroom")) == (MissionStatus.DONE, "desk")
+    run = put("Put the hammer in the bedroom", fault=without_room("desk"))
+    assert end_of(run) == (MissionStatus.DONE, "bookshelf_bedroom")
+    shut = {DriveTo("desk"), DriveTo("bookshelf_bedroom")}
+    run = put("Put the hammer in the bedroom", fault=lambda goal: "shut" if goal in shut else None)
+    assert end_of(run) == (MissionStatus.DONE, "bed")
+
+
+def test_what_is_brought_to_the_person_is_put_on_the_delivery_table() -> None:
+    for words in ("Bring the hammer to me", "Put the hammer here"):
+        assert end_of(put(words)) == (MissionStatus.DONE, DELIVERY)
+
+
+def test_what_is_there_already_stays_there() -> None:
+    run = put("Put the hammer on the shelf_lobby")
+    assert end_of(run) == (MissionStatus.DONE, "shelf_lobby")
+    assert run.outcome.reason == "The hammer is at shelf_lobby already."
+    assert not any(isinstance(goal, Pick) for goal in run.goals)
+
+
+@pytest.mark.parametrize("thing", ["the hammer", "it"])
+def test_what_is_in_the_hand_is_not_searched_for(serve: Serve, thing: str) -> None:
+    session, world = serve()
+    session.run("Take the hammer")
+    outcome = session.run(f"Put {thing} on the sofa")
+    assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ())
+    assert (world.held, world.resting_place("hammer")) == (None, "sofa")
+
+
+def test_what_is_not_known_by_name_is_put_back_where_the_person_says(serve: Serve) -> None:
+    session, world = serve("on the desk")
+    world.held = "hammer"
+    del world.things["hammer"]
+    assert session.run("Put it back").reason == "I put something back on the desk."
+    assert world.resting_place("hammer") == "desk"
+
+
+def test_it_is_not_done_without_room_and_the_thing_stays_in_the_hand(serve: Serve) -> None:
+    session, world = serve("I don't know")
+    world.fault = without_room("desk")
+    outcome = session.run("Put the hammer on the desk")
+    assert (outcome.status, world.held) == (MissionStatus.NOT_DONE, "hammer")
+    assert outcome.reason == (
+        "there is no free spot on the desk, and you could not tell me; I still hold the hammer"
+    )
+
+
+def test_it_is_put_elsewhere_only_where_the_person_says_and_that_is_not_done(serve: Serve) -> None:
+    session, world = serve("on the sofa")
+    world.fault = without_room("desk")
+    outcome = session.run("Put the hammer on the desk")
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.NOT_DONE, "sofa")
+    assert outcome.reason == (
+        "there is no free spot on the desk; I put it on the sofa instead, as you said"
+    )
+
+
+def test_a_way_that_is_blocked_is_said(serve: Serve) -> None:
+    session, world = serve("no idea")
+    world.fault = lambda goal: "the way is blocked" if goal == DriveTo("desk") else None
+    outcome = session.run("Put the hammer on the desk")
+    assert (outcome.status, world.held) == (MissionStatus.NOT_DONE, "hammer")
+    assert outcome.reason.startswith("I could not get to the desk: the way is blocked, and ")
+
+
+@pytest.mark.parametrize("place", ["Anna", "attic", "Robert in the kitchen"])
+def test_who_or_what_is_not_known_is_asked_for_before_anything_is_done(
+    serve: Serve, place: str
+) -> None:
+    session, world = serve("put it on the desk")
+    outcome = session.run(f"Bring the hammer to {place}")
+    heard = place.lower().replace("the ", "")
+    asked = f"I do not know where '{heard}' is. Where shall I put the hammer?"
+    assert asked in told(session)
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "desk")
+
+
+@pytest.mark.parametrize("place", ["under the desk", "next to the desk"])
+def test_what_cannot_be_put_so_is_not_put_otherwise(serve: Serve, place: str) -> None:
+    session, world = serve("I don't know")
+    outcome = session.run(f"Put the hammer {place}")
+    heard = place.replace("the ", "")
+    assert (outcome.status, world.resting_place("hammer")) == ("not_done", "shelf_lobby")
+    assert outcome.reason == (
+        f"I can put things on furniture, or in it, but not '{heard}', and you could not tell me"
+    )
+
+
+def test_of_places_to_choose_from_any_will_do() -> None:
+    run = put("Put the hammer on the sofa or desk", fault=without_room("desk"))
+    assert end_of(run) == (MissionStatus.DONE, "sofa")
+
+
+def test_nothing_is_done_if_nobody_knows_where_to_put_it(serve: Serve) -> None:
+    session, world = serve("I don't know")
+    outcome = session.run("Bring the hammer to Anna")
+    assert (outcome.status, outcome.visited) == (MissionStatus.NOT_DONE, ())
+    assert outcome.reason == "I do not know where 'anna' is, and you could not tell me"
+    assert world.resting_place("hammer") == "shelf_lobby"
+
+
+def test_a_word_for_several_places_is_asked_about(serve: Serve) -> None:
+    session, world = serve("the high one", "the high table")
+    outcome = session.run("Put the hammer on the table")
+    asked = "Which table do you mean: high_table, dining_table or coffee_table?"
+    assert asked in told(session)
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "high_table")
+
+
+def test_what_nobody_says_where_to_put_is_asked_for(serve: Serve) -> None:
+    session, world = serve("on the bed")
+    assert session.run("Put the hammer").status == MissionStatus.DONE
+    assert "Where shall I put the hammer?" in told(session)
+    assert world.resting_place("hammer") == "bed"
+
+
+@pytest.mark.parametrize("when", ["drop@1", "drop@32", "drop@35", "drop@40"])
+def test_what_falls_on_the_way_is_there_or_said_to_have_fallen(serve: Serve, when: str) -> None:
+    session, world = serve(fault=(when,))
+    outcome = session.run("Put the hammer on the desk")
+    done = outcome.status == MissionStatus.DONE
+    assert done == (world.resting_place("hammer") == "desk")
+    assert done or "hammer" in outcome.reason
+
+
+def test_what_was_brought_is_put_back_where_it_was_taken(serve: Serve) -> None:
+    session, world = serve()
+    session.run("Bring the mug from the coffee table")
+    assert world.resting_place("mug") == DELIVERY
+    outcome = session.run("Put the mug back")
+    assert (outcome.status, outcome.goals) == (MissionStatus.DONE, ("coffee_table",))
+    assert outcome.reason == "I put the mug back on the coffee_table."
+    assert world.resting_place("mug") == "coffee_table"
+
+
+def test_what_is_in_the_hand_is_put_back_even_if_it_was_on_the_delivery_table_since(
+    serve: Serve,
+) -> None:
+    session, world = serve()
+    session.run("Bring the mug from the coffee table")
+    session.run("Take the mug")
+    assert session.run("Put it back").status == MissionStatus.DONE
+    assert world.resting_place("mug") == "coffee_table"
+
+
+def test_where_it_was_taken_is_known_from_the_memory_of_another_day(
+    serve: Serve, tmp_path: Path
+) -> None:
+    first, _ = serve(memory=tmp_path / "memory.db")
+    first.run("Bring the mug from the coffee table")
+    second, world = serve(memory=tmp_path / "memory.db")
+    world.things["mug"] = DELIVERY
+    assert second.run("Put the mug back").status == MissionStatus.DONE
+    assert world.resting_place("mug") == "coffee_table"
+
+
+def test_what_was_not_taken_from_anywhere_goes_where_it_belongs_and_that_is_said(
+    serve: Serve,
+) -> None:
+    session, world = serve(place={"hammer": "sofa"})
+    outcome = session.run("Put back the hammer from the sofa")
+    assert "I do not know where the hammer was; it belongs on the shelf_lobby." in told(session)
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "shelf_lobby")
+
+
+def test_why_tells_who_said_where_to_put_it(serve: Serve) -> None:
+    session, world = serve("on the sofa")
+    world.fault = without_room("desk")
+    session.run("Put the hammer from the shelf_lobby on the desk")
+    assert session.folder
+    text = why_text(why(Recorded(session.folder)))
+    for line in (
+        "from where: shelf_lobby  [person]",
+        "to where: desk  [person]",
+        "- where it is to go: there is no free spot on the desk",
+        "- elsewhere: I put it on the sofa",
+    ):
+        assert line in text, text
+
+
+@pytest.mark.physics
+def test_in_physics_things_are_put_where_they_are_to_go_and_back(tmp_path: Path) -> None:
+    settings = {"world": "physics", "camera_hz": 0.0, "place": {"apple": "refrigerator"}}
+    session = session_of(tmp_path, ["I don't know"], **settings)
+    truth = session.embodiment.truth
+    assert truth
+    for words, thing, place in (
+        ("Bring the hammer from the lobby to the bedroom", "hammer", "desk"),
+        ("Put the mug from the coffee table on the desk", "mug", "desk"),
+        ("Put back the mug from the desk", "mug", "coffee_table"),
+        ("Bring the apple from the refrigerator to the sofa", "apple", "sofa"),
+    ):
+        outcome = session.run(words)
+        assert outcome.status == MissionStatus.DONE, outcome.reason
+        assert truth.resting_place(thing) == place
+        assert session.folder
+        assert replay(session.folder).parting is None
+    session.close()

@@ -1,0 +1,53 @@
+"""What falls from the hand on the way: picked up again if it can be, else told."""
+
+from collections.abc import Iterator
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from trees.context import MissionContext
+from trees.nodes import Check, FirstOf, Step, sequence
+from trees.person import the
+from trees.robot import LookForLost, PickUp, SeeLost
+
+
+def pick_up_again(context: MissionContext, *spots: str, at_goal: bool = False) -> Behaviour:
+    """Look for what fell from the hand at these spots, `at_goal` first there, and pick it up."""
+    situation = context.situation
+
+    def views() -> Iterator[tuple[str, int]]:
+        goal = (situation.request.goal,) if at_goal else ()
+        return ((s, view) for s in (*goal, *spots) for view in range(context.robot.views(s)))
+
+    def choose(look: tuple[str, int]) -> None:
+        situation.hand.spot, situation.search.view = look
+
+    return sequence(
+        "pick it up again",
+        Check("it fell", context, lambda: bool(situation.hand.lost)),
+        FirstOf(
+            "look around",
+            views,
+            choose,
+            sequence("glance", LookForLost("aim", context), SeeLost("see", context)),
+        ),
+        PickUp("pick", context),
+    )
+
+
+class SayItFell(Step):
+    """Says why it was not brought, and whether it fell or is still in the hand; always fails."""
+
+    def update(self) -> Status:
+        """Put the clauses together, if there are two."""
+        held, lost, why = (
+            self.situation.hand.in_hand,
+            self.situation.hand.lost,
+            self.why_before(),
+        )
+        if lost and lost != why:
+            return self.fail(f"{lost}, and {why}")
+        if held:
+            return self.fail(f"{why}; I still hold {the(held)}")
+        gone = f"the {self.situation.request.object} is not in my hand any more"
+        return self.fail(why if lost else f"{why}; {gone}")

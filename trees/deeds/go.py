@@ -1,0 +1,74 @@
+"""Go somewhere: to furniture, into a room, to the person."""
+
+from collections.abc import Iterable
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.records import Activity
+from executive.situation import table
+from executive.types import PERSON, CommandKind, Outcome, Result, Succeeded
+from trees.context import MissionContext
+from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.nodes import Check, FirstOf, fallback, sequence
+from trees.person import Report
+from trees.places import destination
+from trees.robot import DriveToGoal
+
+
+class Go(Deed):
+    """As in "Go to the kitchen", "Come here"."""
+
+    kind = CommandKind.GO
+
+    def ways(self, context: MissionContext) -> Iterable[Behaviour]:
+        """Of a room, any furniture will do."""
+        request = context.situation.request
+
+        def choose(place: str) -> None:
+            request.goal = place
+
+        yield sequence(
+            "go",
+            asked_to(context, self.kind),
+            destination(context),
+            FirstOf("there", lambda: request.goals, choose, GoThere("drive", context)),
+            fallback(
+                "say so",
+                sequence(
+                    "with the person",
+                    Check("by the person", context, lambda: request.goal == PERSON),
+                    Report("report", context, "Here I am."),
+                ),
+                Report("report", context, "I am at {goal}."),
+            ),
+            Conclude("done", context),
+        )
+
+    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+        """It got there last, as far as it tells: the truth of things does not say."""
+        return outcome.goals == (PERSON,) or outcome.visited[-1:] in [(g,) for g in outcome.goals]
+
+
+class GoThere(DriveToGoal):
+    """Goes to the goal at hand, and counts it as visited.
+
+    Reads request.goal; writes search.looks.
+    """
+
+    activity = Activity.DRIVING
+
+    def ended(self, result: Result) -> Status:
+        """Only what was reached counts."""
+        place = self.situation.request.goal
+        if isinstance(result, Succeeded) and place != PERSON:
+            self.situation.search.looks.reached(place)
+        return super().ended(result)
+
+    def note_failure(self, why: str) -> None:
+        """Nothing: a thing in the hand stays there."""
+
+    def failed(self, result: Result) -> Status:
+        """Say where to."""
+        super().failed(result)
+        return self.fail(f"I could not get to {table(self.situation.request.goal)}: {self.reason}")

@@ -1,0 +1,148 @@
+"""Put a thing where the person says: on that furniture, or in that room; nowhere else is done."""
+
+from collections.abc import Iterable
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.situation import Situation, table
+from executive.types import FLOOR, CommandKind, Outcome
+from trees.context import MissionContext
+from trees.deeds.deed import Deed, asked_to
+from trees.deeds.fall import pick_up_again
+from trees.deeds.put_down import go_and_put
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
+from trees.person import AskWhereToPut, Report, the
+from trees.robot import DriveToGoal, PutDownAtGoal
+
+
+class Put(Deed):
+    """As in "Put the mug on the desk", "Take the mug to the kitchen"."""
+
+    kind = CommandKind.PUT
+    already = "The {object} is at {place} already."
+    report = "I put {the_object} on {surface}."
+
+    def ways(self, context: MissionContext) -> Iterable[Behaviour]:
+        """It may be there already."""
+        situation = context.situation
+
+        def is_there() -> bool:
+            found = situation.search.found
+            return found is not None and found.place in situation.request.goals
+
+        yield sequence(
+            f"{self.kind} already",
+            asked_to(context, self.kind),
+            Check("found at the goal", context, is_there),
+            Report("report", context, self.already),
+        )
+        yield sequence(
+            str(self.kind),
+            asked_to(context, self.kind),
+            put_at_goal(context),
+            Report("report", context, self.report),
+        )
+
+    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+        """It is on furniture that the goal names."""
+        return whereabouts in outcome.goals
+
+
+def put_at_goal(context: MissionContext) -> Behaviour:
+    """A full hand -> `situation.hand.put_at`, one of the goals; else fails, and says what it did.
+
+    If no goal has room, the person may name another place; it is put there, but that is not done.
+    """
+    situation = context.situation
+
+    def choose_goal(place: str) -> None:
+        situation.request.goal = place
+
+    def choose(place: str) -> None:
+        situation.hand.surface = place
+
+    holds = Check("still in my hand", context, lambda: situation.hand.in_hand is not None)
+    return fallback(
+        "put it there",
+        FirstOf("where it is to go", lambda: situation.request.goals, choose_goal, carry(context)),
+        sequence(
+            "elsewhere",
+            holds,
+            Check("person may help", context, lambda: not situation.dialogue.no_help),
+            AskWhereToPut("ask where to put it", context),
+            FirstOf("there", lambda: situation.hand.surfaces, choose, go_and_put(context)),
+            PutElsewhere("put elsewhere", context),
+        ),
+        NotAtGoal("not there", context),
+    )
+
+
+def carry(context: MissionContext) -> Behaviour:
+    """Take it to the goal at hand and put it down; what falls is picked up once."""
+    hand = context.situation.hand
+
+    def again(step: Behaviour, *, at_goal: bool) -> Behaviour:
+        return FirstOf(
+            "after a fall",
+            lambda: [hand.lost] if hand.lost else [],
+            lambda _: None,
+            sequence("once more", pick_up_again(context, FLOOR, at_goal=at_goal), step),
+        )
+
+    return sequence(
+        "carry it there",
+        Check("still in my hand", context, lambda: hand.in_hand is not None),
+        fallback(
+            "get there",
+            DriveToGoal("carry", context),
+            again(DriveToGoal("carry", context), at_goal=False),
+        ),
+        fallback(
+            "leave it there",
+            PutDownAtGoal("put down", context),
+            again(PutDownAtGoal("put down", context), at_goal=True),
+        ),
+    )
+
+
+class PutElsewhere(Step):
+    """Says that it was put down where the person said then; always fails, since it is not there.
+
+    Writes hand.elsewhere.
+    """
+
+    def update(self) -> Status:
+        """That was not what was asked for."""
+        hand = self.situation.hand
+        hand.elsewhere = hand.put_at
+        return self.fail(f"I put it on {table(hand.put_at)}")
+
+
+class NotAtGoal(Step):
+    """Says why it is not where it was to go, and where it is now; always fails."""
+
+    def update(self) -> Status:
+        """Put the clauses together."""
+        hand, why = self.situation.hand, why_not(self.situation) or self.why_before()
+        if hand.elsewhere:
+            return self.fail(f"{why}; I put it on {table(hand.elsewhere)} instead, as you said")
+        if hand.in_hand:
+            silence = self.situation.dialogue.no_help
+            why = f"{why}, and {silence}" if silence and silence not in why else why
+            return self.fail(f"{why}; I still hold {the(hand.in_hand)}")
+        if hand.lost:
+            return self.fail(why if hand.lost == why else f"{hand.lost}, and {why}")
+        return self.fail(
+            f"{why}; {the(self.situation.request.object or '')} is not in my hand any more"
+        )
+
+
+def why_not(situation: Situation) -> str:
+    """Where it could not be put of all the places where it was to go, and why; empty if nowhere."""
+    tried = [
+        why if place in why else f"I could not put it on {table(place)}: {why}"
+        for place, why in situation.hand.unplaced.items()
+        if place in situation.request.goals
+    ]
+    return "; ".join(tried)

@@ -1,0 +1,11 @@
+"""Put a thing back: where the robot took it, else where it belongs."""
+
+from executive.types import CommandKind
+from trees.deeds.put import Put
+
+
+class PutBack(Put):
+    """As in "Put the mug back". Where that is, `trees/places.py` finds out."""
+
+    kind = CommandKind.PUT_BACK
+    report = "I put {the_object} back on {surface}."

@@ -1,0 +1,298 @@
+"""Which places do the words name? Where the thing is, and where it, or the robot, is to go."""
+
+import re
+from collections.abc import Sequence
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.situation import table
+from executive.types import PERSON, SOMETHING, Command, CommandKind, Question, QuestionKind, Source
+from trees.context import MissionContext
+from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
+from trees.person import NEXT_TO, NO_PLACE, Ask, AskWhere, is_place, places_in, tell, the
+from trees.unknown import either
+
+TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
+"""Words for the goal that is the person who speaks."""
+BESIDE = ("under ", NEXT_TO)
+"""Beginnings of where nothing can be put."""
+
+
+def named_places(context: MissionContext) -> Behaviour:
+    """Words for places -> `request.from_places` and `request.goals`; none if there are none."""
+    request = context.situation.request
+
+    def source() -> Sequence[str]:
+        assert request.command
+        return [request.command.source] if request.command.source else []
+
+    def goes() -> Sequence[str]:
+        assert request.command
+        return [request.command.kind] if request.command.kind.means.at_goal else []
+
+    return sequence(
+        "named places",
+        EachOf("if it is somewhere", source, lambda _: None, starting_place(context)),
+        EachOf("if it goes somewhere", goes, lambda _: None, destination(context)),
+    )
+
+
+def starting_place(context: MissionContext) -> Behaviour:
+    """Where the words say that the thing is; nobody has to know that place."""
+    return fallback(
+        "from where",
+        SourceIsKnown("the place is known", context),
+        AskFromWhere("ask where", context),
+        SearchAnyway("search as ever", context),
+    )
+
+
+def destination(context: MissionContext) -> Behaviour:
+    """Where it is to go -> `request.goals`, the best first; asked if it is not known."""
+    request = context.situation.request
+
+    def back() -> list[str]:
+        return [request.object or ""] if goes_back(request.command) else []
+
+    return fallback(
+        "to where",
+        GoalIsKnown("the goal is known", context),
+        FirstOf(
+            "back",
+            back,
+            lambda _: None,
+            fallback(
+                "where it was",
+                TakenFrom("it was taken from there", context),
+                UsualPlace("its usual place", context),
+            ),
+        ),
+        AskWhereTo("ask where to", context),
+    )
+
+
+class SourceIsKnown(Step):
+    """Succeeds if the home has the place that the words name.
+
+    Reads request.command; writes request.from_places.
+    """
+
+    source = "person"
+
+    def update(self) -> Status:
+        """Of a room, look first where the thing was seen, then where things like it are."""
+        request = self.situation.request
+        assert request.command
+        assert request.object
+        named = places_in(self.context, request.command.source)
+        if not named or not is_place(self.context, request.command.source):
+            return self.fail(f"I know no '{request.command.source}'")
+        likely = (
+            *self.context.facts.places_of(request.object),
+            *usual_places(self.context),
+        )
+        request.from_places = tuple(sorted(named, key=lambda place: place not in likely))
+        return self.succeed(", ".join(request.from_places))
+
+
+class AskFromWhere(AskWhere):
+    """Asks where the thing is if the place that the words name is not known.
+
+    Reads request.command; writes request.from_places.
+    """
+
+    def question(self) -> Question:
+        """Say what is not known."""
+        asked = super().question()
+        text = f"{self.unresolved()}. {asked.text}" if self._tries == 0 else asked.text
+        return Question(asked.kind, asked.about, text)
+
+    def understood(self, answer: str) -> bool:
+        """Look there first."""
+        if not super().understood(answer):
+            return False
+        self.situation.request.from_places = places_in(self.context, answer)
+        return True
+
+    def unresolved(self) -> str:
+        """The place is unknown."""
+        assert self.situation.request.command
+        return f"I know no '{self.situation.request.command.source}'"
+
+
+class SearchAnyway(Step):
+    """Says that a place is unknown, and that the search goes on without it."""
+
+    def update(self) -> Status:
+        """Nothing that was said is passed over in silence."""
+        request = self.situation.request
+        assert request.command
+        said = f"I know no '{request.command.source}'"
+        tell(self.context, f"{said}; I look for the {request.object} where it may be.")
+        return self.succeed(said)
+
+
+class GoalIsKnown(Step):
+    """Succeeds if the words name one place, or one room, whose furniture will all do.
+
+    Reads request.command; writes request.goals.
+    """
+
+    source = "person"
+
+    def update(self) -> Status:
+        """Look the words up."""
+        goal = goal_words(self.context)
+        if not goal:
+            return self.fail("you named no place")
+        if goal.lower() in TO_THE_PERSON:
+            self.situation.request.goals = (PERSON,)
+            return self.succeed(PERSON)
+        named = goals_in(self.context)
+        if not named:
+            return self.fail(unknown(self.context))
+        if options_in(self.context):
+            return self.fail(f"'{goal}' may be {either(named)}")
+        goes = self.situation.request.asks_to(CommandKind.GO)
+        self.situation.request.goals = named if goes else best_first(self.context, named)
+        return self.succeed(", ".join(self.situation.request.goals))
+
+
+class TakenFrom(Step):
+    """Succeeds if the robot knows where it has taken the thing.
+
+    Writes request.goals.
+    """
+
+    source = Source.MEMORY
+
+    def update(self) -> Status:
+        """What was taken from the delivery table had been brought there before."""
+        request = self.situation.request
+        taken = self.context.facts.origins().get(request.object or "", ())
+        known = [place for place in taken if self.context.knowledge.has_place(place)]
+        if not known:
+            return self.fail(f"I do not know where I took the {request.object}")
+        request.goals = (known[0],)
+        return self.succeed(known[0])
+
+
+class UsualPlace(Step):
+    """Succeeds if the ontology knows where the thing belongs.
+
+    Writes request.goals.
+    """
+
+    source = Source.ONTOLOGY
+
+    def update(self) -> Status:
+        """Say so: it is not where it was."""
+        request = self.situation.request
+        usual = usual_places(self.context)
+        if not usual:
+            return self.fail(f"I do not know where {the(request.object or '')} belongs")
+        request.goals = usual
+        where = either(tuple(map(table, usual)))
+        what = the(request.object or "")
+        tell(self.context, f"I do not know where {what} was; it belongs on {where}.")
+        return self.succeed(", ".join(usual))
+
+
+class AskWhereTo(Ask):
+    """Asks where the thing, or the robot, is to go.
+
+    Reads request.command and request.object; writes request.goals.
+    """
+
+    def question(self) -> Question:
+        """Say what is not known, or offer what is."""
+        goes = self.situation.request.asks_to(CommandKind.GO)
+        kind = QuestionKind.WHERE_TO_GO if goes else QuestionKind.WHERE_TO_PUT
+        about = self.situation.request.object or ""
+        goal, options = goal_words(self.context), options_in(self.context)
+        if options:
+            return Question(kind, about, f"Which {goal} do you mean: {either(options)}?", options)
+        text = "Where shall I go?" if goes else f"Where shall I put {the(about)}?"
+        if self._tries:
+            known = ", ".join(place.name for place in self.context.knowledge.places())
+            text = f"{NO_PLACE * (not self._commanded)}{text} I know: {known}."
+        elif goal:
+            text = f"{self.unresolved()}. {text}"
+        return Question(kind, about, text)
+
+    def understood(self, answer: str) -> bool:
+        """One place, or one room; of those that were offered, if any were."""
+        if options := options_in(self.context):
+            named = tuple(p for p in places_in(self.context, answer) if p in options)
+            if len(named) != 1:
+                return False
+        else:
+            named = places_in(self.context, answer)
+        self.situation.request.goals = best_first(self.context, named)
+        return bool(named)
+
+    def unresolved(self) -> str:
+        """What is not known."""
+        if options := options_in(self.context):
+            return f"'{goal_words(self.context)}' may be {either(options)}"
+        return unknown(self.context)
+
+
+def usual_places(context: MissionContext) -> tuple[str, ...]:
+    """Where the thing belongs; nobody knows of what is in the hand without a name."""
+    name = context.situation.request.object
+    return () if name in (None, SOMETHING) else context.knowledge.usual_places(name)
+
+
+def goes_back(command: Command | None) -> bool:
+    """Whether the thing is to go back, and nobody said where that is."""
+    return command is not None and command.kind == CommandKind.PUT_BACK and not command.goal
+
+
+def goal_words(context: MissionContext) -> str:
+    """The words for where to; who only goes has them in the place of a thing, too."""
+    command = context.situation.request.command
+    assert command
+    alone = command.target if command.kind == CommandKind.GO else ""
+    return command.goal or alone
+
+
+def goals_in(context: MissionContext) -> tuple[str, ...]:
+    """The places that the words for where to name; none if nothing can be put so."""
+    goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
+    beside = goal.startswith(BESIDE) and not goes
+    return places_in(context, goal) if is_place(context, goal) and not beside else ()
+
+
+def options_in(context: MissionContext) -> tuple[str, ...]:
+    """The places that the words for where to may mean, if they leave open which; "or" does not."""
+    parts = re.split(r"\bor\b", goal_words(context))
+    alike = all(is_one(context, places_in(context, part)) for part in parts)
+    return () if alike else goals_in(context)
+
+
+def unknown(context: MissionContext) -> str:
+    """Why nobody knows where to, as a clause."""
+    request, goal = context.situation.request, goal_words(context)
+    goes = request.asks_to(CommandKind.GO)
+    if goal.startswith(BESIDE) and not goes:
+        return f"I can put things on furniture, or in it, but not '{goal}'"
+    if goal:
+        return f"I do not know where '{goal}' is"
+    return "I do not know where to " + ("go" if goes else f"put {the(request.object or '')}")
+
+
+def is_one(context: MissionContext, named: Sequence[str]) -> bool:
+    """Whether these are one place (or none), or all the furniture of one room."""
+    if len(named) < 2:
+        return True
+    furniture = {place.name: place.room for place in context.knowledge.places()}
+    rooms = {furniture.get(name) for name in named}
+    return len(rooms) == 1 and set(named) == {n for n, room in furniture.items() if room in rooms}
+
+
+def best_first(context: MissionContext, named: Sequence[str]) -> tuple[str, ...]:
+    """Places where things are put down most easily first."""
+    order = {place: number for number, place in enumerate(context.handiest)}
+    return tuple(sorted(named, key=lambda place: order.get(place, len(order))))
