@@ -7,8 +7,9 @@ from executive.perception.pipeline import CameraPerception
 from executive.perception.tags import TagDetector
 from executive.records import Transform, Transforms
 from executive.ros.address import read_address
-from executive.ros.connection import Connection, connect
+from executive.ros.connection import connect
 from executive.ros.profile import load_profile, packaged_profiles, profile_text
+from executive.types import Pose
 
 
 def wire(setup: Setup) -> Embodiment:
@@ -26,7 +27,12 @@ def wire(setup: Setup) -> Embodiment:
     profile = load_profile(settings.profile)
     _, where = profile_text(settings.profile)
     detector = TagDetector() if profile.camera.tags else setup.detector()
-    there = connect(read_address(settings.robot or ""), profile, setup.home, setup.inbox, where)
+
+    def record(pose: Pose) -> None:
+        setup.recorder.record(Transforms((Transform("map", "base_link", pose),)))
+
+    address = read_address(settings.robot or "")
+    there = connect(address, profile, setup.home, setup.inbox, where, record)
     return Embodiment(
         there.robot,
         CameraPerception(there.camera, detector, setup.inbox, setup.recorder, far=True),
@@ -34,12 +40,6 @@ def wire(setup: Setup) -> Embodiment:
         in_map=profile.camera.in_map,
         blind_to=blind_to(setup.home, detector),
         has_arm=profile.has_arm,
-        begin=lambda: _record_base(setup, there),
+        begin=there.tell,
         close=there.close,
     )
-
-
-def _record_base(setup: Setup, there: Connection) -> None:
-    """Where the robot is when a mission begins."""
-    if (pose := there.senses.base) is not None:
-        setup.recorder.record(Transforms((Transform("map", "base_link", pose),)))

@@ -1,5 +1,6 @@
 """All that a robot over the wire consists of, put together and let go of again."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from executive.clock import RealClock
@@ -18,6 +19,7 @@ from executive.ros.rosbridge import RosbridgeLink
 from executive.ros.senses import Senses
 from executive.ros.stopping import Brake
 from executive.ros.thread import WireThread
+from executive.types import Pose
 
 CONNECTING_S = 6.0
 RIGHT = "start rosbridge there (docs/own-robot.md), or our robot: python -m sim serve"
@@ -43,7 +45,8 @@ class Connection:
     robot: WireRobot
     camera: WireCamera
     clock: Clock
-    senses: Senses
+    tell: Callable[[], None]
+    """Tells where the base is, if that is known."""
 
     def close(self) -> None:
         """Let go of it."""
@@ -71,11 +74,22 @@ def dial(address: Address, within_s: float = CONNECTING_S) -> Line:
 
 
 def connect(
-    address: Address, profile: Profile, places: Places, inbox: Inbox, where: str
+    address: Address,
+    profile: Profile,
+    places: Places,
+    inbox: Inbox,
+    where: str,
+    told: Callable[[Pose], None] = lambda pose: None,
 ) -> Connection:
     """Open a link to a robot and hold the profile against it; nothing moves.
 
-    `where` is what the profile is called in messages.
+    Args:
+        address: where the robot is.
+        profile: what it has.
+        places: the home.
+        inbox: where the ends of its goals go.
+        where: what the profile is called in messages.
+        told: is given where the base is in the map, now and then, on the thread that ticks.
 
     Raises:
         InputError: if nobody answers there, or the profile does not fit the robot.
@@ -94,9 +108,14 @@ def connect(
     except BaseException:
         line.close()
         raise
-    robot = WireRobot(line.wire, line.link, profile, senses, brake, places, inbox)
+
+    def tell() -> None:
+        if (pose := senses.base) is not None:
+            told(pose)
+
+    robot = WireRobot(line.wire, line.link, profile, senses, brake, places, inbox, tell)
     camera = WireCamera(line.wire, line.link, profile, senses)
-    return Connection(line, robot, camera, _clock(profile, inbox, robot, senses), senses)
+    return Connection(line, robot, camera, _clock(profile, inbox, robot, senses), tell)
 
 
 def check(address: Address, profile: Profile, where: str) -> list[InputError]:

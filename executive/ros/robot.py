@@ -2,7 +2,7 @@
 
 import asyncio
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import datetime
 from typing import Any, Protocol
 
@@ -72,8 +72,10 @@ class WireRobot:
         brake: Brake,
         places: Places,
         inbox: Inbox,
+        begins: Callable[[], None],
     ) -> None:
-        """Be where it is, and at nothing."""
+        """Be where it is, and at nothing; `begins` is called when a goal does, on that thread."""
+        self._begins = begins
         self._wire = wire
         self._profile = profile
         self._senses = senses
@@ -123,6 +125,7 @@ class WireRobot:
         if self._request is not None and self._inbox.is_open(self._request):
             self._inbox.end(self._request, Failed("replaced by another goal"))
         self._request = self._inbox.open(real=self._real)
+        self._begins()
         self._spent = self.acted_s()
         self._began, self._ended = self._senses.clock, None
         self._wire.start(self._pursue(self._request, goal))

@@ -105,6 +105,25 @@ class TestLegs:
         assert ends[-1] == pytest.approx(four_rooms().stand("desk")[:2])
 
 
+@pytest.mark.parametrize(
+    ("limits", "place", "said"),
+    [
+        ('rooms = ["lobby"]', "cabinet_kitchen", "I may not go into the kitchen"),
+        ('hours = ["00:00", "00:00"]', "desk", "I may only drive from 00:00 to 00:00"),
+    ],
+)
+class TestLimits:
+    @pytest.fixture
+    def profile(self, tmp_path: Path, limits: str) -> Profile:
+        file = tmp_path / "limits.toml"
+        file.write_text(f"{PROFILE.read_text()}\n[limits]\n{limits}\n")
+        return load_profile(str(file))
+
+    def test_they_are_kept_in_words(self, linked: Linked, place: str, said: str) -> None:
+        assert linked.bench.do(DriveTo(place)) == Failed(said)
+        assert not linked.there.goals
+
+
 def test_fingers_that_something_keeps_open_hold_it(linked: Linked) -> None:
     assert linked.here.robot.holding is False
     linked.there.holds = "mug"
