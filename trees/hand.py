@@ -58,9 +58,7 @@ class NeedsNoArm(Step):
     """Fails if what was asked for takes an arm."""
 
     def update(self) -> Status:
-        """Only looking takes none."""
-        assert self.situation.request.command
-        means = self.situation.request.command.kind.means
-        if means.grasps or not means.searches:
+        """Looking and going take none."""
+        if meaning(self.situation).grasps:
             return self.fail("I have no arm: I can find things, but not take them")
         return Status.SUCCESS

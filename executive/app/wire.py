@@ -4,6 +4,7 @@ from executive.app.embodiment import Embodiment, Setup
 from executive.app.simulation import blind_to
 from executive.errors import InputError
 from executive.perception.pipeline import CameraPerception
+from executive.perception.tags import TagDetector
 from executive.records import Transform, Transforms
 from executive.ros.address import read_address
 from executive.ros.connection import Connection, connect
@@ -24,7 +25,7 @@ def wire(setup: Setup) -> Embodiment:
         raise InputError("setting 'profile'", what, f"{right}{settings.robot} proposes one")
     profile = load_profile(settings.profile)
     _, where = profile_text(settings.profile)
-    detector = setup.detector()
+    detector = TagDetector() if profile.camera.tags else setup.detector()
     there = connect(read_address(settings.robot or ""), profile, setup.home, setup.inbox, where)
     return Embodiment(
         there.robot,

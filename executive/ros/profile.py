@@ -154,13 +154,15 @@ class Hand(_Section):
 class CameraTopics(_Section):
     """Colour, depth that is aligned with it, and the lens.
 
-    `in_map` says whether depth and frames tell where things are.
+    `in_map` says whether depth and frames tell where things are, `tags` whether things look like
+    tags that spell their names: both are for the instant world.
     """
 
     color: str
     depth: str
     info: str
     in_map: bool = True
+    tags: bool = False
     late_s: Annotated[float, Field(gt=0, le=60)] = 5.0
     """A picture that takes longer (s, real time) does not come."""
 

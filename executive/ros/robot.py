@@ -2,7 +2,7 @@
 
 import asyncio
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import Any, Protocol
 
@@ -10,7 +10,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.guards import in_words
 from executive.ros.actions import Actions
-from executive.ros.link import Link, LinkError
+from executive.ros.link import GoalEnd, Link, LinkError
 from executive.ros.messages import planar_pose, point_cloud, point_stamped, pose_stamped
 from executive.ros.profile import Profile
 from executive.ros.senses import Senses
@@ -39,6 +39,7 @@ FLOOR_AHEAD_M = 0.9
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
 FACING_S = 0.5
+HANDLING = ("pick", "place")
 STOPPING_S = 3.0
 """So long a halt waits for a link that was lost: with it come the means to stop."""
 
@@ -147,7 +148,7 @@ class WireRobot:
         elif before is not None:
             before.cancel()
         result = await self._result(goal)
-        if self._task is task:
+        if self._task is task and self._ended is None:
             self._ended = self._senses.clock
         self._inbox.end(request, result)
 
@@ -159,6 +160,16 @@ class WireRobot:
             return Failed(in_words(error))
         except Exception as error:
             return Failed(f"something is wrong with what my robot says: {in_words(error)}")
+
+    async def _act(self, section: str, values: Mapping[str, Any]) -> GoalEnd:
+        """Have an action of the robot's pursue a goal."""
+        task, self._ended = asyncio.current_task(), None
+        end = await self._actions.do(section, values)
+        if self._task is task:
+            self._ended = self._senses.clock
+        if section in HANDLING or not end.succeeded:
+            await self._senses.feel_hand_anew()
+        return end
 
     async def _give_up(self, task: asyncio.Task[None] | None) -> None:
         if task is not None and not task.done():
@@ -211,7 +222,7 @@ class WireRobot:
         had = self._senses.holding
         pose = planar_pose(*stand, self._profile.frames.map)
         for leg in await self._actions.legs(pose):
-            end = await self._actions.do("drive", {"pose": leg, "place": place})
+            end = await self._act("drive", {"pose": leg, "place": place})
             if not end.succeeded:
                 lost = bool(had) and self._senses.holding is False
                 return self._actions.failure(end, f"I did not get to the {place}", lost)
@@ -253,7 +264,7 @@ class WireRobot:
                 "camera": self._profile.frames.camera,
                 "turn": self._turn(target),
             }
-            end = await self._actions.do("look", values)
+            end = await self._act("look", values)
             if not end.succeeded:
                 return self._actions.failure(end, f"I cannot look at the {place}")
             if self._profile.look.type.endswith("/PointHead"):
@@ -311,7 +322,7 @@ class WireRobot:
             "pose": pose_stamped(point, (0.0, 0.0, 0.0, 1.0), within),
             "place": self._at or "",
         }
-        end = await self._actions.do("pick", values)
+        end = await self._act("pick", values)
         if end.succeeded:
             return Succeeded()
         return self._actions.failure(end, f"I could not pick up the {detection.label}")
@@ -330,7 +341,7 @@ class WireRobot:
             "point": point_stamped(point, within),
             "pose": pose_stamped(point, (0.0, 0.0, 0.0, 1.0), within),
         }
-        end = await self._actions.do("place", values)
+        end = await self._act("place", values)
         if end.succeeded:
             return Succeeded()
         return self._actions.failure(end, f"I could not put it down on the {place}")

@@ -1,8 +1,10 @@
 """What the robot says about itself all the time: frames, motion, hand and clock."""
 
+import asyncio
 import math
 import time
 from collections.abc import Callable
+from contextlib import suppress
 
 from executive.ros.frames import FrameTree
 from executive.ros.link import Link
@@ -14,6 +16,9 @@ from executive.types import Pose
 
 RESTING_M_S, RESTING_RAD_S = 0.01, 0.02
 """What is slower is at rest."""
+
+FEELING_S = 0.3
+"""So long it may take until the hand is told of again."""
 
 
 class Senses:
@@ -38,8 +43,9 @@ class Senses:
         link.subscribe("/tf", kind, self.frames.take)
         if profile.clock is not None:
             link.subscribe(profile.clock.topic, "rosgraph_msgs/msg/Clock", self._take_clock)
-        if profile.hand is not None:
-            link.subscribe(profile.hand.topic, profile.hand.type, self._take_hand)
+        self._felt = asyncio.Event()
+        self._hand: Callable[[], None] | None = None
+        self._subscribe_hand()
         self.feel_motion_anew()
 
     # --- what is asked ---
@@ -58,6 +64,22 @@ class Senses:
     def base(self) -> Pose | None:
         """Where the base is in the map; None if nobody tells."""
         return self.frames.pose(self._profile.frames.base, self._profile.frames.map)
+
+    async def feel_hand_anew(self) -> None:
+        """Hear again what is in the hand: what a goal has changed may be told after its end."""
+        if self._profile.hand is None:
+            return
+        self._felt.clear()
+        self._subscribe_hand()
+        with suppress(TimeoutError):
+            await asyncio.wait_for(self._felt.wait(), FEELING_S)
+
+    def _subscribe_hand(self) -> None:
+        before, hand = self._hand, self._profile.hand
+        if hand is not None:
+            self._hand = self._link.subscribe(hand.topic, hand.type, self._take_hand)
+        if before is not None:
+            before()
 
     def feel_motion_anew(self) -> None:
         """Forget what was heard of motion, and ask for it anew."""
@@ -108,8 +130,10 @@ class Senses:
             if not isinstance(message["data"], bool):
                 raise PacketError("a Bool that is none")
             self._holding = message["data"]
+            self._felt.set()
             return
         positions = dict(zip(message["name"], numbers(message["position"]), strict=True))
         if hand.joint in positions:
             low, high = hand.between
             self._holding = low < positions[hand.joint] < high
+            self._felt.set()
