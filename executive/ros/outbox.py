@@ -1,10 +1,12 @@
-"""What waits to be sent to one client. Of a topic only the newest message does."""
+"""What waits to be sent to one client. Of a topic only the newest message does.
+
+An end or an answer is never passed: how it was before that, is told before that.
+"""
 
 import asyncio
 from collections import OrderedDict
 from collections.abc import Hashable
 from dataclasses import dataclass
-from itertools import count
 
 from executive.ros.protocol import Operation
 
@@ -26,20 +28,26 @@ class Outbox:
 
     def __init__(self) -> None:
         """Nothing waits."""
-        self._waiting: OrderedDict[Hashable, Letter] = OrderedDict()
+        self._waiting: OrderedDict[tuple[int, Hashable], Letter] = OrderedDict()
         self._filled = asyncio.Event()
-        self._numbers = count()
+        self._last = 0
 
     def put(self, letter: Letter, newest_of: Hashable = None) -> None:
-        """Send it after all that waits; it takes the place of an older one of the same kind."""
-        key: Hashable = next(self._numbers) if newest_of is None else ("newest", newest_of)
+        """Send it after all that waits.
+
+        One that is the newest of something replaces those that came since the last that is not.
+        """
+        if newest_of is None:
+            self._last += 1
+        key = (self._last, newest_of)
         self._waiting.pop(key, None)
         self._waiting[key] = letter
         self._filled.set()
 
     def forget(self, newest_of: Hashable) -> None:
         """It is not wanted any more."""
-        self._waiting.pop(("newest", newest_of), None)
+        for key in [key for key in self._waiting if key[1] == newest_of]:
+            del self._waiting[key]
 
     @property
     def is_too_full(self) -> bool:

@@ -10,6 +10,7 @@ machine are refused; and nobody else is listened to than this machine, unless th
 import asyncio
 import contextlib
 import logging
+import os
 import re
 import threading
 from collections.abc import Callable
@@ -29,7 +30,7 @@ LOOPBACK = "127.0.0.1"
 MOST_CLIENTS = 32
 MOST_BYTES = 2**22
 """Of one packet that a client sends."""
-PING_S = 20.0
+PING_S, CLOSE_S = 20.0, 1.0
 _THIS_MACHINE = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
 _BUSY, _TOO_SLOW = 1013, 1008
 """Codes with which a websocket is closed."""
@@ -65,7 +66,8 @@ class Server:
         self._thread.start()
         self._ready.wait()
         if self._failure is not None:
-            why = self._failure.strerror or str(self._failure)
+            number = self._failure.errno
+            why = os.strerror(number).lower() if number else str(self._failure)
             raise InputError(f"--port {self._port}", f"cannot listen: {why}", "give another one")
 
     def close(self) -> None:
@@ -121,6 +123,7 @@ class Server:
                 max_size=MOST_BYTES,
                 ping_interval=PING_S,
                 ping_timeout=PING_S,
+                close_timeout=CLOSE_S,
                 logger=_log,
             )
         except OSError as error:

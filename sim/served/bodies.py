@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Protocol
 
-from executive.interfaces import Camera
+from executive.interfaces import Camera, SimulatedHome
 from executive.records import Transform
 from executive.types import FLOOR, PERSON, DriveTo, Goal, LookAt, Pose, Vector3
 from sim.fake import EYE_HEIGHT_M, SPEED_M_S, FakeRobot, FakeWorld
@@ -25,6 +25,11 @@ class Body(Protocol):
     """A robot in its world. All of it belongs to one thread."""
 
     camera: Camera
+
+    @property
+    def world(self) -> SimulatedHome:
+        """For who checks what came of it: no client hears of it."""
+        ...
 
     @property
     def busy(self) -> bool:
@@ -85,7 +90,7 @@ class PhysicsBody:
 
     def __init__(self, world: "PhysicsWorld") -> None:
         """Serve the robot of this world."""
-        self._world = world
+        self.world = world
         self._robot = world.robot
         self.camera = world.camera
         self.advance = world.advance
@@ -117,7 +122,7 @@ class PhysicsBody:
     @property
     def velocity(self) -> PlanarPose:
         """By its encoders."""
-        x, y, turn = (float(value) for value in self._world.hardware.base_velocity)
+        x, y, turn = (float(value) for value in self.world.hardware.base_velocity)
         yaw = self._robot.base_pose[2]
         ahead = x * math.cos(yaw) + y * math.sin(yaw)
         return ahead, y * math.cos(yaw) - x * math.sin(yaw), turn
@@ -133,7 +138,7 @@ class FakeBody:
 
     def __init__(self, world: FakeWorld, robot: FakeRobot, camera: Camera) -> None:
         """Serve this robot."""
-        self._world = world
+        self.world = world
         self._robot = robot
         self.camera = camera
         self.cancel = robot.cancel
@@ -150,7 +155,7 @@ class FakeBody:
     @property
     def busy(self) -> bool:
         """While anything is due."""
-        return self._world.busy
+        return self.world.busy
 
     @property
     def computing(self) -> bool:
@@ -159,12 +164,12 @@ class FakeBody:
 
     def look(self, point: Vector3) -> Goal:
         """At the floor, or at the place where it stands, whatever the point."""
-        return LookAt(FLOOR if point[2] < ON_THE_FLOOR_M else self._world.at or FLOOR)
+        return LookAt(FLOOR if point[2] < ON_THE_FLOOR_M else self.world.at or FLOOR)
 
     @property
     def pose(self) -> PlanarPose:
         """Where it was when it last stood."""
-        return self._world.pose
+        return self.world.pose
 
     @property
     def velocity(self) -> PlanarPose:
@@ -182,7 +187,7 @@ class FakeBody:
 
     def frames(self) -> tuple[Transform, ...]:
         """The camera looks down from above the base."""
-        x, y, yaw = self._world.pose
+        x, y, yaw = self.world.pose
         turn = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
         eye = Pose((0.0, 0.0, EYE_HEIGHT_M), (math.cos(yaw / 2), -math.sin(yaw / 2), 0.0, 0.0))
         return (

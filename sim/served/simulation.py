@@ -48,7 +48,7 @@ class Simulation:
             port: to listen on; 0: any that is free.
             speed: how many seconds may pass in a real one.
         """
-        self._body = body
+        self.body = body
         self._inbox = inbox
         self._orders: queue.SimpleQueue[Order] = queue.SimpleQueue()
         self.server = Server(self, port)
@@ -102,9 +102,9 @@ class Simulation:
     def run(self) -> None:
         """Go on until `stop`."""
         while not self._over:
-            if not self._body.busy:
+            if not self.body.busy:
                 self._wait()
-            elif self._body.computing:
+            elif self.body.computing:
                 self._inbox.await_computed(PLANNING_S)
                 self._go_on()
             else:
@@ -114,7 +114,7 @@ class Simulation:
     def close(self) -> None:
         """Let everybody go, and free the world."""
         self.server.close()
-        self._body.close()
+        self.body.close()
 
     @property
     def _now_ns(self) -> int:
@@ -128,7 +128,7 @@ class Simulation:
             self._tell_state()
 
     def _pass_time(self) -> None:
-        passed = self._body.advance(STEP_S)
+        passed = self.body.advance(STEP_S)
         self._publisher.forget_picture()
         self._time += passed
         self._pace.passed(passed)
@@ -143,9 +143,9 @@ class Simulation:
             self._tell_state()
         if self._progress_due.is_now:
             self._pursuits.tell_progress(self._now_ns)
-        if self._publisher.shows_pictures and (not self._body.busy or self._pictures_due.is_now):
+        if self._publisher.shows_pictures and (not self.body.busy or self._pictures_due.is_now):
             self._publisher.tell_pictures(self._now_ns)
-        self._obey(self._pace.left if self._body.busy and not self._body.computing else 0.0)
+        self._obey(self._pace.left if self.body.busy and not self.body.computing else 0.0)
 
     def _obey(self, seconds: float) -> None:
         """Do all that is wanted; wait for the first so long (real seconds)."""

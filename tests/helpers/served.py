@@ -4,6 +4,8 @@ import base64
 import json
 import math
 import struct
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -45,11 +47,24 @@ def served(tell: Callable[[str], None] = lambda text: None, **plan: Any) -> Iter
         assert not thread.is_alive()
 
 
+@contextmanager
+def served_process(*options: str) -> Iterator[str]:
+    """The address of a robot that is served by a process of its own."""
+    command = [sys.executable, "-m", "sim", "serve", "--port", "0", *options]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            yield next(word for word in process.stdout.readline().split() if "://" in word)
+        finally:
+            process.terminate()
+
+
 class Raw:
     """A client: what it says and hears is plain tables."""
 
-    def __init__(self, simulation: Simulation, **how: Any) -> None:
-        self._connecting = connect(simulation.server.address, max_size=2**25, **how)
+    def __init__(self, robot: Simulation | str, **how: Any) -> None:
+        address = robot if isinstance(robot, str) else robot.server.address
+        self._connecting = connect(address, max_size=2**25, **how)
         self._numbers = count()
         self.heard: list[dict[str, Any]] = []
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from served import ZERO, Raw, look_goal, place_goal, served
+from served import ZERO, Raw, look_goal, pick_goal, place_goal, pose_goal, served
 
 from executive.testing.bench import four_rooms
 from sim.served.simulation import Simulation
@@ -72,6 +72,24 @@ def test_it_stops_within_half_a_second_of_its_time(client: Raw) -> None:
     assert client.end_of(id)["status"] == 5
     assert _seconds(_time(client)) - before < 0.6
     assert _speed(client.subscribe("/odom", id="again")) < 0.01
+
+
+@pytest.mark.parametrize("pose", [(100.0, 100.0), (3.1, 7.6)])
+def test_a_pose_where_nobody_can_be_is_not_driven_to(
+    client: Raw, pose: tuple[float, float]
+) -> None:
+    end = client.do(DRIVE, pose_goal(*pose))
+    assert (end["status"], end["values"]["error_msg"]) == (
+        6,
+        "there is no room to stand at the place",
+    )
+
+
+@pytest.mark.parametrize("label", ["mug", "unicorn"])
+def test_points_of_nothing_are_not_picked(client: Raw, label: str) -> None:
+    end = client.do("/pick", pick_goal(label, [(900.0, 0.0, 1.0)] * 100))
+    assert end["status"] == 6
+    assert client.subscribe("/hand/holding") == {"data": False}
 
 
 def test_no_frame_is_of_a_thing(client: Raw) -> None:

@@ -163,6 +163,14 @@ def test_a_client_has_so_many_goals_at_most(monkeypatch: pytest.MonkeyPatch) -> 
         assert "more than 1 goals" in client.end_of(refused)["values"]
 
 
+def test_a_client_that_reads_nothing_holds_nobody_up() -> None:
+    with served() as robot, Raw(robot, max_queue=1, close_timeout=0.1) as deaf, Raw(robot) as other:
+        for topic in GRAPH.published:
+            deaf.say("subscribe", topic=topic)
+        for place in ("desk", "person") * 10:
+            assert other.do(DRIVE, place_goal(place))["status"] == 4
+
+
 def test_a_goal_of_the_same_name_is_refused_while_the_first_is_under_way() -> None:
     with served(speed=1.0) as robot, Raw(robot) as client:
         client.pursue(DRIVE, place_goal("desk"), id="mine")
