@@ -16,8 +16,7 @@ from executive.campaign.truth import completed, whereabouts
 from executive.config import load_settings
 from executive.events import StopRequested
 from executive.ros.profile import profile_text
-from executive.types import MissionStatus, Outcome
-from sim.fake import FakeWorld
+from executive.types import HAND, CommandKind, MissionStatus, Outcome
 from sim.served.simulation import Simulation
 
 COMMANDS = ("Bring a power_drill", "Take a banana from the desk", "Find a power_drill", "Go home")
@@ -99,12 +98,11 @@ class _Mission:
         self.session.inbox.post(StopRequested("Ctrl-C"))
 
     def _judge(self, outcome: Outcome) -> None:
-        body = self.there._body
-        world = body._world  # type: ignore[attr-defined]
-        assert isinstance(world, FakeWorld)
+        body = self.there.body
         if outcome.status == MissionStatus.DONE and outcome.object is not None:
-            truth = whereabouts(outcome.object, world)
-            if not completed(outcome, truth):
+            truth = whereabouts(outcome.object, body.world)
+            held = outcome.kind == CommandKind.FIND and truth == HAND  # it says that it has it
+            if not held and not completed(outcome, truth):
                 self.wrong.append(f"it says {outcome.reason!r}, and the thing is at {truth!r}")
         self.wire.mischief = Mischief()
         latest = time.monotonic() + RECONNECTED_S + NOISE_S
