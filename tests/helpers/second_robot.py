@@ -16,6 +16,7 @@ import numpy as np
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
+from executive.ros.packets import PacketError
 from executive.ros.protocol import (
     ActionFeedback,
     ActionResult,
@@ -125,7 +126,8 @@ class SecondRobot:
         self.headers.append(dict(client.request.headers.raw_items()))
         with suppress(ConnectionClosed):
             async for packet in client:
-                await self._take(client, decode(packet))
+                with suppress(PacketError):  # rosbridge says so, and goes on
+                    await self._take(client, decode(packet))
         del self._clients[client]
 
     async def _take(self, client: ServerConnection, operation: Operation) -> None:

@@ -17,11 +17,11 @@ from executive.testing.contracts.robot import Bench
 from executive.types import DriveTo, Halt, LookAt, Succeeded
 
 CASES = {
-    "delays": Mischief(delay=0.5),
+    "delays": Mischief(delay=0.05),
     "cuts": Mischief(cut=0.004),
     "halves": Mischief(halve=0.05),
     "reorders": Mischief(swap=0.1),
-    "all of it": Mischief(delay=0.2, cut=0.002, halve=0.02, swap=0.05),
+    "all of it": Mischief(delay=0.02, cut=0.002, halve=0.02, swap=0.05),
 }
 
 
