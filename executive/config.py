@@ -106,8 +106,8 @@ class Settings(BaseSettings):
     ] = Field(
         "physics", description="PyBullet, or instant, or a robot of your own (docs/own-robot.md)"
     )
-    robot: Annotated[str | None, Option("ws://HOST:PORT")] = Field(
-        None, description="address of a robot that speaks rosbridge, instead of a world"
+    robot: Annotated[str | None, Option("ws://HOST:PORT or ros2:")] = Field(
+        None, description="a robot over rosbridge, or ROS 2 as it is sourced, instead of a world"
     )
     profile: Annotated[str | None, Option("NAME or FILE.toml")] = Field(
         None, description="what that robot has and how it calls it (docs/own-robot.md)"
@@ -190,10 +190,10 @@ class Settings(BaseSettings):
     @field_validator("robot")
     @classmethod
     def _address_of_a_robot(cls, value: str | None) -> str | None:
-        if value is None:
-            return None
+        if value in (None, "ros2:"):
+            return value
         if not value.startswith(("ws://", "wss://")):
-            raise ValueError("should be ws://HOST:PORT, or wss://HOST:PORT for TLS")
+            raise ValueError("should be ws://HOST:PORT, wss://HOST:PORT for TLS, or ros2:")
         return _address(value, "EXECUTIVE_ROBOT_HEADERS")
 
     @field_validator("detector")

@@ -15,7 +15,7 @@ from executive.ros.address import read_address
 from executive.ros.connection import check, dial
 from executive.ros.frames import FrameTree
 from executive.ros.link import Link, LinkError
-from executive.ros.offers import Offers, read_offers
+from executive.ros.offers import Offers
 from executive.ros.profile import load_profile, packaged_profiles, profile_text
 from executive.ros.proposing import listing, printable_lines, proposal
 from executive.shell import BAD_INPUT, DONE, entry_point
@@ -57,7 +57,7 @@ async def _seen(link: Link) -> tuple[Offers, tuple[str, ...]]:
     kind = "tf2_msgs/msg/TFMessage"
     link.subscribe("/tf", kind, frames.take)
     link.subscribe("/tf_static", kind, lambda message: frames.take(message, fixed=True))
-    offers = await read_offers(link)
+    offers = await link.offers()
     await asyncio.sleep(LISTENING_S)
     return offers, frames.names
 

@@ -11,6 +11,8 @@ from executive.text import printable
 
 PORT = 9090
 """Rosbridge's own."""
+ROS2 = "ros2:"
+"""No address: the ROS 2 that is sourced here, with its own discovery."""
 HEADERS = "EXECUTIVE_ROBOT_HEADERS"
 """Environment variable: headers of the connection, in JSON. They are kept nowhere."""
 
@@ -33,7 +35,9 @@ def read_address(given: str) -> Address:
     Raises:
         InputError: if it is none, or the headers are not JSON.
     """
-    right = f"give ws://HOST:PORT, or wss://HOST:PORT for TLS; rosbridge's port is {PORT}"
+    right = f"give ws://HOST:PORT (wss:// for TLS; rosbridge's port is {PORT}), or {ROS2}"
+    if given == ROS2:
+        return Address(ROS2)
     try:
         parts = urlsplit(given)
         port = parts.port or PORT

@@ -4,7 +4,7 @@ import asyncio
 
 from executive.errors import InputError
 from executive.ros.link import Link, LinkError
-from executive.ros.offers import Offers, likely, read_offers, same_type
+from executive.ros.offers import Offers, likely, same_type
 from executive.ros.profile import Profile
 from executive.ros.senses import Senses
 
@@ -15,7 +15,7 @@ HEARING_S = 3.0
 async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> list[InputError]:
     """All that is wrong with a profile for the robot that is linked."""
     try:
-        offers = await read_offers(link)
+        offers = await link.offers()
     except LinkError as error:
         right = "start rosapi: `ros2 launch rosbridge_server rosbridge_websocket_launch.xml` does"
         return [InputError(where, str(error), right)]

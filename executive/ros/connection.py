@@ -1,6 +1,7 @@
 """All that a robot over the wire consists of, put together and let go of again."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 from executive.clock import RealClock
@@ -8,12 +9,13 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.guards import in_words
 from executive.interfaces import Clock
-from executive.ros.address import Address
+from executive.ros.address import ROS2, Address
 from executive.ros.camera import WireCamera
 from executive.ros.checking import faults
 from executive.ros.clock import GoalClock, RobotClock
 from executive.ros.link import Link, LinkError
 from executive.ros.profile import Profile
+from executive.ros.rclpy_link import RclpyLink
 from executive.ros.robot import Places, WireRobot
 from executive.ros.rosbridge import RosbridgeLink
 from executive.ros.senses import Senses
@@ -22,6 +24,7 @@ from executive.ros.thread import WireThread
 from executive.types import Pose
 
 CONNECTING_S = 6.0
+CLOSING_S = 1.5
 RIGHT = "start rosbridge there (docs/own-robot.md), or our robot: python -m sim serve"
 
 
@@ -34,6 +37,8 @@ class Line:
 
     def close(self) -> None:
         """Let go of it."""
+        with suppress(Exception):  # what cannot be closed in order is closed nevertheless
+            self.wire.start(self.link.close()).result(CLOSING_S)
         self.wire.close()
 
 
@@ -62,7 +67,7 @@ def dial(address: Address, within_s: float = CONNECTING_S) -> Line:
     wire = WireThread()
 
     async def link() -> Link:
-        made = RosbridgeLink(address)
+        made = RclpyLink() if address.url == ROS2 else RosbridgeLink(address)
         await made.ready(within_s)
         return made
 

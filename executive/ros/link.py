@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from executive.errors import ExecutiveError
+from executive.ros.offers import Offers
 from executive.ros.protocol import GoalStatus, Message
 
 Receive = Callable[[Message], None]
@@ -51,6 +52,14 @@ class Link(Protocol):
 
     def greet_with(self, greeting: Callable[[], Awaitable[None]]) -> None:
         """Have this done whenever there is a link again, before anything else."""
+        ...
+
+    async def offers(self) -> Offers:
+        """What the robot has.
+
+        Raises:
+            LinkError: if it does not tell.
+        """
         ...
 
     async def call(

@@ -12,6 +12,7 @@ from contextlib import suppress
 from executive.guards import in_words
 from executive.ros.address import Address
 from executive.ros.link import GoalEnd, LinkError, Receive, text_of
+from executive.ros.offers import Offers
 from executive.ros.peer import Peer
 from executive.ros.protocol import (
     ActionResult,
@@ -23,6 +24,7 @@ from executive.ros.protocol import (
     SendActionGoal,
     ServiceResponse,
 )
+from executive.ros.rosapi import read_offers
 from executive.text import one_line
 
 log = logging.getLogger(__name__)
@@ -77,6 +79,10 @@ class RosbridgeLink:
             except Exception as error:
                 log.warning("the robot at %s was not greeted: %s", self._address, in_words(error))
         self._ready.set()
+
+    async def offers(self) -> Offers:
+        """By rosapi."""
+        return await read_offers(self)
 
     async def call(
         self, service: str, kind: str, request: Message, *, within_s: float, urgent: bool = False
