@@ -53,12 +53,12 @@ class Host(Protocol):
         """The type of an action; None if there is none of this name."""
         ...
 
-    def wanted(self, topic: str) -> None:
-        """Somebody wants the topic's messages from now on, the present one first."""
+    def wanted(self, topic: str, client: object) -> None:
+        """A client wants the topic's messages from now on, the present one first."""
         ...
 
-    def unwanted(self, topic: str) -> None:
-        """Somebody does not want them any more."""
+    def unwanted(self, topic: str, client: object) -> None:
+        """A client does not want them any more."""
         ...
 
     def call(self, service: str, request: Message, answer: Callable[[bool, Any], None]) -> None:
@@ -111,7 +111,7 @@ class Conversation:
         """The client is gone: it wants nothing any more. Its goals go on."""
         for topic in tuple(self._subscriptions):
             del self._subscriptions[topic]
-            self._host.unwanted(topic)
+            self._host.unwanted(topic, self)
 
     # --- what it is told ---
 
@@ -186,11 +186,9 @@ class Conversation:
             raise PacketError(f"{topic}: compression {wish.compression}: I can do {spoken}")
         if sum(map(len, self._subscriptions.values())) >= MOST_SUBSCRIPTIONS:
             raise PacketError(f"{topic}: more than {MOST_SUBSCRIPTIONS} subscriptions")
-        is_first = topic not in self._subscriptions
         self._subscriptions.setdefault(topic, {})[wish.id] = wish
         self._sent_at.pop(topic, None)
-        if is_first:
-            self._host.wanted(topic)
+        self._host.wanted(topic, self)
 
     def _unsubscribe(self, topic: str, id: str) -> None:
         wishes = self._subscriptions.get(topic, {})
@@ -200,7 +198,7 @@ class Conversation:
             return
         del self._subscriptions[topic]
         self._outbox.forget(topic)
-        self._host.unwanted(topic)
+        self._host.unwanted(topic, self)
 
     def _call(self, call: CallService) -> None:
         def answer(done: bool, values: Any) -> None:

@@ -1,6 +1,6 @@
 """Who is connected to a server, what they want, and which goals are open; on one thread."""
 
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Callable
 from typing import Any, Protocol
 
@@ -28,7 +28,7 @@ class Backend(Protocol):
         ...
 
     def want(self, topic: str) -> None:
-        """Publish this topic from now on, and once at once: somebody is new to it."""
+        """Publish this topic from now on, and once at once: somebody has asked for it."""
         ...
 
     def leave_out(self, topic: str) -> None:
@@ -52,7 +52,7 @@ class Hub:
         self._backend = backend
         self._conversations: set[Conversation] = set()
         self._goals = Goals()
-        self._wanted: Counter[str] = Counter()
+        self._wanted: defaultdict[str, set[object]] = defaultdict(set)
 
     def __len__(self) -> int:
         """How many are connected."""
@@ -105,15 +105,15 @@ class Hub:
         """The type of an action; None if there is none of this name."""
         return self._backend.graph.actions.get(action)
 
-    def wanted(self, topic: str) -> None:
-        """Somebody is new to a topic."""
-        self._wanted[topic] += 1
+    def wanted(self, topic: str, client: object) -> None:
+        """Somebody wants a topic, and to know at once how it is."""
+        self._wanted[topic].add(client)
         if topic in self._backend.graph.published:
             self._backend.want(topic)
 
-    def unwanted(self, topic: str) -> None:
+    def unwanted(self, topic: str, client: object) -> None:
         """Somebody does not want it any more."""
-        self._wanted[topic] -= 1
+        self._wanted[topic].discard(client)
         if not self._wanted[topic] and topic in self._backend.graph.published:
             self._backend.leave_out(topic)
 

@@ -25,6 +25,8 @@ from soaking.case import missions_of, run_household
 from soaking.physics import run_in_physics
 from soaking.stops import stop_once
 
+from executive.errors import ExecutiveError
+
 Row = dict[str, Any]
 
 
@@ -45,9 +47,13 @@ def run_stop(trial: Row) -> Row:
 
 def run_wire(trial: Row) -> Row:
     """Run some missions over a bad wire."""
+    seed = trial["seed"]
     with tempfile.TemporaryDirectory() as folder:
-        faults = faulted_wire.missions(trial["seed"], Path(folder))
-        return {"violations": [f"{fault.seed}: {fault.words}: {fault.what}" for fault in faults]}
+        try:
+            faults = list(faulted_wire.missions(seed, Path(folder)))
+        except ExecutiveError as error:
+            return {"violations": [f"{seed}: it does not begin: {error}"]}
+    return {"violations": [f"{fault.seed}: {fault.words}: {fault.what}" for fault in faults]}
 
 
 def households(missions: int, seed: int) -> list[Row]:

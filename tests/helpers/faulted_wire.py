@@ -101,8 +101,7 @@ class _Mission:
         body = self.there.body
         if outcome.status == MissionStatus.DONE and outcome.object is not None:
             truth = whereabouts(outcome.object, body.world)
-            held = outcome.kind == CommandKind.FIND and truth == HAND  # it says that it has it
-            if not held and not completed(outcome, truth):
+            if not completed(outcome, truth) and not _says_so(outcome, truth):
                 self.wrong.append(f"it says {outcome.reason!r}, and the thing is at {truth!r}")
         self.wire.mischief = Mischief()
         latest = time.monotonic() + RECONNECTED_S + NOISE_S
@@ -112,3 +111,10 @@ class _Mission:
             self.wrong.append(f"it ended {outcome.status} ({outcome.reason}) and goes on")
         if self.session.inbox.awaits_anything:
             self.wrong.append("a request has no end")
+
+
+def _says_so(outcome: Outcome, truth: str) -> bool:
+    """Whether it says that it was not as asked for, and how it is."""
+    if outcome.kind == CommandKind.FIND and truth == HAND:
+        return outcome.reason == f"I hold the {outcome.object}."
+    return f"I put the {outcome.object} on the {truth}; I could not" in outcome.reason

@@ -196,6 +196,10 @@ def test_who_subscribes_is_told_at_once_how_it_is(client: Raw, topic: str) -> No
     assert client.subscribe(topic)
 
 
+def test_who_subscribes_once_more_is_told_at_once_again(client: Raw) -> None:
+    assert [client.subscribe(DEPTH, id=id)["encoding"] for id in ("one", "other")] == ["32FC1"] * 2
+
+
 def test_who_unsubscribes_hears_no_more(client: Raw) -> None:
     client.subscribe("/odom", id="mine")
     client.say("unsubscribe", topic="/odom", id="mine")
