@@ -134,7 +134,7 @@ class PhysicsBody:
 
 
 class FakeBody:
-    """Implements Body in the instant world, where the robot is at places and jumps."""
+    """Implements Body in the instant world, where the robot glides from place to place."""
 
     def __init__(self, world: FakeWorld, robot: FakeRobot, camera: Camera) -> None:
         """Serve this robot."""
@@ -144,12 +144,10 @@ class FakeBody:
         self.cancel = robot.cancel
         self.advance = world.advance
         self.close = world.close
-        self._drives = False
 
     def start(self, goal: Goal | GoTo | Face) -> int:
         """Pursue a goal; no head can be turned here but to a place."""
         assert not isinstance(goal, Face)
-        self._drives = isinstance(goal, DriveTo | GoTo)
         return self._robot.start(goal)
 
     @property
@@ -168,13 +166,14 @@ class FakeBody:
 
     @property
     def pose(self) -> PlanarPose:
-        """Where it was when it last stood."""
-        return self.world.pose
+        """Where its drive has led so far."""
+        drive = self.world.drive
+        return drive.at(self.world.time) if drive else self.world.pose
 
     @property
     def velocity(self) -> PlanarPose:
         """Nominal."""
-        return SPEED_M_S if self._drives and self.busy else 0.0, 0.0, 0.0
+        return SPEED_M_S if self.world.drive else 0.0, 0.0, 0.0
 
     @property
     def holding(self) -> bool:
@@ -187,7 +186,7 @@ class FakeBody:
 
     def frames(self) -> tuple[Transform, ...]:
         """The camera looks down from above the base."""
-        x, y, yaw = self.world.pose
+        x, y, yaw = self.pose
         turn = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
         eye = Pose((0.0, 0.0, EYE_HEIGHT_M), (math.cos(yaw / 2), -math.sin(yaw / 2), 0.0, 0.0))
         return (
