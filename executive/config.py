@@ -119,6 +119,12 @@ class Settings(BaseSettings):
     ] = Field(
         "physics", description="PyBullet, or instant, or a robot of your own (docs/own-robot.md)"
     )
+    robot: Annotated[str | None, Option("ws://HOST:PORT or ros2:")] = Field(
+        None, description="a robot over rosbridge, or ROS 2 as it is sourced, instead of a world"
+    )
+    profile: Annotated[str | None, Option("NAME or FILE.toml")] = Field(
+        None, description="what that robot has and how it calls it (docs/own-robot.md)"
+    )
     detector: Annotated[str, Option("learned, simulated or FILE.onnx")] = Field(
         "learned",
         description="learned, simulated (never wrong), or FILE.onnx; the fake world has its own",
@@ -194,12 +200,26 @@ class Settings(BaseSettings):
             return value
         raise ValueError("should be physics, fake or package.module:function")
 
+    @field_validator("robot")
+    @classmethod
+    def _address_of_a_robot(cls, value: str | None) -> str | None:
+        if value in (None, "ros2:"):
+            return value
+        if not value.startswith(("ws://", "wss://")):
+            raise ValueError("should be ws://HOST:PORT, wss://HOST:PORT for TLS, or ros2:")
+        return _address(value, "EXECUTIVE_ROBOT_HEADERS")
+
     @field_validator("detector")
     @classmethod
     def _known_detector(cls, value: str) -> str:
         if value in ("learned", "simulated") or value.endswith(".onnx"):
             return value
         raise ValueError("should be learned, simulated or a FILE.onnx")
+
+    @property
+    def body(self) -> str:
+        """What the robot's body is called in messages."""
+        return f"the robot at {self.robot}" if self.robot else f"the world {self.world}"
 
     @property
     def uses_llm(self) -> bool:
@@ -249,7 +269,7 @@ def in_words(fault: ErrorDetails) -> str:
     return fault["msg"].removeprefix("Value error, ")
 
 
-def _address(url: str) -> str:
+def _address(url: str, secret: str = "EXECUTIVE_LLM_API_KEY") -> str:
     """The address of a server, which is written into each recording: so there is no secret in it.
 
     Raises:
@@ -263,9 +283,9 @@ def _address(url: str) -> str:
     if not fits or not url.isprintable() or " " in url:
         raise ValueError("should be an address such as http://host:port/v1")
     if "@" in parts.netloc:
-        raise ValueError("should be without user and password: set EXECUTIVE_LLM_API_KEY instead")
+        raise ValueError(f"should be without user and password: set {secret} instead")
     if parts.query or parts.fragment:
-        raise ValueError("should end before '?' and '#': a key belongs in EXECUTIVE_LLM_API_KEY")
+        raise ValueError(f"should end before '?' and '#': a key belongs in {secret}")
     return url
 
 

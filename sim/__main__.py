@@ -1,6 +1,6 @@
 """Homes on the command line: `view` draws one, `check` names its faults, `generate` makes one.
 
-`view objects` draws all objects.
+`view objects` draws all objects. `serve` has the robot in one driven from outside.
 """
 
 from executive.start import begin
@@ -21,6 +21,7 @@ from executive.errors import InputError
 from executive.shell import DONE, entry_point
 from executive.text import printable
 from executive.usage import Parser
+from sim.served.command import add_serving
 
 if TYPE_CHECKING:  # a command imports what it needs
     import numpy as np
@@ -65,6 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     generate.add_argument("--seed", type=int, default=0, metavar="N", help="default: 0")
     generate.add_argument("--out", type=Path, metavar="FILE.toml", help="default: print it")
     generate.set_defaults(run=_generate)
+    add_serving(commands)
     options = parser.parse_args(arguments)
     return int(options.run(options))
 

@@ -14,10 +14,10 @@ import numpy as np
 
 from executive.events import Inbox
 from executive.interfaces import Recorder
+from executive.perception.tags import spot, spots, tag, whole
 from executive.records import Transform, Transforms
 from executive.types import (
     FLOOR,
-    Box,
     Detection,
     DriveTo,
     Failed,
@@ -32,7 +32,8 @@ from executive.types import (
     Result,
     Succeeded,
 )
-from sim.home.home import Home
+from sim.goals import GoTo
+from sim.home.home import Home, PlanarPose
 from sim.objects.objects import why_not_taken
 
 SPEED_M_S = 0.8
@@ -40,8 +41,6 @@ SPEED_M_S = 0.8
 LOOK_S, PICK_S, PUT_DOWN_S, REST_S = 0.5, 8.0, 6.0, 0.5
 """Nominal durations."""
 EYE_HEIGHT_M = 1.35
-TILE = 16
-"""Side of the square that stands for a thing in a picture (pixels)."""
 
 Fault = Callable[[Goal], str | None]
 """Says why a goal fails, or None if it does not."""
@@ -73,6 +72,19 @@ class Drive:
         part = min(1.0, (time - self.began) / self.seconds) if self.seconds else 1.0
         x, y, _ = (a + part * (b - a) for a, b in zip(self.start, self.goal, strict=True))
         return x, y, self.goal[2]
+
+
+def knows(home: Home, place: str) -> bool:
+    """Whether the robot can be sent to a place of this name."""
+    return place in {"person", "delivery", *(piece.name for piece in home.places())}
+
+
+def straight_s(home: Home, start: str, place: str, speed_m_s: float = SPEED_M_S) -> float:
+    """Seconds of the straight way; infinite if one of the two is not in this home."""
+    if not (knows(home, start) and knows(home, place)):
+        return math.inf
+    ends = (home.stand(name)[:2] for name in (start, place))
+    return math.dist(*ends) / speed_m_s
 
 
 class FakeWorld:
@@ -185,12 +197,9 @@ class FakeRobot:
 
     def seconds(self, start: str, place: str) -> float:
         """By the straight line; infinite if one of the two is not in this home."""
-        if not (self._knows(start) and self._knows(place)):
-            return math.inf
-        ends = (self._world.home.stand(name)[:2] for name in (start, place))
-        return math.dist(*ends) / SPEED_M_S
+        return straight_s(self._world.home, start, place)
 
-    def start(self, goal: Goal) -> int:
+    def start(self, goal: Goal | GoTo) -> int:
         """Pursue a goal for its nominal time."""
         if self._request is not None and self._world.forget(self._request):
             self._world.brake()
@@ -198,7 +207,7 @@ class FakeRobot:
         delay, effect = self._plan(goal)
 
         def finish() -> Result:
-            reason = self._world.fault(goal)
+            reason = None if isinstance(goal, GoTo) else self._world.fault(goal)
             return Failed(reason) if reason else effect()
 
         self._request = self._world.schedule(delay, finish)
@@ -210,8 +219,10 @@ class FakeRobot:
             self._world.brake()
         self._world.inbox.drop(request)
 
-    def _plan(self, goal: Goal) -> tuple[float, Callable[[], Result]]:
+    def _plan(self, goal: Goal | GoTo) -> tuple[float, Callable[[], Result]]:
         match goal:
+            case GoTo(x, y, yaw):
+                return self._go((x, y, yaw), None)
             case DriveTo(place):
                 return self._drive(place)
             case LookAt(place, view):
@@ -224,19 +235,22 @@ class FakeRobot:
                 return REST_S, Succeeded
 
     def _knows(self, place: str) -> bool:
-        return place in {"person", "delivery", *(p.name for p in self._world.home.places())}
+        return knows(self._world.home, place)
 
     def _drive(self, place: str) -> tuple[float, Callable[[], Result]]:
         world = self._world
         if not self._knows(place):
             return 0.0, lambda: Failed(f"there is no {place} in this home")
-        goal = world.home.stand(place)
-        distance = math.dist(goal[:2], world.pose[:2])
+        return self._go(world.home.stand(place), place)
+
+    def _go(self, pose: PlanarPose, place: str | None) -> tuple[float, Callable[[], Result]]:
+        world = self._world
+        distance = math.dist(pose[:2], world.pose[:2])
         world.at = world.looking_at = None
-        world.drive = Drive(world.time, world.pose, goal, distance / SPEED_M_S)
+        world.drive = Drive(world.time, world.pose, pose, distance / SPEED_M_S)
 
         def arrive() -> Result:
-            world.at, world.pose, world.drive = place, goal, None
+            world.at, world.pose, world.drive = place, pose, None
             world.describe()
             return Succeeded()
 
@@ -275,7 +289,7 @@ class FakeRobot:
 
 
 class FakeCamera:
-    """Implements Camera: a grey picture with a coloured square for each thing in view."""
+    """Implements Camera: a grey picture with a tag for each thing in view."""
 
     intrinsics = Intrinsics(width=160, height=120, fx=125.0, fy=125.0, cx=79.5, cy=59.5)
 
@@ -288,12 +302,9 @@ class FakeCamera:
         """Draw what is there."""
         size = (self.intrinsics.height, self.intrinsics.width)
         color = np.full((*size, 3), 120, dtype=np.uint8)
-        for index, name in enumerate(in_view(self._world)):
-            box = square(index)
+        for name, box in zip(in_view(self._world), spots(size[1], size[0]), strict=False):
             rows = slice(box.top, box.top + box.height)
-            color[rows, box.left : box.left + box.width] = np.frombuffer(
-                name.encode().ljust(3)[:3], dtype=np.uint8
-            )
+            color[rows, box.left : box.left + box.width] = tag(name)
         x, y, _ = self._world.pose
         looking_down = Pose((x, y, EYE_HEIGHT_M), (1.0, 0.0, 0.0, 0.0))
         depth = np.full(size, 1.0, dtype=np.float32)
@@ -310,7 +321,7 @@ class FakeDetector:
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
         """Everything on the furniture that the robot looks at."""
         return tuple(
-            Detection(name, 1.0, square(index), np.ones((TILE, TILE), dtype=np.bool_))
+            Detection(name, 1.0, spot(index, FakeCamera.intrinsics.width), whole())
             for index, name in enumerate(in_view(self._world))
         )
 
@@ -320,10 +331,3 @@ def in_view(world: FakeWorld) -> tuple[str, ...]:
     if world.looking_at is None:
         return ()
     return tuple(name for name, place in world.things.items() if place == world.looking_at)
-
-
-def square(index: int) -> Box:
-    """Where the thing with this index is drawn (pixels): wholly inside the picture."""
-    columns = FakeCamera.intrinsics.width // TILE - 1
-    row, column = divmod(index, columns)
-    return Box(TILE // 2 + column * TILE, TILE // 2 + row * TILE, TILE, TILE)

@@ -24,7 +24,8 @@ from sim.body.base import CARRYING, FREE, brake
 from sim.body.hardware import Hardware
 from sim.body.head import hold_head, look_at
 from sim.body.skill import CannotError, Skill, Thinker, pause, wait_until
-from sim.home.home import FLOOR_VIEWS, PERSON, Home
+from sim.goals import Face, GoTo
+from sim.home.home import FLOOR_VIEWS, PERSON, Home, PlanarPose
 from sim.manipulation.hand import LostError
 from sim.manipulation.manipulator import Manipulator
 from sim.navigation.durations import Durations
@@ -83,7 +84,7 @@ class SimulatedRobot:
         """How long the way takes by the map, with an empty hand; infinite if there is none."""
         return self._durations.seconds(start, place)
 
-    def start(self, goal: Goal) -> int:
+    def start(self, goal: Goal | GoTo | Face) -> int:
         """Pursue a goal; ends Succeeded, or Failed with a reason."""
         if self._request is not None:
             self._inbox.end(self._request, Failed("replaced by another goal"))
@@ -165,10 +166,14 @@ class SimulatedRobot:
 
     # --- skills ---
 
-    def _skill_for(self, goal: Goal) -> Skill:
+    def _skill_for(self, goal: Goal | GoTo | Face) -> Skill:
         match goal:
             case DriveTo(place):
                 return self._drive(place)
+            case GoTo(x, y, yaw):
+                return self._go((x, y, yaw), "", "place")
+            case Face(point):
+                return look_at(self._hardware, point)
             case LookAt(place, view, point):
                 return self._look(place, view, point)
             case Pick(detection):
@@ -180,12 +185,16 @@ class SimulatedRobot:
 
     def _drive(self, place: str) -> Skill:
         self._check(place)
+        yield from self._go(self._home.stand(place), place, place)
+
+    def _go(self, pose: PlanarPose, place: str, called: str) -> Skill:
+        """Drive to where one stands to use the place (empty: none), called so in reasons."""
         yield from brake(self._hardware)
         yield from self._manipulator.stow()
         self._at = None
         limits = CARRYING if self._manipulator.hand.held else FREE
         try:
-            for _ in self._navigator.go(self._home.stand(place), limits):
+            for _ in self._navigator.go(pose, limits):
                 self._manipulator.hand.feel()
                 yield
         except LostError:
@@ -193,8 +202,8 @@ class SimulatedRobot:
             yield from pause(ROLLING_S)
             raise
         except Unreachable as reason:
-            raise CannotError(reason.clause(place)) from reason
-        self._at = place
+            raise CannotError(reason.clause(called)) from reason
+        self._at = place or None
 
     def _look(self, place: str, view: int, point: Vector3 | None) -> Skill:
         targets = self._targets(place)

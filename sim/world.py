@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from executive.events import Inbox
 from executive.geometry import Floats
 from executive.interfaces import Camera, Recorder
-from executive.records import Picture, Scene, Transforms
+from executive.records import Picture, Scene, Transform, Transforms
 from executive.types import Pose
 from sim.body.description import describe_robot, robot_entities
 from sim.body.hardware import Hardware
@@ -111,6 +111,7 @@ class PhysicsWorld:
         self._last_act = 0
         movable = {**self._things, **(self._world_faults.bodies() if self._world_faults else {})}
         self._frames = FrameTree(self._client, self._hardware, movable)
+        self._robots_frames = FrameTree(self._client, self._hardware, {})
         self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
 
     # --- SimulatedHome ---
@@ -174,6 +175,15 @@ class PhysicsWorld:
         """The object that both fingers touch, by the simulator's truth; None for none."""
         touched = self._hardware.touched()
         return next((name for body, name in self._things.items() if body in touched), None)
+
+    @property
+    def hardware(self) -> Hardware:
+        """The robot's motors, encoders and touch."""
+        return self._hardware
+
+    def robots_frames(self) -> tuple[Transform, ...]:
+        """Where the robot's own links are: what it knows by itself."""
+        return self._robots_frames.all()
 
     def truth(self, name: str) -> Pose:
         """Where an object is in `map`, by the simulator's truth: for tests, never for the robot."""

@@ -92,7 +92,8 @@ class MissionContext:
     """The collaborators of a mission; no `model` and `advice` for the system without an LLM.
 
     `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
-    `blind_to` are known objects that perception would not recognise.
+    `blind_to` are known objects that perception would not recognise. A robot without an arm
+    (`has_arm`) takes nothing.
     The `sources` know where things are without looking; they are asked in this order, after memory.
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
     the delivery table has no room; `handiest` is all furniture, that where things are put down most
@@ -118,6 +119,7 @@ class MissionContext:
     handiest: tuple[str, ...] = ()
     distance: Callable[[str, str], float] = lambda one, other: 0.0
     blind_to: tuple[str, ...] = ()
+    has_arm: bool = True
     pending: Pending = field(default_factory=Pending)
 
     def as_said(self, words: str) -> str:

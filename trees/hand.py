@@ -106,3 +106,18 @@ class HandStaysFull(Step):
         """There was no room for what it holds."""
         held, why = self.situation.hand.in_hand or "", self.why_before()
         return self.fail(f"{why}; I still hold {self.context.say.the(held)}")
+
+
+def arm_for_it(context: MissionContext) -> tuple[Behaviour, ...]:
+    """What declines at once what a robot without an arm cannot do; nothing if it has one."""
+    return () if context.has_arm else (NeedsNoArm("needs no arm", context),)
+
+
+class NeedsNoArm(Step):
+    """Fails if what was asked for takes an arm."""
+
+    def update(self) -> Status:
+        """Looking and going take none."""
+        if meaning(self.situation).grasps:
+            return self.fail("I have no arm: I can find things, but not take them")
+        return Status.SUCCESS

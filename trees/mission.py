@@ -19,7 +19,7 @@ from trees.by_plan import search
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, meaning
 from trees.grasp import grasp
-from trees.hand import hand_is_free
+from trees.hand import arm_for_it, hand_is_free
 from trees.nodes import Check, Optionally, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
@@ -43,6 +43,7 @@ def mission(context: MissionContext) -> Behaviour:
         stages(
             "serve",
             understand(context),
+            *arm_for_it(context),
             Check("about a thing to look for", context, lambda: is_about_one(situation)),
             resolve_object(context),
             *eyes_for_it(context),

@@ -5,10 +5,10 @@ the home is none of its business: that is found in the depth (`CameraPerception`
 
     python docs/examples/own_detector.py
 
-It is tried here on the instant world's pictures, in which a thing is a square of one colour. With
-a real camera, `CameraPerception(camera, TagDetector(tags), inbox, recorder)` is the perception of
-an embodiment of one's own (docs/own-robot.md). A network in an ONNX file needs no code at all:
-`--detector FILE.onnx` (docs/detector.md).
+It is tried here on the instant world's pictures, in which a thing is a square in a colour of its
+own. With a real camera, `CameraPerception(camera, TagDetector(tags), inbox, recorder)` is the
+perception of an embodiment of one's own (docs/own-robot.md). A network in an ONNX file needs no
+code at all: `--detector FILE.onnx` (docs/detector.md).
 """
 
 from collections.abc import Mapping

@@ -82,6 +82,7 @@ def build_parts(
         interpreter=EnglishInterpreter(knowledge.names()),
         in_map=embodiment.in_map,
         blind_to=embodiment.blind_to,
+        has_arm=embodiment.has_arm,
         parameters=parameters_of(settings),
     )
     return embodiment, parts
@@ -139,6 +140,6 @@ def build_user(settings: Settings, inbox: Inbox, truth: SimulatedHome | None, ou
         case _:
             raise InputError(
                 "setting 'user'",
-                f"the oracle answers from a simulated world's truth, and {settings.world} has none",
+                f"the oracle answers from a simulated world's truth, and {settings.body} has none",
                 "use --user console or none",
             )

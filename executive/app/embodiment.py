@@ -77,6 +77,7 @@ class Embodiment:
             which furniture.
         truth: the simulated world, if it is one.
         blind_to: objects of the home that perception would not recognise.
+        has_arm: whether it can take things; one without finds them, and declines the rest in words.
         jumps: whether the robot is where it drives to without having been in between.
         begin: called when a mission begins, to record what is to be seen of the world.
         close: called once, at the end of the session.
@@ -88,6 +89,7 @@ class Embodiment:
     in_map: bool = True
     truth: SimulatedHome | None = None
     blind_to: tuple[str, ...] = ()
+    has_arm: bool = True
     jumps: bool = False
     begin: Callable[[], None] = nothing
     close: Callable[[], None] = nothing

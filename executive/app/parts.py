@@ -78,6 +78,8 @@ class Parts:
     in_map: bool = False
     blind_to: tuple[str, ...] = ()
     """Objects of the home that perception would not recognise."""
+    has_arm: bool = True
+    """Whether the robot can take things."""
     parameters: Parameters = Parameters()
 
 
@@ -173,6 +175,7 @@ def build_context(parts: Parts, situation: Situation) -> MissionContext:
         handiest=handiest(parts.home),
         distance=distance(parts.home),
         blind_to=parts.blind_to,
+        has_arm=parts.has_arm,
     )
 
 

@@ -14,6 +14,7 @@ from executive.app.sources import written
 from executive.config import Settings
 from executive.files import read_bytes
 from executive.guards import GuardedRobot, in_words
+from executive.ros.profile import profile_text
 from executive.toml_file import MOST_BYTES
 from executive.types import DELIVERY, FLOOR
 from logs.recorder import Sink
@@ -81,24 +82,26 @@ def files_used(settings: Settings) -> dict[str, bytes]:
     Raises:
         InputError: if one of them cannot be read.
     """
-    prompts = settings.prompts
+    prompts, profile = settings.prompts, settings.robot and settings.profile
     return {
         "config.toml": settings.to_toml().encode(),
         "home.toml": home_text(settings.home).encode(),
         **({"prompts.toml": read_bytes(prompts, MOST_BYTES)} if prompts else {}),
+        **({"profile.toml": profile_text(profile)[0]} if profile else {}),
     }
 
 
 def body_used(parts: Parts) -> dict[str, bytes]:
     """What a recording keeps of the body: a replay has none to ask.
 
-    That is whether things have positions in `map`, which places take more than one view, and which
-    objects it does not recognise.
+    That is whether things have positions in `map`, which places take more than one view, which
+    objects it does not recognise, and whether it has an arm.
     """
     robot = GuardedRobot(parts.robot, parts.inbox, parts.recorder)
     views = {place: robot.views(place) for place in places_viewed(parts.home)}
     several = {place: number for place, number in views.items() if number > 1}
     body = {"in_map": parts.in_map, "views": several, "blind_to": parts.blind_to}
+    body["has_arm"] = parts.has_arm
     return {"body.json": json.dumps(body).encode()}
 
 

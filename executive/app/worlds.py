@@ -1,8 +1,8 @@
-"""`--world`: which body a mission has, by its name."""
+"""`--world` and `--robot`: which body a mission has."""
 
 from collections.abc import Mapping
 
-from executive.app import simulation
+from executive.app import simulation, wire
 from executive.app.embodiment import Embodiment, Factory, Setup
 from executive.app.own import Named
 from executive.errors import InputError
@@ -19,11 +19,14 @@ def embody(setup: Setup) -> Embodiment:
             settings ask for.
     """
     name = setup.settings.world
-    embodiment = OURS[name](setup) if name in OURS else _own(name, setup)
+    if setup.settings.robot:
+        embodiment = wire.wire(setup)
+    else:
+        embodiment = OURS[name](setup) if name in OURS else _own(name, setup)
     if setup.settings.fault and embodiment.truth is None:
         raise InputError(
             "setting 'fault'",
-            f"the world {name} is not simulated: nothing goes wrong there by order",
+            f"{setup.settings.body} is not simulated here: nothing goes wrong there by order",
             "leave --fault out, or use --world physics",
         )
     return embodiment

@@ -25,13 +25,20 @@ _EDGE_PIXELS = 3
 class CameraPerception:
     """A camera and a detector: takes a picture, recognises, and finds where things are by depth.
 
-    The picture is taken within `see`. What takes longer is computed meanwhile nothing moves.
+    The picture is taken within `see`, unless the camera is far away. What takes longer is computed
+    meanwhile nothing moves.
     """
 
     def __init__(
-        self, camera: Camera, detector: Detector, inbox: Inbox, recorder: Recorder
+        self,
+        camera: Camera,
+        detector: Detector,
+        inbox: Inbox,
+        recorder: Recorder,
+        far: bool = False,
     ) -> None:
-        """Look through `camera` with `detector`."""
+        """Look through `camera` with `detector`; a `far` one's pictures take their time to come."""
+        self._far = far
         self._camera = camera
         self._detector = detector
         self._inbox = inbox
@@ -41,18 +48,34 @@ class CameraPerception:
     def see(self) -> int:
         """Take a picture and recognise; ends Saw, or Failed if either did or all is black."""
         request = self._inbox.open()
+        if self._far:
+            take = partial(self._take, request)
+            self._inbox.compute(self._worker, self._camera.capture, take, request)
+            return request
         try:
             frame = self._camera.capture()
         except Exception as error:
             self._fail(request, "my camera failed", error)
             return request
+        self._look_at(request, frame)
+        return request
+
+    def _take(self, request: int, computation: Computation[Frame]) -> None:
+        """A picture has come from afar."""
+        try:
+            frame = computation.result()
+        except Exception as error:
+            self._fail(request, "my camera failed", error)
+            return
+        self._look_at(request, frame)
+
+    def _look_at(self, request: int, frame: Frame) -> None:
         self._recorder.record(Picture(frame))
         if not frame.color.any():
             self._inbox.end(request, Failed("my camera shows nothing"))
-            return request
+            return
         say = partial(self._say, request, frame.number)
         self._inbox.compute(self._worker, partial(self._recognise, frame), say, request)
-        return request
 
     def cancel(self, request: int) -> None:
         """Forget the picture."""

@@ -21,6 +21,7 @@ class Body(BaseModel):
     in_map: bool
     views: Mapping[str, int]
     blind_to: tuple[str, ...] = ()
+    has_arm: bool = True
 
 
 def recorded_body(run: Run, settings: Settings, home: Home) -> Body:

@@ -75,6 +75,7 @@ def recorded_parts(
         interpreter=EnglishInterpreter(knowledge.names()),
         in_map=body.in_map,
         blind_to=body.blind_to,
+        has_arm=body.has_arm,
         parameters=parameters_of(settings),
     )
     changed = (change or _policy(run))(advised(parts))

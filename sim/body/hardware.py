@@ -107,6 +107,14 @@ class Hardware:
         """(m/s, m/s, rad/s) in `map`."""
         return self._states(self._base)[1]
 
+    def joint_states(self) -> dict[str, tuple[float, float]]:
+        """Position and velocity of each joint of head, lift, arm and fingers (m, rad; a second)."""
+        names = (*HEAD, *ARM, *FINGERS)
+        positions, velocities = self._states([self._joints[name] for name in names])
+        return dict(
+            zip(names, zip(positions.tolist(), velocities.tolist(), strict=True), strict=True)
+        )
+
     @property
     def arm_positions(self) -> Floats:
         """Where the joints of `ARM` are."""

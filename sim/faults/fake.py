@@ -6,6 +6,7 @@ from executive.types import FLOOR, DriveTo, Failed, Goal, Pick, PutDown, Result
 from sim.fake import FakeRobot, FakeWorld
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import Blocked, Drop, Moved, Slip, Stuck
+from sim.goals import GoTo
 from sim.home.floorplan import doors_between
 
 
@@ -17,7 +18,7 @@ class FaultyFakeRobot(FakeRobot):
         super().__init__(world)
         self._injector = injector
 
-    def _plan(self, goal: Goal) -> tuple[float, Callable[[], Result]]:
+    def _plan(self, goal: Goal | GoTo) -> tuple[float, Callable[[], Result]]:
         delay, effect = super()._plan(goal)
 
         def troubled() -> Result:
@@ -34,10 +35,12 @@ class FaultyFakeRobot(FakeRobot):
                 self._injector.strike(fault, f"the {fault.thing} is taken to {fault.place}")
                 self._world.things[fault.thing] = fault.place
 
-    def _trouble(self, goal: Goal) -> Failed | None:
+    def _trouble(self, goal: Goal | GoTo) -> Failed | None:
         match goal:
             case DriveTo(place):
                 return self._dropped() or self._shut_out(place)
+            case GoTo():
+                return self._dropped()
             case Pick(detection):
                 return self._stuck() or self._slipped(detection.label)
             case PutDown():

@@ -2,7 +2,8 @@
 
 Random missions in the instant world, drawn from seeds: faults of the world, collaborators that
 raise, hang and talk nonsense, odd people, models that write garbage, stops at random moments. With
-`--physics` they run in PyBullet, and with `--stops` the whole program is started and told to stop.
+`--physics` they run in PyBullet, with `--stops` the whole program is started and told to stop, and
+with `--wire` the robot is served, and driven over a wire that delays, cuts, halves and reorders.
 After each the invariants of tests/helpers/soaking are checked. What is violated is printed with its
 seed: `--seed SEED --missions 1` runs that household again.
 """
@@ -18,10 +19,13 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
+import faulted_wire
 from progress import measure
 from soaking.case import missions_of, run_household
 from soaking.physics import run_in_physics
 from soaking.stops import stop_once
+
+from executive.errors import ExecutiveError
 
 Row = dict[str, Any]
 
@@ -39,6 +43,17 @@ def run_physics(trial: Row) -> Row:
 def run_stop(trial: Row) -> Row:
     """Start the program and stop it."""
     return asdict(stop_once(trial["seed"]))
+
+
+def run_wire(trial: Row) -> Row:
+    """Run some missions over a bad wire."""
+    seed = trial["seed"]
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            faults = list(faulted_wire.missions(seed, Path(folder)))
+        except ExecutiveError as error:
+            return {"violations": [f"{seed}: it does not begin: {error}"]}
+    return {"violations": [f"{fault.seed}: {fault.words}: {fault.what}" for fault in faults]}
 
 
 def households(missions: int, seed: int) -> list[Row]:
@@ -61,13 +76,18 @@ def main() -> int:
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--physics", action="store_true", help="in PyBullet")
     where.add_argument("--stops", action="store_true", help="the program in PyBullet, stopped")
+    where.add_argument("--wire", action="store_true", help="over a bad wire")
     options = parser.parse_args()
     trials = [
         {"seed": seed, "missions": 1}
         for seed in range(options.seed, options.seed + options.missions)
     ]
     run: Callable[[Row], Row] = run_stop if options.stops else run_physics
-    if not (options.physics or options.stops):
+    if options.wire:
+        some = range(options.seed, options.seed + -(-options.missions // faulted_wire.MISSIONS))
+        trials = [{"seed": seed, "missions": faulted_wire.MISSIONS} for seed in some]
+        run = run_wire
+    elif not (options.physics or options.stops):
         trials, run = households(options.missions, options.seed), run_instant
     with tempfile.TemporaryDirectory() as folder:
         journal = options.journal or Path(folder) / "journal.jsonl"

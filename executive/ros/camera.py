@@ -1,0 +1,165 @@
+"""The robot's camera: a picture when one is wanted, colour with depth, and where it was taken."""
+
+import asyncio
+from concurrent.futures import CancelledError
+from itertools import count
+
+import numpy as np
+
+from executive.computing import still_wanted
+from executive.ros.link import Link, LinkError
+from executive.ros.messages import stamp_of
+from executive.ros.pictures import color_of, depth_of, lens_of
+from executive.ros.profile import Profile
+from executive.ros.protocol import Message
+from executive.ros.senses import Senses
+from executive.ros.thread import WireThread
+from executive.types import Frame, Pose
+
+TOGETHER_S = 0.02
+"""Colour and depth that are no further apart are of one moment."""
+KEPT = 8
+"""Pictures of either that wait for their other."""
+FRAME_S = 1.0
+"""So long a picture waits for its frame to be told."""
+LINK_S = 5.0
+
+
+class WireCamera:
+    """Implements `Camera`; `capture` takes tens of milliseconds, and never longer than it may."""
+
+    def __init__(self, wire: WireThread, link: Link, profile: Profile, senses: Senses) -> None:
+        """Take no picture yet."""
+        self._wire = wire
+        self._link = link
+        self._profile = profile
+        self._senses = senses
+        self._numbers = count()
+
+    def capture(self) -> Frame:
+        """A picture of now; not called on the thread that ticks.
+
+        Raises:
+            LinkError: if none comes, or not such as can be used.
+            GivenUpError: if it is part of a computation that was given up.
+        """
+        taking = self._wire.start(self._take())
+        try:
+            while True:
+                try:
+                    return taking.result(0.05)
+                except TimeoutError:
+                    if taking.done():
+                        raise
+                    still_wanted()
+        except CancelledError:
+            raise LinkError("the link to the robot was closed") from None
+        finally:
+            taking.cancel()
+
+    async def _take(self) -> Frame:
+        await self._link.ready(LINK_S)
+        color, depth, lens = await self._pair()
+        frame = Frame(
+            next(self._numbers),
+            color_of(color),
+            depth_of(depth),
+            lens_of(lens),
+            await self._pose(color),
+        )
+        size = (frame.intrinsics.height, frame.intrinsics.width)
+        if frame.depth.shape != size or frame.color.shape[:2] != size:
+            sizes = [f"{one.shape[1]} x {one.shape[0]}" for one in (frame.color, frame.depth)]
+            raise LinkError(
+                f"colour has {sizes[0]} pixels, depth {sizes[1]} and the lens {size[1]} x {size[0]}"
+                ": the profile should name depth that is aligned with colour"
+            )
+        return frame
+
+    async def _pair(self) -> tuple[Message, Message, Message]:
+        """Colour and depth of one moment that is not before this one, and the lens."""
+        topics = self._profile.camera
+        collector = _Collector(self._senses.now)
+        image = "sensor_msgs/msg/Image"
+        endings = [
+            self._link.subscribe(topics.info, "sensor_msgs/msg/CameraInfo", collector.take_lens),
+            self._link.subscribe(topics.color, image, collector.take_color),
+            self._link.subscribe(topics.depth, image, collector.take_depth),
+        ]
+        try:
+            return await asyncio.wait_for(collector.pair, topics.late_s)
+        except TimeoutError:
+            missing = collector.missing(topics.color, topics.depth, topics.info)
+            raise LinkError(f"no picture came in {topics.late_s:g} s: {missing}") from None
+        finally:
+            for end in endings:
+                end()
+
+    async def _pose(self, color: Message) -> Pose:
+        """Where the camera was in the map, when the picture was taken."""
+        if not self._profile.camera.in_map:
+            return Pose()
+        said = str(color["header"]["frame_id"]).lstrip("/")
+        camera, within = self._profile.frames.camera or said, self._profile.frames.map
+        stamp = stamp_of(color)
+        latest = asyncio.get_running_loop().time() + FRAME_S
+        while asyncio.get_running_loop().time() < latest:
+            pose = self._senses.frames.pose(camera, within, stamp)
+            if pose is not None and self._senses.frames.newest >= stamp:
+                return pose
+            await asyncio.sleep(0.01)
+        pose = self._senses.frames.pose(camera, within, stamp)
+        if pose is None:
+            raise LinkError(f"nobody tells where {camera} is in {within}: is the robot localised?")
+        return pose
+
+
+class _Collector:
+    """Waits for a pair of pictures."""
+
+    def __init__(self, since: float) -> None:
+        self.pair: asyncio.Future[tuple[Message, Message, Message]]
+        self.pair = asyncio.get_running_loop().create_future()
+        self._since = since
+        self._colors: list[Message] = []
+        self._depths: list[Message] = []
+        self._lens: Message | None = None
+        self._old = False
+
+    def take_color(self, message: Message) -> None:
+        self._keep(self._colors, message)
+
+    def take_depth(self, message: Message) -> None:
+        self._keep(self._depths, message)
+
+    def take_lens(self, message: Message) -> None:
+        self._lens = message
+        self._look()
+
+    def _keep(self, kept: list[Message], message: Message) -> None:
+        if stamp_of(message) < self._since - 1e-6:
+            self._old = True
+            return
+        kept.append(message)
+        del kept[:-KEPT]
+        self._look()
+
+    def _look(self) -> None:
+        if self._lens is None or self.pair.done():
+            return
+        for color in self._colors:
+            apart = [abs(stamp_of(depth) - stamp_of(color)) for depth in self._depths]
+            if apart and min(apart) <= TOGETHER_S:
+                depth = self._depths[int(np.argmin(apart))]
+                self.pair.set_result((color, depth, self._lens))
+                return
+
+    def missing(self, color: str, depth: str, info: str) -> str:
+        """What did not come, as a clause."""
+        names = ((self._colors, color), (self._depths, depth), (self._lens, info))
+        silent = [name for come, name in names if not come]
+        if silent and self._old:
+            return "there were only older ones than the robot's own clock has"
+        if silent:
+            return f"nothing on {' and '.join(silent)}"
+        return "colour and depth are of different moments"

@@ -1,0 +1,94 @@
+"""A profile held against the robot before anything moves: what is wrong, what would be right."""
+
+import asyncio
+
+from executive.errors import InputError
+from executive.ros.link import Link, LinkError
+from executive.ros.offers import Offers, likely, same_type
+from executive.ros.profile import Profile
+from executive.ros.senses import Senses
+
+HEARING_S = 3.0
+"""So long a robot may take to say where it is, and whether it rests."""
+
+
+async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> list[InputError]:
+    """All that is wrong with a profile for the robot that is linked."""
+    try:
+        offers = await link.offers()
+    except LinkError as error:
+        right = "start rosapi: `ros2 launch rosbridge_server rosbridge_websocket_launch.xml` does"
+        return [InputError(where, str(error), right)]
+    found = [*_topics(offers, profile, where), *_actions(offers, profile, where)]
+    return found or await _heard(profile, senses, where)
+
+
+def _topics(offers: Offers, profile: Profile, where: str) -> list[InputError]:
+    camera = profile.camera
+    image = "sensor_msgs/msg/Image"
+    wanted = [
+        ("camera.color", camera.color, image),
+        ("camera.depth", camera.depth, image),
+        ("camera.info", camera.info, "sensor_msgs/msg/CameraInfo"),
+        ("odometry.topic", profile.odometry.topic, "nav_msgs/msg/Odometry"),
+    ]
+    if profile.joints:
+        wanted.append(("joints.topic", profile.joints.topic, "sensor_msgs/msg/JointState"))
+    if profile.hand:
+        wanted.append(("hand.topic", profile.hand.topic, profile.hand.type))
+    if profile.clock:
+        wanted.append(("clock.topic", profile.clock.topic, "rosgraph_msgs/msg/Clock"))
+    found = []
+    for key, name, kind in wanted:
+        said = offers.topics.get(name)
+        if said is None:
+            right = likely(name, offers.topics_of(kind), offers.topics)
+            found.append(InputError(where, f"{key}: the robot has no topic {name}", right))
+        elif not same_type(said, kind):
+            right = likely(name, offers.topics_of(kind), ())
+            what = f"{key}: {name} is of type {said}, and not {kind}"
+            found.append(InputError(where, what, right))
+    return found
+
+
+def _actions(offers: Offers, profile: Profile, where: str) -> list[InputError]:
+    wanted = [(s, action.action, action.type) for s, action in profile.actions().items()]
+    if profile.drive.path:
+        kind = "nav2_msgs/action/ComputePathToPose"
+        wanted.append(("drive.path", profile.drive.path, kind))
+    found = []
+    for section, name, kind in wanted:
+        if name not in offers.actions:
+            right = likely(name, offers.actions_of(kind), offers.actions)
+            what = f"{section}: the robot has no action {name}"
+            found.append(InputError(where, what, right))
+        elif offers.actions[name] and not same_type(offers.actions[name], kind):
+            what = f"{section}: {name} is of type {offers.actions[name]}, and not {kind}"
+            found.append(InputError(where, what, likely(name, offers.actions_of(kind), ())))
+    return found
+
+
+async def _heard(profile: Profile, senses: Senses, where: str) -> list[InputError]:
+    """Whether the robot says where it is and how it moves, within a few seconds."""
+    latest = asyncio.get_running_loop().time() + HEARING_S
+    while asyncio.get_running_loop().time() < latest:
+        if not (found := _unheard(profile, senses, where)):
+            break
+        await asyncio.sleep(0.05)
+    return found
+
+
+def _unheard(profile: Profile, senses: Senses, where: str) -> list[InputError]:
+    found = []
+    if senses.unrest.startswith("nobody"):
+        right = "name a topic on which something is published"
+        found.append(InputError(where, f"odometry, joints: {senses.unrest}", right))
+    frames = profile.frames
+    needed = [frames.base, frames.camera] if profile.camera.in_map else []
+    for frame in filter(None, needed):
+        if senses.frames.pose(frame, frames.map) is None:
+            known = ", ".join(senses.frames.names[:12]) or "no frames at all"
+            what = f"frames: nobody tells where {frame} is in {frames.map}"
+            right = f"localise the robot, or name other frames; it tells of {known}"
+            found.append(InputError(where, what, right))
+    return found

@@ -1,0 +1,150 @@
+"""All that a robot over the wire consists of, put together and let go of again."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+
+from executive.clock import RealClock
+from executive.errors import InputError
+from executive.events import Inbox
+from executive.guards import in_words
+from executive.interfaces import Clock
+from executive.ros.address import ROS2, Address
+from executive.ros.camera import WireCamera
+from executive.ros.checking import faults
+from executive.ros.clock import GoalClock, RobotClock
+from executive.ros.link import Link, LinkError
+from executive.ros.profile import Profile
+from executive.ros.rclpy_link import RclpyLink
+from executive.ros.robot import Places, WireRobot
+from executive.ros.rosbridge import RosbridgeLink
+from executive.ros.senses import Senses
+from executive.ros.stopping import Brake
+from executive.ros.thread import WireThread
+from executive.types import Pose
+
+CONNECTING_S = 6.0
+CLOSING_S = 1.5
+RIGHT = "start rosbridge there (docs/own-robot.md), or our robot: python -m sim serve"
+
+
+@dataclass(frozen=True)
+class Line:
+    """An open link, on a thread of its own."""
+
+    wire: WireThread
+    link: Link
+
+    def close(self) -> None:
+        """Let go of it."""
+        with suppress(Exception):  # what cannot be closed in order is closed nevertheless
+            self.wire.start(self.link.close()).result(CLOSING_S)
+        self.wire.close()
+
+
+@dataclass(frozen=True)
+class Connection:
+    """A robot over the wire."""
+
+    line: Line
+    robot: WireRobot
+    camera: WireCamera
+    clock: Clock
+    tell: Callable[[], None]
+    """Tells where the base is, if that is known."""
+
+    def close(self) -> None:
+        """Let go of it."""
+        self.line.close()
+
+
+def dial(address: Address, within_s: float = CONNECTING_S) -> Line:
+    """Open a link.
+
+    Raises:
+        InputError: if nobody answers there.
+    """
+    wire = WireThread()
+
+    async def link() -> Link:
+        made = RclpyLink() if address.url == ROS2 else RosbridgeLink(address)
+        await made.ready(within_s)
+        return made
+
+    try:
+        return Line(wire, wire.run(link()))
+    except LinkError as error:
+        wire.close()
+        raise InputError(f"--robot {address}", in_words(error), RIGHT) from None
+
+
+def connect(
+    address: Address,
+    profile: Profile,
+    places: Places,
+    inbox: Inbox,
+    where: str,
+    ways: Callable[[str, str], float],
+    told: Callable[[Pose], None] = lambda pose: None,
+) -> Connection:
+    """Open a link to a robot and hold the profile against it; nothing moves.
+
+    Args:
+        address: where the robot is.
+        profile: what it has.
+        places: the home.
+        inbox: where the ends of its goals go.
+        where: what the profile is called in messages.
+        ways: how long it takes from one place to another one (s).
+        told: is given where the base is in the map, now and then, on the thread that ticks.
+
+    Raises:
+        InputError: if nobody answers there, or the profile does not fit the robot.
+    """
+    line = dial(address)
+
+    async def sense() -> tuple[Senses, Brake, list[InputError]]:
+        senses = Senses(line.link, profile)
+        brake = Brake(line.link, profile, senses)
+        return senses, brake, await faults(line.link, profile, senses, where)
+
+    try:
+        senses, brake, found = line.wire.run(sense())
+        if found:
+            raise found[0]
+    except BaseException:
+        line.close()
+        raise
+
+    def tell() -> None:
+        if (pose := senses.base) is not None:
+            told(pose)
+
+    robot = WireRobot(line.wire, line.link, profile, senses, brake, places, ways, inbox, tell)
+    camera = WireCamera(line.wire, line.link, profile, senses)
+    return Connection(line, robot, camera, _clock(profile, inbox, robot, senses), tell)
+
+
+def check(address: Address, profile: Profile, where: str) -> list[InputError]:
+    """All that is wrong with a profile for the robot at an address.
+
+    Raises:
+        InputError: if nobody answers there.
+    """
+    line = dial(address)
+
+    async def hold() -> list[InputError]:
+        return await faults(line.link, profile, Senses(line.link, profile), where)
+
+    try:
+        return line.wire.run(hold())
+    finally:
+        line.close()
+
+
+def _clock(profile: Profile, inbox: Inbox, robot: WireRobot, senses: Senses) -> Clock:
+    if profile.clock is None:
+        return RealClock(inbox)
+    if profile.clock.counts_while_idle:
+        return RobotClock(inbox, senses)
+    return GoalClock(inbox, robot)

@@ -1,0 +1,329 @@
+"""What a robot calls things, and what it has: a TOML file that one writes for a new robot.
+
+Names that this project does not know are given here, and nothing of them stands in the code.
+"""
+
+from collections.abc import Mapping
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic_core import ErrorDetails
+
+from executive.errors import InputError
+from executive.files import read_bytes
+from executive.toml_file import MOST_BYTES, parse_toml
+
+EXAMPLE = "see docs/own-robot.md"
+GOALS: Mapping[str, Mapping[str, Any]] = {
+    "nav2_msgs/action/NavigateToPose": {"pose": "$pose"},
+    "nav2_msgs/action/Spin": {"target_yaw": "$turn"},
+    "control_msgs/action/PointHead": {
+        "target": "$point",
+        "pointing_frame": "$camera",
+        "pointing_axis": {"x": 0.0, "y": 0.0, "z": 1.0},
+    },
+    "executive_msgs/action/Pick": {
+        "label": "$label",
+        "points": "$points",
+        "confidence": "$confidence",
+        "cut_off": "$cut_off",
+    },
+    "executive_msgs/action/Place": {"place": "$place"},
+}
+"""The goals of types that are known; another type's is given by the profile."""
+OFFERED: Mapping[str, tuple[str, ...]] = {
+    "drive": ("pose", "place"),
+    "look": ("point", "turn", "camera", "place"),
+    "pick": ("label", "points", "confidence", "cut_off", "point", "pose", "place"),
+    "place": ("point", "pose", "place"),
+}
+"""What stands for what in a goal, by section: `$pose` and so on."""
+
+
+def _graph_name(name: str) -> str:
+    if not (name.startswith("/") and name.isprintable() and " " not in name and len(name) < 256):
+        raise ValueError("should begin with / and have no spaces, as in `ros2 topic list`")
+    return name
+
+
+def _type_name(name: str) -> str:
+    parts = name.split("/")
+    if not (len(parts) == 3 and all(part.isidentifier() for part in parts)):
+        raise ValueError("should be PACKAGE/action/NAME or PACKAGE/msg/NAME")
+    return name
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    @field_validator("action", "topic", "color", "depth", "info", "path", check_fields=False)
+    @classmethod
+    def _names(cls, value: str | None) -> str | None:
+        return None if value is None else _graph_name(value)
+
+    @field_validator("type", check_fields=False)
+    @classmethod
+    def _types(cls, value: str) -> str:
+        return _type_name(value)
+
+
+class Frames(_Section):
+    """Names of frames."""
+
+    map: str = "map"
+    """The home file's frame: the robot has to be localised in it."""
+    base: str = "base_link"
+    camera: str = ""
+    """The optical frame; empty: the one that pictures say."""
+
+
+class Action(_Section):
+    """An action of the robot's.
+
+    Attributes:
+        action: its name.
+        type: its type.
+        goal: the goal's fields, where `$pose` and the like stand for what is meant; may be left
+            out for a type that is known.
+        silent_s: after so long (s, real time) without any sign of it a goal is given up: a server
+            that refuses goals may never say so.
+    """
+
+    action: str
+    type: str
+    goal: dict[str, Any] = Field(default_factory=dict)
+    silent_s: Annotated[float, Field(gt=0, le=3600)] = 30.0
+
+    @property
+    def template(self) -> Mapping[str, Any]:
+        """The goal, with `$` before what is to be put in."""
+        return self.goal or GOALS.get(self.type, {})
+
+
+class Drive(Action):
+    """Driving; in legs, if the robot plans ways for others.
+
+    A link that is lost then means so many metres at most: nobody can stop the robot meanwhile.
+    """
+
+    path: str | None = None
+    """Action of type nav2_msgs/action/ComputePathToPose."""
+    leg_m: Annotated[float, Field(ge=0.2, le=100)] | None = None
+
+    @model_validator(mode="after")
+    def _legs_need_a_path(self) -> Self:
+        if self.leg_m is not None and self.path is None:
+            raise ValueError("leg_m needs path, the action that plans ways: /compute_path_to_pose")
+        return self
+
+
+class Look(Action):
+    """Turning the head, or all of the robot.
+
+    `views` is how many looks it takes to see a place; left out: one for each of its surfaces.
+    """
+
+    views: Annotated[int, Field(ge=1, le=20)] | None = None
+
+
+class Hand(_Section):
+    """What tells whether something is in the hand.
+
+    A topic of type std_msgs/msg/Bool; or of sensor_msgs/msg/JointState, with the name of a finger's
+    joint and the positions between which something keeps it open.
+    """
+
+    topic: str
+    joint: str = ""
+    between: tuple[float, float] | None = None
+
+    @model_validator(mode="after")
+    def _joint_needs_between(self) -> Self:
+        if bool(self.joint) != (self.between is not None):
+            raise ValueError("joint and between belong together: give both, or neither")
+        return self
+
+    @property
+    def type(self) -> str:
+        """Of its messages."""
+        return "sensor_msgs/msg/JointState" if self.joint else "std_msgs/msg/Bool"
+
+
+class CameraTopics(_Section):
+    """Colour, depth that is aligned with it, and the lens.
+
+    `in_map` says whether depth and frames tell where things are, `tags` whether things look like
+    tags that spell their names: both are for the instant world.
+    """
+
+    color: str
+    depth: str
+    info: str
+    in_map: bool = True
+    tags: bool = False
+    late_s: Annotated[float, Field(gt=0, le=60)] = 5.0
+    """A picture that takes longer (s, real time) does not come."""
+
+
+class Topic(_Section):
+    """A topic."""
+
+    topic: str
+
+
+class ClockTopic(_Section):
+    """The robot's own time, if it is simulated."""
+
+    topic: str = "/clock"
+    counts_while_idle: bool = True
+    """Whether its time is mission time, too, while nothing is under way."""
+
+
+class Limits(_Section):
+    """What the robot keeps to, whatever it is asked.
+
+    Attributes:
+        rooms: the rooms of the home that it may be sent to; left out: all.
+        hours: from when until when it drives, local time: `["08:00", "20:00"]`.
+        speed_m_s: published once to /speed_limit, which Nav2 heeds.
+    """
+
+    rooms: tuple[str, ...] | None = None
+    hours: tuple[str, str] | None = None
+    speed_m_s: Annotated[float, Field(gt=0, le=10)] | None = None
+
+    @field_validator("hours")
+    @classmethod
+    def _times(cls, value: tuple[str, str] | None) -> tuple[str, str] | None:
+        for one in value or ():
+            hour, colon, minute = one.partition(":")
+            fits = colon and hour.isdecimal() and minute.isdecimal() and len(one) == 5
+            if not fits or int(hour) > 23 or int(minute) > 59:
+                raise ValueError('should be like ["08:00", "20:00"]')
+        return value
+
+
+class Profile(_Section):
+    """What a robot has and what it is called."""
+
+    about: str = ""
+    tried: str = "not on hardware"
+    """Where this was tried, for who reads it."""
+    frames: Frames = Frames()
+    drive: Drive
+    look: Look | None = None
+    pick: Action | None = None
+    place: Action | None = None
+    hand: Hand | None = None
+    camera: CameraTopics
+    odometry: Topic
+    joints: Topic | None = None
+    clock: ClockTopic | None = None
+    limits: Limits = Limits()
+
+    @model_validator(mode="after")
+    def _goals_are_known(self) -> Self:
+        for section, action in self.actions().items():
+            if not action.template:
+                known = ", ".join(GOALS)
+                raise ValueError(
+                    f"{section}.goal is missing: I know only the goals of {known}; "
+                    "write what goes into its fields"
+                )
+            for word in _placeholders(action.template):
+                if word not in OFFERED[section]:
+                    offered = ", ".join(f"${one}" for one in OFFERED[section])
+                    raise ValueError(f"{section}.goal has ${word}; there are {offered}")
+        if (self.pick is None) != (self.place is None):
+            raise ValueError("pick and place belong together: give both, or neither")
+        return self
+
+    def actions(self) -> dict[str, Action]:
+        """The actions by their sections: all that can be under way, and has to be stopped."""
+        sections = {"drive": self.drive, "look": self.look, "pick": self.pick, "place": self.place}
+        return {name: action for name, action in sections.items() if action is not None}
+
+    @property
+    def has_arm(self) -> bool:
+        """Whether it can take things."""
+        return self.pick is not None
+
+
+def _placeholders(value: Any) -> tuple[str, ...]:
+    match value:
+        case str() if value.startswith("$"):
+            return (value[1:],)
+        case Mapping():
+            return tuple(word for one in value.values() for word in _placeholders(one))
+        case list():
+            return tuple(word for one in value for word in _placeholders(one))
+        case _:
+            return ()
+
+
+def filled(template: Any, values: Mapping[str, Any]) -> Any:
+    """The template with the values put in where `$` and their names stand."""
+    match template:
+        case str() if template.startswith("$"):
+            return values[template[1:]]
+        case Mapping():
+            return {key: filled(one, values) for key, one in template.items()}
+        case list():
+            return [filled(one, values) for one in template]
+        case _:
+            return template
+
+
+# --- reading ---
+
+
+def packaged_profiles() -> tuple[str, ...]:
+    """Names of the profiles that come with the project."""
+    entries = files("executive.ros").joinpath("profiles").iterdir()
+    return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
+
+
+def profile_text(name_or_path: str) -> tuple[bytes, str]:
+    """A profile's file, and what to call it in messages.
+
+    Raises:
+        InputError: if there is none.
+    """
+    known = f"packaged are {', '.join(packaged_profiles())}"
+    if name_or_path.endswith(".toml"):
+        return read_bytes(Path(name_or_path), MOST_BYTES, right=known), name_or_path
+    if name_or_path in packaged_profiles():
+        file = files("executive.ros").joinpath("profiles", f"{name_or_path}.toml")
+        return file.read_bytes(), file.name
+    right = f"{known}; or give the path of a .toml file"
+    raise InputError(f"--profile {name_or_path[:80]}", "there is no profile of this name", right)
+
+
+def load_profile(name_or_path: str) -> Profile:
+    """Read a profile: the name of a packaged one, or a TOML file.
+
+    Raises:
+        InputError: if there is none or something in it is wrong, naming file and key.
+    """
+    content, where = profile_text(name_or_path)
+    try:
+        return Profile.model_validate(parse_toml(content, where))
+    except ValidationError as error:
+        raise _input_error(where, error.errors(include_url=False)[0]) from None
+
+
+def _input_error(where: str, fault: ErrorDetails) -> InputError:
+    key = ".".join(str(part) for part in fault["loc"])[:80]
+    said = fault["msg"].removeprefix("Value error, ")
+    match fault["type"]:
+        case "extra_forbidden":
+            return InputError(where, f"there is no key {key}", EXAMPLE)
+        case "missing":
+            return InputError(where, f"{key} is missing", EXAMPLE)
+        case "value_error" if not isinstance(fault["input"], str | list | tuple):
+            return InputError(where, f"{key}: {said}" if key else said)
+        case kind:
+            right = said if kind == "value_error" else said.lower()
+            return InputError(where, f"{key} is {str(fault['input'])[:80]!r}", right)

@@ -1,0 +1,85 @@
+"""A profile for a robot that nobody has described yet, guessed from what it offers."""
+
+from collections.abc import Iterable
+
+from executive.ros.offers import Offers
+from executive.ros.profile import GOALS
+from executive.text import printable
+
+IMAGE = "sensor_msgs/msg/Image"
+ACTIONS = {
+    "drive": ("nav2_msgs/action/NavigateToPose",),
+    "look": ("control_msgs/action/PointHead", "nav2_msgs/action/Spin"),
+    "pick": ("executive_msgs/action/Pick",),
+    "place": ("executive_msgs/action/Place",),
+}
+"""The types that each section may have, the best first."""
+
+
+def proposal(offers: Offers, frames: Iterable[str]) -> str:
+    """The TOML of a profile, with what could not be guessed as comments."""
+    lines = ["# Proposed from what the robot offers: read it, and put right what is wrong.", ""]
+    lines += _frames(tuple(frames))
+    for section, kinds in ACTIONS.items():
+        lines += _action(offers, section, kinds)
+    lines += _camera(offers)
+    lines += _section("odometry", {"topic": _first(offers.topics_of("nav_msgs/msg/Odometry"))})
+    if offers.topics_of("rosgraph_msgs/msg/Clock"):
+        lines += ["[clock]", 'topic = "/clock"', ""]
+    return "\n".join(lines)
+
+
+def listing(offers: Offers) -> str:
+    """What the robot offers, a line each."""
+    actions = [f"  {name}  {kind or '(type not told)'}" for name, kind in offers.actions.items()]
+    topics = [f"  {name}  {kind}" for name, kind in sorted(offers.topics.items())]
+    return printable_lines(["actions", *actions, "topics", *topics])
+
+
+def printable_lines(lines: Iterable[str]) -> str:
+    """Lines that a terminal may have."""
+    return "\n".join(printable(line) for line in lines)
+
+
+def _frames(names: tuple[str, ...]) -> list[str]:
+    base = next((n for n in ("base_link", "base_footprint") if n in names), "base_link")
+    optical = [n for n in names if n.endswith("optical_frame") or n.endswith("optical")]
+    within = "map" if "map" in names or not names else names[0]
+    told = {"map": within, "base": base}
+    color = next((n for n in optical if "depth" not in n), None)
+    return _section("frames", {**told, **({"camera": color} if color else {})})
+
+
+def _action(offers: Offers, section: str, kinds: Iterable[str]) -> list[str]:
+    for kind in kinds:
+        if names := offers.actions_of(kind):
+            return _section(section, {"action": names[0], "type": kind})
+    untold = [name for name, kind in offers.actions.items() if not kind]
+    if section == "drive":
+        return _section("drive", {"action": _first(untold), "type": next(iter(GOALS))})
+    return []
+
+
+def _camera(offers: Offers) -> list[str]:
+    images = offers.topics_of(IMAGE)
+    depths = [name for name in images if "depth" in name]
+    aligned = [name for name in depths if "aligned" in name or "registered" in name]
+    colors = [n for n in images if n not in depths and ("color" in n or "rgb" in n)]
+    color = _first(colors or [n for n in images if n not in depths])
+    infos = offers.topics_of("sensor_msgs/msg/CameraInfo")
+    beside = color.rpartition("/")[0] + "/camera_info"
+    info = beside if beside in infos else _first(infos)
+    return _section("camera", {"color": color, "depth": _first(aligned or depths), "info": info})
+
+
+def _section(name: str, keys: dict[str, str]) -> list[str]:
+    return [f"[{name}]", *(f"{key} = {_quoted(value)}" for key, value in keys.items()), ""]
+
+
+def _quoted(value: str) -> str:
+    plain = printable(value).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{plain}"' + ("" if value else "  # not found")
+
+
+def _first(names: Iterable[str]) -> str:
+    return next(iter(names), "")

@@ -1,0 +1,365 @@
+"""A robot over the wire: goals become goals of its own actions, as its profile names them."""
+
+import asyncio
+import math
+from collections.abc import Callable, Mapping, Sequence
+from datetime import datetime
+from typing import Any, Protocol
+
+from executive.errors import InputError
+from executive.events import Inbox
+from executive.guards import in_words
+from executive.ros.actions import Actions
+from executive.ros.link import GoalEnd, Link, LinkError
+from executive.ros.messages import planar_pose, point_cloud, point_stamped, pose_stamped
+from executive.ros.profile import Profile
+from executive.ros.senses import Senses
+from executive.ros.stopping import PARTS, Brake
+from executive.ros.thread import WireThread
+from executive.types import (
+    FLOOR,
+    PERSON,
+    Detection,
+    DriveTo,
+    Failed,
+    Goal,
+    Halt,
+    LookAt,
+    Pick,
+    Place,
+    Pose,
+    PutDown,
+    Succeeded,
+    Vector3,
+)
+
+FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
+"""Where the robot looks for what fell: to the left of where it faces (radians)."""
+FLOOR_AHEAD_M = 0.9
+BESIDE_RAD = 0.6
+"""A point that is further from where the robot faces is not looked at."""
+FACING_S = 0.5
+HANDLING = ("pick", "place")
+STOPPING_S = 3.0
+"""So long a halt waits for a link that was lost: with it come the means to stop."""
+
+
+class Places(Protocol):
+    """The home, as far as a robot has to know it."""
+
+    def stand(self, place: str) -> tuple[float, float, float]:
+        """Where to stand to use a place: x and y in `map` (metres), yaw (radians)."""
+        ...
+
+    def view_targets(self, place: str) -> tuple[Vector3, ...]:
+        """Points of `map` to look at."""
+        ...
+
+    def places(self) -> tuple[Place, ...]:
+        """The furniture, with its rooms."""
+        ...
+
+
+class WireRobot:
+    """Implements `Robot`. `start` and `cancel` return at once; all else is on the wire's thread."""
+
+    def __init__(
+        self,
+        wire: WireThread,
+        link: Link,
+        profile: Profile,
+        senses: Senses,
+        brake: Brake,
+        places: Places,
+        ways: Callable[[str, str], float],
+        inbox: Inbox,
+        begins: Callable[[], None],
+    ) -> None:
+        """Be where it is, and at nothing.
+
+        `ways` tells how long ways between places take (s); `begins` is called when a goal does, on
+        the thread that ticks.
+        """
+        self._ways = ways
+        self._begins = begins
+        self._wire = wire
+        self._profile = profile
+        self._senses = senses
+        self._brake = brake
+        self._places = places
+        self._inbox = inbox
+        self._actions = Actions(link, profile)
+        self._link = link
+        self._real = profile.clock is None or profile.clock.counts_while_idle
+        self._request: int | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._at: str | None = None
+        self._spent = 0.0
+        self._began: float | None = None
+        self._ended: float | None = None
+
+    # --- Robot; on the thread that ticks ---
+
+    @property
+    def holding(self) -> bool | None:
+        """Whether something is in the hand; None if the robot cannot tell."""
+        return self._senses.holding
+
+    @property
+    def busy(self) -> bool:
+        """Whether a goal is under way."""
+        return self._request is not None and self._inbox.is_open(self._request)
+
+    def acted_s(self) -> float:
+        """How long it was at goals so far, by its own clock (s); 0 if it has none."""
+        now = self._senses.clock if self._ended is None else self._ended
+        if self._began is None or now is None:
+            return self._spent
+        return self._spent + max(0.0, now - self._began)
+
+    def views(self, place: str) -> int:
+        """How many looks it takes to see all of a place."""
+        look = self._profile.look
+        if look is None:
+            return 1
+        if place == FLOOR:
+            return len(FLOOR_PANS) if look.views is None else 1
+        return look.views or len(self._places.view_targets(place))
+
+    def seconds(self, start: str, place: str) -> float:
+        """How long a way takes, by the map of the home; the robot itself is not asked."""
+        return self._ways(start, place)
+
+    def start(self, goal: Goal) -> int:
+        """Pursue a goal; ends Succeeded, or Failed with a reason."""
+        if self._request is not None and self._inbox.is_open(self._request):
+            self._inbox.end(self._request, Failed("replaced by another goal"))
+        self._request = self._inbox.open(real=self._real)
+        self._begins()
+        self._spent = self.acted_s()
+        self._began, self._ended = self._senses.clock, None
+        self._wire.start(self._pursue(self._request, goal))
+        return self._request
+
+    def cancel(self, request: int) -> None:
+        """Give up the goal and brake to rest; its end is not delivered."""
+        was_open = self._inbox.is_open(request)
+        self._inbox.drop(request)
+        if request == self._request and was_open:
+            self._request = None
+            self._ended = self._senses.clock
+            self._wire.start(self._call_off())
+
+    # --- on the thread of the wire ---
+
+    async def _pursue(self, request: int, goal: Goal) -> None:
+        task = asyncio.current_task()
+        before, self._task = self._task, task
+        if not isinstance(goal, Halt):
+            await self._give_up(before)
+            await self._brake.settled()
+        elif before is not None:
+            before.cancel()
+        result = await self._result(goal)
+        if self._task is task and self._ended is None:
+            self._ended = self._senses.clock
+        self._inbox.end(request, result)
+
+    async def _result(self, goal: Goal) -> Succeeded | Failed:
+        try:
+            return await self._done(goal)
+        except LinkError as error:
+            self._at = None
+            return Failed(in_words(error))
+        except Exception as error:
+            return Failed(f"something is wrong with what my robot says: {in_words(error)}")
+
+    async def _act(self, section: str, values: Mapping[str, Any]) -> GoalEnd:
+        """Have an action of the robot's pursue a goal."""
+        task, self._ended = asyncio.current_task(), None
+        end = await self._actions.do(section, values)
+        if self._task is task:
+            self._ended = self._senses.clock
+        if section in HANDLING or not end.succeeded:
+            await self._senses.feel_hand_anew()
+        return end
+
+    async def _give_up(self, task: asyncio.Task[None] | None) -> None:
+        if task is not None and not task.done():
+            task.cancel()
+            await asyncio.wait({task}, timeout=1.0)
+
+    async def _call_off(self) -> None:
+        task, self._task = self._task, None
+        if task is not None:
+            task.cancel()
+        await self._brake.cancel_all()
+
+    async def _done(self, goal: Goal) -> Succeeded | Failed:
+        match goal:
+            case DriveTo(place):
+                return await self._drive(place)
+            case LookAt(place, view, point):
+                return await self._look(place, view, point)
+            case Pick(detection):
+                return await self._pick(detection)
+            case PutDown(place):
+                return await self._put_down(place)
+            case Halt():
+                return await self._halt()
+
+    async def _halt(self) -> Succeeded | Failed:
+        if self._link.loss:
+            try:
+                await self._link.ready(STOPPING_S)
+            except LinkError as error:
+                return Failed(f"I cannot be told to stop, and may go on: {in_words(error)}")
+        failures = await self._brake.cancel_all()
+        unrest = await self._brake.rest()
+        unstopped = [s for s in failures if s in self._actions.used]
+        if unstopped:
+            section = unstopped[0]
+            return Failed(f"I cannot stop my {PARTS[section]}: {failures[section]}")
+        self._actions.used.clear()
+        return Failed(f"I cannot come to rest: {unrest}") if unrest else Succeeded()
+
+    # --- driving ---
+
+    async def _drive(self, place: str) -> Succeeded | Failed:
+        if why := self._forbidden(place):
+            return Failed(why)
+        stand = self._stand(place)
+        if stand is None:
+            return Failed(f"there is no {place} in this home")
+        self._at = None
+        had = self._senses.holding
+        pose = planar_pose(*stand, self._profile.frames.map)
+        for leg in await self._actions.legs(pose):
+            end = await self._act("drive", {"pose": leg, "place": place})
+            if not end.succeeded:
+                lost = bool(had) and self._senses.holding is False
+                return self._actions.failure(end, f"I did not get to the {place}", lost)
+        self._at = place
+        return Succeeded()
+
+    def _stand(self, place: str) -> tuple[float, float, float] | None:
+        try:
+            return self._places.stand(place)
+        except InputError:
+            return None
+
+    def _forbidden(self, place: str) -> str:
+        """Why the robot may not drive there now, as a clause; empty if it may."""
+        limits = self._profile.limits
+        room = next((one.room for one in self._places.places() if one.name == place), None)
+        if limits.rooms is not None and room is not None and room not in limits.rooms:
+            return f"I may not go into the {room}"
+        if limits.hours is not None:
+            begin, end = limits.hours
+            now = datetime.now().strftime("%H:%M")
+            within = begin <= now < end if begin <= end else now >= begin or now < end
+            if not within:
+                return f"I may only drive from {begin} to {end}"
+        return ""
+
+    # --- looking ---
+
+    async def _look(self, place: str, view: int, point: Vector3 | None) -> Succeeded | Failed:
+        if place != FLOOR and self._at != place:
+            return Failed(f"I am not at the {place}")
+        if not 0 <= view < self.views(place):
+            return Failed(f"there are only {self.views(place)} views of the {place}")
+        target = point or self._targets(place)[view]
+        if self._profile.look is not None:
+            values = {
+                "place": place,
+                "point": point_stamped(target, self._profile.frames.map),
+                "camera": self._profile.frames.camera,
+                "turn": self._turn(target),
+            }
+            end = await self._act("look", values)
+            if not end.succeeded:
+                return self._actions.failure(end, f"I cannot look at the {place}")
+            if self._profile.look.type.endswith("/PointHead"):
+                return Succeeded()
+        return await self._checked(place, target)
+
+    def _targets(self, place: str) -> Sequence[Vector3]:
+        """Points of `map` to look at, to see all of a place."""
+        if place != FLOOR:
+            return self._places.view_targets(place)
+        base = self._senses.base or Pose()
+        x, y, _ = base.position
+        yaw = _yaw(base)
+        return [
+            (x + FLOOR_AHEAD_M * math.cos(yaw + pan), y + FLOOR_AHEAD_M * math.sin(yaw + pan), 0.0)
+            for pan in FLOOR_PANS
+        ]
+
+    def _turn(self, target: Vector3) -> float:
+        """How far to turn to the left to face a point (radians); 0 if nobody tells where I am."""
+        base = self._senses.base
+        if base is None:
+            return 0.0
+        x, y, _ = base.position
+        return math.remainder(math.atan2(target[1] - y, target[0] - x) - _yaw(base), math.tau)
+
+    async def _checked(self, place: str, target: Vector3) -> Succeeded | Failed:
+        """Whether the robot faces what it is to look at, as far as its frames tell.
+
+        They may come a little later than the end of the goal that turned it.
+        """
+        latest = asyncio.get_running_loop().time() + FACING_S
+        while self._senses.base is not None and abs(self._turn(target)) > BESIDE_RAD:
+            if asyncio.get_running_loop().time() > latest:
+                return Failed(f"I cannot turn to look at the {place}")
+            await asyncio.sleep(0.02)
+        return Succeeded()
+
+    # --- handling ---
+
+    async def _pick(self, detection: Detection) -> Succeeded | Failed:
+        if self._profile.pick is None:
+            return Failed("I have no arm")
+        within = self._profile.frames.map
+        middle = detection.position
+        if middle is None and self._profile.camera.in_map:
+            return Failed(f"I do not see where the {detection.label} is")
+        point = middle or (0.0, 0.0, 0.0)
+        values: dict[str, Any] = {
+            "label": detection.label,
+            "points": point_cloud(detection.points, within),
+            "confidence": detection.confidence,
+            "cut_off": detection.cut_off,
+            "point": point_stamped(point, within),
+            "pose": pose_stamped(point, (0.0, 0.0, 0.0, 1.0), within),
+            "place": self._at or "",
+        }
+        end = await self._act("pick", values)
+        if end.succeeded:
+            return Succeeded()
+        return self._actions.failure(end, f"I could not pick up the {detection.label}")
+
+    async def _put_down(self, place: str) -> Succeeded | Failed:
+        if self._profile.place is None:
+            return Failed("I have no arm")
+        if self._at != place:
+            return Failed(f"I am not at the {place}")
+        if place == PERSON:
+            return Failed("I can only put things down on furniture")
+        within = self._profile.frames.map
+        point = self._places.view_targets(place)[0]
+        values: dict[str, Any] = {
+            "place": place,
+            "point": point_stamped(point, within),
+            "pose": pose_stamped(point, (0.0, 0.0, 0.0, 1.0), within),
+        }
+        end = await self._act("place", values)
+        if end.succeeded:
+            return Succeeded()
+        return self._actions.failure(end, f"I could not put it down on the {place}")
+
+
+def _yaw(pose: Pose) -> float:
+    x, y, z, w = pose.orientation
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))

@@ -1,0 +1,139 @@
+"""What the robot says about itself all the time: frames, motion, hand and clock."""
+
+import asyncio
+import math
+import time
+from collections.abc import Callable
+from contextlib import suppress
+
+from executive.ros.frames import FrameTree
+from executive.ros.link import Link
+from executive.ros.messages import seconds, stamp_of, vector
+from executive.ros.packets import PacketError, numbers
+from executive.ros.profile import Profile
+from executive.ros.protocol import Message
+from executive.types import Pose
+
+RESTING_M_S, RESTING_RAD_S = 0.01, 0.02
+"""What is slower is at rest."""
+
+FEELING_S = 0.3
+"""So long it may take until the hand is told of again."""
+
+
+class Senses:
+    """The newest of each; filled on the thread of the wire, read from any."""
+
+    def __init__(self, link: Link, profile: Profile) -> None:
+        """Listen."""
+        self.frames = FrameTree()
+        self.clock: float | None = None
+        """The robot's own time (s); None before it was heard of, or if nobody says it."""
+        self.clock_heard = 0.0
+        """When that was (real time, s)."""
+        self._link = link
+        self._profile = profile
+        self._holding: bool | None = None
+        self._base_moves: bool | None = None
+        self._joints_move: bool | None = None
+        self._newest = 0.0
+        self._endings: list[Callable[[], None]] = []
+        kind = "tf2_msgs/msg/TFMessage"
+        link.subscribe("/tf_static", kind, lambda message: self.frames.take(message, fixed=True))
+        link.subscribe("/tf", kind, self.frames.take)
+        if profile.clock is not None:
+            link.subscribe(profile.clock.topic, "rosgraph_msgs/msg/Clock", self._take_clock)
+        self._felt = asyncio.Event()
+        self._hand: Callable[[], None] | None = None
+        self._subscribe_hand()
+        self.feel_motion_anew()
+
+    # --- what is asked ---
+
+    @property
+    def holding(self) -> bool | None:
+        """Whether something is in the hand; None if the robot cannot tell."""
+        return self._holding
+
+    @property
+    def now(self) -> float:
+        """The robot's time as far as it was heard of (s): pictures of later are newer."""
+        return self._newest if self.clock is None else self.clock
+
+    @property
+    def base(self) -> Pose | None:
+        """Where the base is in the map; None if nobody tells."""
+        return self.frames.pose(self._profile.frames.base, self._profile.frames.map)
+
+    async def feel_hand_anew(self) -> None:
+        """Hear again what is in the hand: what a goal has changed may be told after its end."""
+        if self._profile.hand is None:
+            return
+        self._felt.clear()
+        self._subscribe_hand()
+        with suppress(TimeoutError):
+            await asyncio.wait_for(self._felt.wait(), FEELING_S)
+
+    def _subscribe_hand(self) -> None:
+        before, hand = self._hand, self._profile.hand
+        if hand is not None:
+            self._hand = self._link.subscribe(hand.topic, hand.type, self._take_hand)
+        if before is not None:
+            before()
+
+    def feel_motion_anew(self) -> None:
+        """Forget what was heard of motion, and ask for it anew."""
+        self._base_moves = self._joints_move = None
+        before = self._endings
+        odometry, joints = self._profile.odometry, self._profile.joints
+        self._endings = [
+            self._link.subscribe(odometry.topic, "nav_msgs/msg/Odometry", self._take_odometry)
+        ]
+        if joints is not None:
+            kind = "sensor_msgs/msg/JointState"
+            self._endings.append(self._link.subscribe(joints.topic, kind, self._take_joints))
+        for end in before:
+            end()
+
+    @property
+    def unrest(self) -> str:
+        """What moves, or is not known to rest, as a clause; empty if all is at rest."""
+        if self._base_moves is None:
+            return f"nobody tells on {self._profile.odometry.topic} whether my base moves"
+        if self._profile.joints is not None and self._joints_move is None:
+            return f"nobody tells on {self._profile.joints.topic} whether my joints move"
+        moving = ["base"] * self._base_moves + ["joints"] * bool(self._joints_move)
+        if not moving:
+            return ""
+        verb = "moves" if moving == ["base"] else "move"
+        return f"my {' and my '.join(moving)} {verb}"
+
+    # --- what comes ---
+
+    def _take_clock(self, message: Message) -> None:
+        self.clock, self.clock_heard = seconds(message["clock"]), time.monotonic()
+
+    def _take_odometry(self, message: Message) -> None:
+        twist = message["twist"]["twist"]
+        speed = math.hypot(*vector(twist["linear"]))
+        turning = math.hypot(*vector(twist["angular"]))
+        self._base_moves = speed >= RESTING_M_S or turning >= RESTING_RAD_S
+        self._newest = stamp_of(message)
+
+    def _take_joints(self, message: Message) -> None:
+        self._joints_move = any(abs(v) >= RESTING_RAD_S for v in numbers(message["velocity"]))
+
+    def _take_hand(self, message: Message) -> None:
+        hand = self._profile.hand
+        assert hand is not None
+        if hand.between is None:
+            if not isinstance(message["data"], bool):
+                raise PacketError("a Bool that is none")
+            self._holding = message["data"]
+            self._felt.set()
+            return
+        positions = dict(zip(message["name"], numbers(message["position"]), strict=True))
+        if hand.joint in positions:
+            low, high = hand.between
+            self._holding = low < positions[hand.joint] < high
+            self._felt.set()

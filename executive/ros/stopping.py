@@ -1,0 +1,93 @@
+"""How a robot is stopped over the wire: all goals of all its actions, and then a look at it.
+
+Also those that nobody here remembers: of a program that died, or from before a loss of the link.
+"""
+
+import asyncio
+import logging
+
+from executive.guards import in_words
+from executive.ros.link import Link, LinkError
+from executive.ros.messages import everything
+from executive.ros.profile import Profile
+from executive.ros.protocol import Message
+from executive.ros.senses import Senses
+
+CANCELLING_S = 1.0
+"""So long a server may take to say that it cancels."""
+REST_S = 2.0
+"""The longest that anything moves on (real time)."""
+LOOK_S = 0.02
+AGAIN_S = 0.5
+"""After so long it is asked anew how the robot moves."""
+REFUSED = 1
+"""`action_msgs/srv/CancelGoal`: the server goes on."""
+SPEED_TOPIC, SPEED_TYPE = "/speed_limit", "nav2_msgs/msg/SpeedLimit"
+"""What Nav2's controller heeds."""
+PARTS = {"drive": "base", "look": "head", "pick": "arm", "place": "arm"}
+"""What moves, by the profile's sections."""
+
+log = logging.getLogger(__name__)
+
+
+class Brake:
+    """Stops a robot; all of it is done on the thread of the wire."""
+
+    def __init__(self, link: Link, profile: Profile, senses: Senses) -> None:
+        """Stop what is left of earlier, now and whenever there is a link again."""
+        self._link = link
+        self._profile = profile
+        self._senses = senses
+        self._under_way: asyncio.Task[dict[str, str]] | None = None
+        link.greet_with(self._greet)
+
+    async def _greet(self) -> None:
+        """Stop orphans; tell the robot how fast it may be."""
+        for section, why in (await self.cancel_all()).items():
+            log.warning("I could not tell my %s to stop: %s", PARTS[section], why)
+        if (speed := self._profile.limits.speed_m_s) is not None:
+            limit: Message = {"percentage": False, "speed_limit": speed}
+            self._link.publish(SPEED_TOPIC, SPEED_TYPE, limit)
+
+    async def cancel_all(self) -> dict[str, str]:
+        """Cancel all goals of all actions; which sections could not be stopped, and why."""
+        self._under_way = asyncio.create_task(self._cancel_all())
+        return await asyncio.shield(self._under_way)
+
+    async def settled(self) -> None:
+        """Wait until no cancelling is under way: it would hit what is begun meanwhile."""
+        if self._under_way is not None and not self._under_way.done():
+            await asyncio.wait({self._under_way}, timeout=2 * CANCELLING_S)
+
+    async def _cancel_all(self) -> dict[str, str]:
+        sections = self._profile.actions()
+        names = dict.fromkeys(action.action for action in sections.values())
+        answers = await asyncio.gather(*(self._cancel(name) for name in names))
+        why = dict(zip(names, answers, strict=True))
+        return {s: why[action.action] for s, action in sections.items() if why[action.action]}
+
+    async def _cancel(self, action: str) -> str:
+        """Cancel all goals of an action; why that could not be, or nothing."""
+        service = f"{action}/_action/cancel_goal"
+        kind = "action_msgs/srv/CancelGoal"
+        try:
+            answer = await self._link.call(
+                service, kind, everything(), within_s=CANCELLING_S, urgent=True
+            )
+        except LinkError as error:
+            return in_words(error)
+        return "it refuses" if answer.get("return_code") == REFUSED else ""
+
+    async def rest(self) -> str:
+        """Wait for rest; what still moves then, as a clause, or nothing."""
+        time = asyncio.get_running_loop().time
+        latest, again = time() + REST_S, 0.0
+        while True:
+            if time() >= again:
+                self._senses.feel_motion_anew()
+                again = time() + AGAIN_S
+            await asyncio.sleep(LOOK_S)
+            if self._link.loss:
+                return f"nobody can tell whether I move: {self._link.loss}"
+            if not (unrest := self._senses.unrest) or time() > latest:
+                return unrest

@@ -1,0 +1,42 @@
+"""What the served robot is called over the wire: its topics and actions, and their types."""
+
+from executive.ros.graph import Graph
+
+NODE = "/robot_executive_sim"
+
+CLOCK = "/clock"
+TF, TF_STATIC = "/tf", "/tf_static"
+ODOMETRY = "/odom"
+JOINTS = "/joint_states"
+TOUCH = "/hand/holding"
+COLOR, DEPTH = "/camera/color/image_raw", "/camera/depth/image_raw"
+LENS = "/camera/color/camera_info"
+PICTURES = (COLOR, DEPTH, LENS)
+STATE = (CLOCK, TF_STATIC, TF, ODOMETRY, JOINTS, TOUCH)
+"""In the order in which they are published, before the pictures."""
+
+DRIVE = "/navigate_to_pose"
+LOOK = "/head_controller/point_head_action"
+PICK, PLACE = "/pick", "/place"
+
+GRAPH = Graph(
+    node=NODE,
+    distro="simulated",
+    published={
+        CLOCK: "rosgraph_msgs/msg/Clock",
+        TF: "tf2_msgs/msg/TFMessage",
+        TF_STATIC: "tf2_msgs/msg/TFMessage",
+        ODOMETRY: "nav_msgs/msg/Odometry",
+        JOINTS: "sensor_msgs/msg/JointState",
+        TOUCH: "std_msgs/msg/Bool",
+        COLOR: "sensor_msgs/msg/Image",
+        DEPTH: "sensor_msgs/msg/Image",
+        LENS: "sensor_msgs/msg/CameraInfo",
+    },
+    actions={
+        DRIVE: "nav2_msgs/action/NavigateToPose",
+        LOOK: "control_msgs/action/PointHead",
+        PICK: "executive_msgs/action/Pick",
+        PLACE: "executive_msgs/action/Place",
+    },
+)

@@ -1,0 +1,137 @@
+"""The goals that clients have given the robot, and what becomes of each.
+
+The robot pursues one at a time: a new one, of whichever action, replaces the one before. One that
+is cancelled ends when all is at rest.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from executive.events import Ended, Inbox
+from executive.ros.goals import Goal
+from executive.ros.packets import PacketError
+from executive.ros.protocol import GoalStatus, Message
+from executive.ros.server import Server
+from executive.types import DriveTo, Failed, Halt, Result
+from executive.types import Goal as Wanted
+from sim.goals import Face, GoTo
+from sim.home.home import Home
+from sim.served.bodies import Body
+from sim.served.messages import MAP, header, planar_pose, time_message
+from sim.served.offered import DRIVE, LOOK, PICK, PLACE
+from sim.served.requests import Reader
+
+FAILED = 1
+"""`error_code` of a goal that was not reached."""
+
+
+@dataclass(eq=False)
+class _Pursuit:
+    goal: Goal
+    wanted: Wanted | GoTo | Face
+    began_ns: int
+
+
+@dataclass(eq=False)
+class _Halting:
+    """The robot comes to rest for goals that were cancelled."""
+
+    request: int
+    goals: list[Goal] = field(default_factory=list)
+
+
+class Pursuits:
+    """Belongs to the thread of the simulation."""
+
+    def __init__(
+        self, home: Home, body: Body, inbox: Inbox, server: Server, tell_state: Callable[[], None]
+    ) -> None:
+        """Pursue nothing. How the robot is, is told by `tell_state` before each end."""
+        self._home = home
+        self._body = body
+        self._inbox = inbox
+        self._server = server
+        self._tell_state = tell_state
+        reader = Reader(home, body.look)
+        self._readers: dict[str, Callable[[Message], Wanted | GoTo | Face]] = {
+            DRIVE: reader.drive,
+            LOOK: reader.point_head,
+            PICK: reader.pick,
+            PLACE: reader.place,
+        }
+        self._open: dict[int, _Pursuit] = {}
+        self._halting: _Halting | None = None
+
+    def start(self, goal: Goal, time_ns: int) -> None:
+        """Pursue it, or refuse it if that cannot be tried."""
+        try:
+            wanted = self._readers[goal.action](goal.args)
+        except PacketError as error:
+            self._server.refuse(goal, str(error))
+            return
+        self._server.accept(goal, time_ns)
+        request = self._body.start(wanted)
+        self._open[request] = _Pursuit(goal, wanted, time_ns)
+        self.take_ends()
+        self.tell_progress(time_ns)
+
+    def cancel(self, goal: Goal) -> None:
+        """Give it up and come to rest."""
+        for request, pursuit in tuple(self._open.items()):
+            if pursuit.goal is goal:
+                self._body.cancel(request)
+                del self._open[request]
+                if self._halting is None:
+                    self._halting = _Halting(self._body.start(Halt()))
+                self._halting.goals.append(goal)
+
+    def take_ends(self) -> None:
+        """Tell of each that has ended."""
+        for event in self._inbox.take_all():
+            if isinstance(event, Ended):
+                self._end(event.request, event.result)
+
+    def tell_progress(self, time_ns: int) -> None:
+        """Tell how the robot gets on with what it pursues."""
+        for pursuit in self._open.values():
+            self._server.feedback(pursuit.goal, self._feedback(pursuit, time_ns))
+
+    def _end(self, request: int, result: Result) -> None:
+        pursuit = self._open.pop(request, None)
+        if pursuit is not None:
+            self._tell_state()
+            failed = isinstance(result, Failed)
+            status = GoalStatus.ABORTED if failed else GoalStatus.SUCCEEDED
+            self._server.end(pursuit.goal, status, _values(pursuit.goal, result))
+        elif self._halting is not None and self._halting.request == request:
+            self._tell_state()
+            goals, self._halting = self._halting.goals, None
+            for goal in goals:
+                self._server.end(goal, GoalStatus.CANCELED, _values(goal, Failed("cancelled")))
+
+    def _feedback(self, pursuit: _Pursuit, time_ns: int) -> Message:
+        passed = time_message(time_ns - pursuit.began_ns)
+        match pursuit.wanted:
+            case DriveTo(place):
+                goal = self._home.stand(place)
+            case GoTo(x, y, yaw):
+                goal = (x, y, yaw)
+            case Face():
+                return {}
+            case _:
+                return {"elapsed": passed} if pursuit.goal.action in (PICK, PLACE) else {}
+        here = self._body.pose
+        return {
+            "current_pose": {"header": header(time_ns, MAP), "pose": planar_pose(here)},
+            "navigation_time": passed,
+            "number_of_recoveries": 0,
+            "distance_remaining": math.dist(here[:2], goal[:2]),
+        }
+
+
+def _values(goal: Goal, result: Result) -> Message:
+    """The result of its action."""
+    reason, lost = (result.reason, result.lost) if isinstance(result, Failed) else ("", False)
+    error = {"error_code": FAILED if reason else 0, "error_msg": reason}
+    return {**error, "lost": lost} if goal.action in (PICK, PLACE) else error

@@ -1,0 +1,159 @@
+"""What clients ask of the robot, read from the goals of its actions.
+
+Whatever does not fit is a `PacketError` in words, and the goal is refused.
+"""
+
+import math
+import struct
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from executive.ros.packets import PacketError, octets
+from executive.ros.protocol import Message
+from executive.types import Box, Detection, Goal, Pick, PutDown, Vector3
+from sim.goals import Face, GoTo
+from sim.home.home import Home
+from sim.served.bodies import Body, drive
+from sim.served.messages import MAP
+
+FARTHEST_M = 1000.0
+"""No coordinate is farther from the map's origin."""
+MOST_POINTS = 1_000_000
+MOST_TEXT = 200
+_FIELDS = ("x", "y", "z")
+_FLOAT32 = 7
+"""`sensor_msgs/msg/PointField`'s datatype."""
+
+
+@dataclass(frozen=True)
+class Reader:
+    """Makes goals of the robot from goals of actions."""
+
+    home: Home
+    look: Callable[[Vector3], Goal | Face]
+
+    @classmethod
+    def of(cls, home: Home, body: Body) -> "Reader":
+        """For this robot in this home."""
+        return cls(home, body.look)
+
+    def drive(self, goal: Message) -> Goal | GoTo:
+        """`nav2_msgs/action/NavigateToPose`."""
+        stamped = _table(goal, "pose")
+        _in_map(stamped)
+        pose = _table(stamped, "pose")
+        x, y, _ = _vector(_table(pose, "position"))
+        return drive(self.home, (x, y, _yaw(_table(pose, "orientation"))))
+
+    def point_head(self, goal: Message) -> Goal | Face:
+        """`control_msgs/action/PointHead`."""
+        target = _table(goal, "target")
+        _in_map(target)
+        return self.look(_vector(_table(target, "point")))
+
+    def pick(self, goal: Message) -> Goal:
+        """`executive_msgs/action/Pick`: a name, and the points in `map` that were seen of it."""
+        label, cloud = _text(goal, "label"), _table(goal, "points")
+        if cloud.get("width", 0):
+            _in_map(cloud)
+        points = _points(cloud)
+        mask = np.ones((1, 1), np.bool_)
+        cut_off = goal.get("cut_off", False) is True
+        return Pick(Detection(label, 1.0, Box(0, 0, 1, 1), mask, points, cut_off))
+
+    def place(self, goal: Message) -> Goal:
+        """`executive_msgs/action/Place`: the name of a piece of furniture."""
+        return PutDown(_text(goal, "place"))
+
+
+# --- fields ---
+
+
+def _table(message: Message, name: str) -> Message:
+    value = message.get(name)
+    if not isinstance(value, dict):
+        raise PacketError(f"a goal without {name}")
+    return value
+
+
+def _text(message: Message, name: str) -> str:
+    value = message.get(name)
+    if not isinstance(value, str) or not 0 < len(value) <= MOST_TEXT:
+        raise PacketError(f"a goal whose {name} is no name")
+    return value
+
+
+def _number(message: Message, name: str, default: float | None = None) -> float:
+    value = message.get(name, default)
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        raise PacketError(f"a goal with {name} that is no number")
+    if not abs(value) <= FARTHEST_M:
+        raise PacketError(f"a goal with {name} beyond {FARTHEST_M:g}")
+    return float(value)
+
+
+def _vector(message: Message) -> Vector3:
+    return _number(message, "x"), _number(message, "y"), _number(message, "z", 0.0)
+
+
+def _yaw(message: Message) -> float:
+    """Of a quaternion about the vertical (radians)."""
+    x, y, z, w = (_number(message, name, 0.0) for name in ("x", "y", "z", "w"))
+    if abs(math.hypot(x, y, z, w) - 1.0) > 0.01:
+        raise PacketError("a goal with an orientation that is no unit quaternion")
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def _in_map(stamped: Message) -> None:
+    """What the robot is told is told in one frame."""
+    frame = _table(stamped, "header").get("frame_id")
+    if frame != MAP:
+        raise PacketError(f"a goal in the frame {str(frame)[:MOST_TEXT]}: give it in {MAP}")
+
+
+def _points(cloud: Message) -> NDArray[np.float32]:
+    """(n, 3) of a `sensor_msgs/msg/PointCloud2` with x, y and z as 32-bit floats (metres)."""
+    count = _count(cloud, "width", 0) * _count(cloud, "height", 1)
+    if not count:
+        return np.empty((0, 3), np.float32)
+    step = _count(cloud, "point_step", 0)
+    content = octets(cloud.get("data", b""))
+    if count > MOST_POINTS or len(content) != count * step:
+        raise PacketError(f"points whose {len(content)} bytes are not {count} times {step}")
+    order = ">" if cloud.get("is_bigendian") else "<"
+    columns = [_offset(cloud, name, step) for name in _FIELDS]
+    kind = np.dtype(
+        {
+            "names": list(_FIELDS),
+            "formats": [f"{order}f4"] * 3,
+            "offsets": columns,
+            "itemsize": step,
+        }
+    )
+    packed = np.frombuffer(content, kind)
+    points = np.column_stack([packed[name] for name in _FIELDS]).astype(np.float32)
+    finite: NDArray[np.float32] = points[np.isfinite(points).all(axis=1)]
+    return finite
+
+
+def _offset(cloud: Message, name: str, step: int) -> int:
+    """Where a coordinate begins in each point."""
+    fields = cloud.get("fields")
+    for field in fields if isinstance(fields, list) else ():
+        if isinstance(field, dict) and field.get("name") == name:
+            offset: Any = field.get("offset")
+            fits = type(offset) is int and 0 <= offset <= step - struct.calcsize("f")
+            if fits and field.get("datatype") == _FLOAT32:
+                return int(offset)
+    raise PacketError(f"points without {name} as a 32-bit float")
+
+
+def _count(message: Message, name: str, default: int) -> int:
+    value: Any = message.get(name, default)
+    if type(value) is not int or not 0 <= value <= MOST_POINTS:
+        raise PacketError(f"points with a {name} that is no count")
+    return value

@@ -1,0 +1,147 @@
+"""`--robot` and `--profile`: missions with a robot over the wire, and what is said before them."""
+
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from second_robot import PROFILE, SecondRobot
+
+from executive.__main__ import main
+from executive.replay import replay
+from executive.ros.__main__ import main as look
+from executive.ros.address import HEADERS
+from executive.testing.bench import four_rooms
+
+NOBODY = "ws://127.0.0.1:9"
+
+
+@pytest.fixture
+def there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[SecondRobot]:
+    monkeypatch.chdir(tmp_path)
+    with SecondRobot(four_rooms().robot_start) as robot:
+        yield robot
+
+
+def run(*options: str) -> int:
+    return main(["--llm", "none", "--user", "none", *options])
+
+
+def profile_without(tmp_path: Path, *sections: str, **replaced: str) -> str:
+    text = PROFILE.read_text()
+    parts = [part for part in text.split("\n\n") if part.split("]")[0].lstrip("[") not in sections]
+    text = "\n\n".join(parts)
+    for name, other in replaced.items():
+        text = text.replace(f"/acme/{name}", other)
+    file = tmp_path / "changed.toml"
+    file.write_text(text)
+    return str(file)
+
+
+def test_a_mission_over_the_wire_looks_for_the_thing_and_replays(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert run("--robot", there.url, "--profile", str(PROFILE), "--json", "Find a power_drill") == 1
+    outcome = json.loads(capsys.readouterr().out)
+    assert outcome["visited"]
+    assert replay(tmp_path / outcome["run_dir"]).parting is None
+    assert {action for action, _ in there.goals} == {"/acme/go"}
+
+
+def test_a_robot_without_an_arm_declines_at_once_to_bring(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    profile = profile_without(tmp_path, "pick", "place", "hand")
+    assert run("--robot", there.url, "--profile", profile, "--json", "Bring a mug") == 1
+    outcome = json.loads(capsys.readouterr().out)
+    assert "I have no arm" in outcome["reason"]
+    assert not there.goals
+    assert replay(tmp_path / outcome["run_dir"]).parting is None
+
+
+def test_where_nobody_answers_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--robot", NOBODY, "--profile", str(PROFILE), "Find a mug") == 2
+    said = capsys.readouterr().err
+    assert "nobody listens there" in said
+    assert "start rosbridge" in said
+
+
+def test_a_robot_needs_a_profile(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--robot", NOBODY, "Find a mug") == 2
+    assert "--profile nav2, served" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "other", "said"),
+    [
+        (
+            "go",
+            "/acme/walk",
+            "drive: the robot has no action /acme/walk; of this type there is /acme/go",
+        ),
+        ("rgb", "/acme/odom", "/acme/odom is of type nav_msgs/msg/Odometry, and not sensor_msgs"),
+        ("lens", "/acme/lense", "no topic /acme/lense; of this type there is /acme/lens"),
+    ],
+)
+def test_what_does_not_fit_the_robot_is_said_before_anything_moves(
+    there: SecondRobot,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    name: str,
+    other: str,
+    said: str,
+) -> None:
+    profile = profile_without(tmp_path, **{name: other})
+    assert run("--robot", there.url, "--profile", profile, "Find a mug") == 2
+    assert said in capsys.readouterr().err
+    assert not there.goals
+
+
+def test_a_robot_that_is_nowhere_in_the_map_is_refused(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file = tmp_path / "lost.toml"
+    file.write_text(PROFILE.read_text().replace('"world"', '"map"'))
+    assert run("--robot", there.url, "--profile", str(file), "Find a mug") == 2
+    assert "nobody tells where body is in map" in capsys.readouterr().err
+
+
+def test_faults_are_not_for_robots_over_the_wire(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str]
+) -> None:
+    robot = ("--robot", there.url, "--profile", str(PROFILE))
+    assert run(*robot, "--fault", "slip", "Find a mug") == 2
+    assert f"the robot at {there.url}" in capsys.readouterr().err
+
+
+def test_look_lists_what_the_robot_offers_and_proposes_a_profile(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert look(["look", there.url]) == 0
+    said = capsys.readouterr().out
+    assert "/acme/go  acme_msgs/action/Go" in said
+    assert 'topic = "/acme/odom"' in said
+
+
+def test_check_says_that_a_profile_fits(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert look(["check", there.url, "--profile", str(PROFILE)]) == 0
+    assert "fits the robot" in capsys.readouterr().out
+
+
+def test_profiles_that_come_along_can_be_read(capsys: pytest.CaptureFixture[str]) -> None:
+    assert look(["profiles"]) == 0
+    assert "nav2  a robot with Nav2" in capsys.readouterr().out
+
+
+def test_headers_of_the_environment_are_sent_and_recorded_nowhere(
+    there: SecondRobot, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setitem(os.environ, HEADERS, '{"Authorization": "Bearer letmein"}')
+    run("--robot", there.url, "--profile", str(PROFILE), "Find a mug")
+    assert {headers["Authorization"] for headers in there.headers} == {"Bearer letmein"}
+    kept = [file for file in (tmp_path / "runs").rglob("*") if file.is_file()]
+    assert kept
+    assert not any(b"letmein" in file.read_bytes() for file in kept)

@@ -1,0 +1,66 @@
+"""A profile that is wrong is told with its key and what would be right."""
+
+from pathlib import Path
+
+import pytest
+from second_robot import PROFILE
+
+from executive.errors import InputError
+from executive.ros.profile import filled, load_profile, packaged_profiles
+
+WHOLE = PROFILE.read_text()
+
+
+def fault_of(tmp_path: Path, text: str) -> str:
+    file = tmp_path / "mine.toml"
+    file.write_text(text)
+    with pytest.raises(InputError) as caught:
+        load_profile(str(file))
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("then", "now", "said"),
+    [
+        ('"/acme/go"', '"acme/go"', "drive.action is 'acme/go'; should begin with /"),
+        ('"acme_msgs/action/Go"', '"Go"', "drive.type is 'Go'; should be PACKAGE/action/NAME"),
+        ("silent_s = 3.0", "silent_s = -1", "drive.silent_s is '-1'; input should be greater"),
+        ('where = "$pose"', 'where = "$nowhere"', "drive.goal has $nowhere; there are $pose"),
+        ('goal = { where = "$pose", hurry = true }', "", "drive.goal is missing"),
+        ('joint = "finger"', "", "joint and between belong together"),
+        ("[odometry]", "[odometer]", "odometry is missing"),
+        ("silent_s = 3.0", "leg_m = 2.0", "leg_m needs path"),
+        ('color = "/acme/rgb"', "", "camera.color is missing"),
+        ("[frames]", "[frames]\nhat = 1", "there is no key frames.hat"),
+        ("[frames]", '[limits]\nhours = ["8", "9"]\n[frames]', "limits.hours"),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_key(tmp_path: Path, then: str, now: str, said: str) -> None:
+    assert then in WHOLE
+    assert said in fault_of(tmp_path, WHOLE.replace(then, now, 1))
+
+
+def test_who_can_pick_up_has_to_put_down(tmp_path: Path) -> None:
+    text = "\n\n".join(part for part in WHOLE.split("\n\n") if not part.startswith("[place]"))
+    assert "pick and place belong together" in fault_of(tmp_path, text)
+
+
+def test_an_unknown_name_lists_those_that_come_along() -> None:
+    with pytest.raises(InputError, match="packaged are nav2, served"):
+        load_profile("r2d2")
+
+
+@pytest.mark.parametrize("name", packaged_profiles())
+def test_those_that_come_along_are_right_and_say_where_they_were_tried(name: str) -> None:
+    profile = load_profile(name)
+    assert profile.about
+    assert profile.tried in ("in simulation", "not on hardware")
+
+
+def test_a_goal_has_the_values_where_the_template_names_them() -> None:
+    template = {"a": "$pose", "b": [{"c": "$label"}, 1.0], "d": "plain"}
+    assert filled(template, {"pose": {"x": 1}, "label": "mug"}) == {
+        "a": {"x": 1},
+        "b": [{"c": "mug"}, 1.0],
+        "d": "plain",
+    }

@@ -1,0 +1,216 @@
+"""The link by rclpy, with a real node of ROS 2: `pytest -m ros2` where rclpy is."""
+
+import asyncio
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from executive.ros.link import LinkError
+from executive.ros.messages import everything
+from executive.ros.protocol import GoalStatus
+from executive.ros.rclpy_link import RclpyLink
+from executive.ros.thread import WireThread
+
+pytestmark = [pytest.mark.ros2, pytest.mark.filterwarnings("ignore::DeprecationWarning")]
+KIND, ACTION = "test_msgs/action/Fibonacci", "/count"
+
+
+class Node:
+    """A node with an action that counts, a service, and topics."""
+
+    def __init__(self) -> None:
+        import rclpy
+        from rclpy.action import ActionServer, CancelResponse, GoalResponse
+        from rclpy.executors import MultiThreadedExecutor
+        from std_msgs.msg import String
+        from test_msgs.action import Fibonacci
+        from test_msgs.srv import BasicTypes
+
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context)
+        self.node = rclpy.create_node("robot", context=self.context)
+        self.executor = MultiThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.refuses, self.running = False, 0
+        self.made = Fibonacci
+        self.server = ActionServer(
+            self.node,
+            Fibonacci,
+            ACTION,
+            execute_callback=self.count,
+            goal_callback=lambda _: GoalResponse.REJECT if self.refuses else GoalResponse.ACCEPT,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+        )
+        self.node.create_service(BasicTypes, "/echo", self.echo)
+        self.heard: list[str] = []
+        self.node.create_subscription(String, "/in", lambda said: self.heard.append(said.data), 5)
+        self.out = self.node.create_publisher(String, "/out", 5)
+        threading.Thread(target=self.executor.spin, daemon=True).start()
+
+    def echo(self, request: Any, response: Any) -> Any:
+        response.int32_value, response.string_value = request.int32_value, request.string_value
+        return response
+
+    def count(self, handle: Any) -> Any:
+        self.running += 1
+        result, feedback = self.made.Result(), self.made.Feedback()
+        try:
+            for number in range(handle.request.order):
+                if handle.is_cancel_requested:
+                    handle.canceled()
+                    return result
+                feedback.sequence = [number]
+                handle.publish_feedback(feedback)
+                result.sequence = [*result.sequence, number]
+                time.sleep(0.02)
+            handle.succeed()
+            return result
+        finally:
+            self.running -= 1
+
+    def close(self) -> None:
+        self.executor.shutdown(timeout_sec=1.0)
+        self.context.try_shutdown()
+
+
+@pytest.fixture(scope="module")
+def node() -> Iterator[Node]:
+    pytest.importorskip("rclpy")
+    made = Node()
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def wire(node: Node) -> Iterator[tuple[WireThread, RclpyLink]]:
+    thread = WireThread()
+
+    async def join() -> RclpyLink:
+        return RclpyLink()
+
+    link = thread.run(join())
+    yield thread, link
+    thread.run(link.close())
+    thread.close()
+
+
+def until(happens: Callable[[], object]) -> None:
+    latest = time.monotonic() + 10.0
+    while not happens():
+        assert time.monotonic() < latest
+        time.sleep(0.02)
+
+
+def test_a_goal_is_pursued_with_feedback(wire: tuple[WireThread, RclpyLink]) -> None:
+    thread, link = wire
+    heard: list[Any] = []
+    end = thread.run(link.pursue(ACTION, KIND, {"order": 3}, heard.append))
+    assert end.succeeded
+    assert end.values["sequence"].tolist() == [0, 1, 2]
+    assert heard
+
+
+def test_a_goal_that_is_refused_ends_at_once(
+    wire: tuple[WireThread, RclpyLink], node: Node
+) -> None:
+    thread, link = wire
+    node.refuses = True
+    end = thread.run(link.pursue(ACTION, KIND, {"order": 3}, lambda _: None))
+    node.refuses = False
+    assert end.status == GoalStatus.ABORTED
+    assert "refuses" in end.reason
+
+
+def test_the_hidden_service_cancels_all_goals(
+    wire: tuple[WireThread, RclpyLink], node: Node
+) -> None:
+    thread, link = wire
+    pursuit = thread.start(link.pursue(ACTION, KIND, {"order": 500}, lambda _: None))
+    until(lambda: node.running)
+    service, kind = f"{ACTION}/_action/cancel_goal", "action_msgs/srv/CancelGoal"
+    answer = thread.run(link.call(service, kind, everything(), within_s=5.0, urgent=True))
+    assert answer["return_code"] == 0
+    assert pursuit.result(10).status == GoalStatus.CANCELED
+
+
+def test_what_is_cancelled_here_is_cancelled_there(
+    wire: tuple[WireThread, RclpyLink], node: Node
+) -> None:
+    thread, link = wire
+    pursuit = thread.start(link.pursue(ACTION, KIND, {"order": 500}, lambda _: None))
+    until(lambda: node.running)
+    pursuit.cancel()
+    until(lambda: not node.running)
+
+
+def test_a_service_is_called(wire: tuple[WireThread, RclpyLink]) -> None:
+    thread, link = wire
+    request = {"int32_value": 7, "string_value": "so"}
+    answer = thread.run(link.call("/echo", "test_msgs/srv/BasicTypes", request, within_s=5.0))
+    assert (answer["int32_value"], answer["string_value"]) == (7, "so")
+
+
+def test_nobody_there_is_said(wire: tuple[WireThread, RclpyLink]) -> None:
+    thread, link = wire
+    with pytest.raises(LinkError, match="does not answer"):
+        thread.run(link.call("/nobody", "test_msgs/srv/BasicTypes", {}, within_s=0.2))
+    with pytest.raises(LinkError, match="nobody serves /nothing"):
+        thread.run(link.pursue("/nothing", KIND, {}, lambda _: None))
+
+
+def test_messages_go_both_ways(wire: tuple[WireThread, RclpyLink], node: Node) -> None:
+    thread, link = wire
+    heard: list[Any] = []
+
+    async def listen() -> None:
+        link.subscribe("/out", "std_msgs/msg/String", heard.append)
+
+    async def say() -> None:
+        link.publish("/in", "std_msgs/msg/String", {"data": "hello"})
+
+    thread.run(listen())
+
+    def said() -> bool:
+        from std_msgs.msg import String
+
+        node.out.publish(String(data="there"))
+        thread.run(say())
+        return bool(heard and node.heard)
+
+    until(said)
+    assert heard[0] == {"data": "there"}
+    assert node.heard[0] == "hello"
+
+
+def test_what_the_robot_offers_is_told_with_types(wire: tuple[WireThread, RclpyLink]) -> None:
+    thread, link = wire
+    offers = thread.run(link.offers())
+    assert offers.actions[ACTION] == KIND
+    assert offers.topics["/out"] == "std_msgs/msg/String"
+
+
+def test_a_field_that_is_not_there_is_said(wire: tuple[WireThread, RclpyLink]) -> None:
+    thread, link = wire
+    with pytest.raises(LinkError, match="has no field"):
+        thread.run(link.pursue(ACTION, KIND, {"oder": 3}, lambda _: None))
+    with pytest.raises(LinkError, match="does not know the type"):
+        thread.run(link.pursue(ACTION, "acme_msgs/action/Go", {}, lambda _: None))
+
+
+def test_greeting_comes_first(wire: tuple[WireThread, RclpyLink]) -> None:
+    thread, link = wire
+    done: list[str] = []
+
+    async def greeting() -> None:
+        await asyncio.sleep(0.1)
+        done.append("greeted")
+
+    async def greet() -> list[str]:
+        link.greet_with(greeting)
+        await link.ready(5.0)
+        return list(done)
+
+    assert thread.run(greet()) == ["greeted"]

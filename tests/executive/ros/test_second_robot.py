@@ -1,0 +1,197 @@
+"""A robot with other names and encodings keeps the contracts by its profile alone."""
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from second_robot import PROFILE, SPEED_M_S, SecondRobot
+
+from executive.events import Inbox
+from executive.ros.address import read_address
+from executive.ros.connection import Connection, connect
+from executive.ros.profile import Profile, load_profile
+from executive.testing.bench import four_rooms
+from executive.testing.contracts.camera import CameraBench, CameraContract
+from executive.testing.contracts.requests import end_of
+from executive.testing.contracts.robot import Bench, RobotContract
+from executive.types import DriveTo, Failed, Halt, Succeeded
+from sim.fake import straight_s
+
+
+@dataclass
+class Linked:
+    there: SecondRobot
+    here: Connection
+    inbox: Inbox
+    bench: Bench
+
+
+def straight(start: str, place: str) -> float:
+    return straight_s(four_rooms(), start, place, SPEED_M_S)
+
+
+@pytest.fixture
+def profile() -> Profile:
+    return load_profile(str(PROFILE))
+
+
+@pytest.fixture
+def linked(profile: Profile) -> Iterator[Linked]:
+    home, inbox = four_rooms(), Inbox()
+    with SecondRobot(home.robot_start) as there:
+        here = connect(read_address(there.url), profile, home, inbox, PROFILE.name, straight)
+
+        def advance(at_most: float) -> float:
+            began = there.time_s
+            time.sleep(min(at_most, 0.02))
+            return there.time_s - began
+
+        def moving() -> tuple[str, ...]:
+            return ("base",) if there.speed else ()
+
+        try:
+            yield Linked(there, here, inbox, Bench(here.robot, inbox, advance, moving=moving))
+        finally:
+            here.close()
+
+
+class TestSecondRobot(RobotContract):
+    @pytest.fixture
+    def bench(self, linked: Linked) -> Bench:
+        return linked.bench
+
+
+class TestSecondCamera(CameraContract):
+    @pytest.fixture
+    def camera_bench(self, linked: Linked) -> CameraBench:
+        x, y, _ = linked.there.at
+        return CameraBench(linked.here.camera, robot_at=(x, y))
+
+
+def test_its_profile_is_short_and_there_is_no_python() -> None:
+    lines = [line for line in PROFILE.read_text().splitlines() if line.strip()]
+    assert len(lines) <= 40
+
+
+def test_blue_comes_as_blue(linked: Linked) -> None:
+    assert linked.here.camera.capture().color[0, 0].tolist() == [0, 0, 200]
+
+
+def test_a_goal_looks_as_the_profile_has_it(linked: Linked) -> None:
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    [(action, goal)] = linked.there.goals
+    x, y, _ = four_rooms().stand("desk")
+    assert action == "/acme/go"
+    assert goal["hurry"] is True
+    assert goal["where"]["header"]["frame_id"] == "world"
+    assert goal["where"]["pose"]["position"] == {"x": x, "y": y, "z": 0.0}
+
+
+class TestLegs:
+    @pytest.fixture
+    def profile(self, tmp_path: Path) -> Profile:
+        file = tmp_path / "legs.toml"
+        legs = 'silent_s = 3.0\npath = "/acme/way"\nleg_m = 1.5'
+        file.write_text(PROFILE.read_text().replace("silent_s = 3.0", legs))
+        return load_profile(str(file))
+
+    def test_a_drive_goes_in_legs_that_end_where_it_should(self, linked: Linked) -> None:
+        began = linked.there.at[:2]
+        assert linked.bench.do(DriveTo("desk")) == Succeeded()
+        goals = [goal["where"]["pose"] for action, goal in linked.there.goals if "where" in goal]
+        ends = [(pose["position"]["x"], pose["position"]["y"]) for pose in goals]
+        legs = [math.dist(a, b) for a, b in pairwise([began, *ends])]
+        assert len(legs) > 2
+        assert max(legs) < 1.5 * 1.5 + 0.1
+        assert ends[-1] == pytest.approx(four_rooms().stand("desk")[:2])
+
+
+@pytest.mark.parametrize(
+    ("limits", "place", "said"),
+    [
+        ('rooms = ["lobby"]', "cabinet_kitchen", "I may not go into the kitchen"),
+        ('hours = ["00:00", "00:00"]', "desk", "I may only drive from 00:00 to 00:00"),
+    ],
+)
+class TestLimits:
+    @pytest.fixture
+    def profile(self, tmp_path: Path, limits: str) -> Profile:
+        file = tmp_path / "limits.toml"
+        file.write_text(f"{PROFILE.read_text()}\n[limits]\n{limits}\n")
+        return load_profile(str(file))
+
+    def test_they_are_kept_in_words(self, linked: Linked, place: str, said: str) -> None:
+        assert linked.bench.do(DriveTo(place)) == Failed(said)
+        assert not linked.there.goals
+
+
+def test_fingers_that_something_keeps_open_hold_it(linked: Linked) -> None:
+    assert linked.here.robot.holding is False
+    linked.there.holds = "mug"
+    linked.bench.wait(0.2)
+    assert linked.here.robot.holding is True
+
+
+def test_an_action_that_never_answers_is_given_up(linked: Linked) -> None:
+    linked.there.deaf.add("/acme/go")
+    result = linked.bench.do(DriveTo("desk"))
+    assert isinstance(result, Failed)
+    assert "no sign of /acme/go" in result.reason
+
+
+def test_what_cannot_be_stopped_is_said(linked: Linked) -> None:
+    linked.there.stubborn.add("/acme/go")
+    linked.here.robot.start(DriveTo("desk"))
+    linked.bench.wait(0.2)
+    result = linked.bench.do(Halt())
+    assert isinstance(result, Failed)
+    assert "cannot stop my base" in result.reason
+
+
+def test_a_halt_without_a_link_does_not_pretend() -> None:
+    home, inbox = four_rooms(), Inbox()
+    with SecondRobot(home.robot_start) as there:
+        here = connect(
+            read_address(there.url), load_profile(str(PROFILE)), home, inbox, "", straight
+        )
+    request = here.robot.start(Halt())
+    try:
+        result = end_of(inbox, request)
+    finally:
+        here.close()
+    assert isinstance(result, Failed)
+    assert "I cannot be told to stop, and may go on" in result.reason
+
+
+def test_a_link_that_is_lost_is_told(linked: Linked) -> None:
+    request = linked.here.robot.start(DriveTo("desk"))
+    linked.bench.wait(0.2)
+    linked.there.cut()
+    result = linked.bench.end_of(request)
+    assert isinstance(result, Failed)
+    assert "the link to the robot was lost" in result.reason
+
+
+def test_what_nobody_remembers_is_stopped_when_there_is_a_link_again(linked: Linked) -> None:
+    linked.here.robot.start(DriveTo("desk"))
+    linked.bench.wait(0.2)
+    linked.there.cut()
+    linked.bench.wait(2.0)
+    assert not linked.there.busy
+    assert not linked.there.speed
+
+
+def test_after_a_loss_it_drives_on(linked: Linked) -> None:
+    linked.there.cut()
+    linked.bench.wait(0.3)
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+
+
+def test_nonsense_from_the_other_side_changes_nothing(linked: Linked) -> None:
+    for packet in ("nonsense", "[]", b"\xff\x00", '{"op": "publish", "topic": "/tf", "msg": {}}'):
+        linked.there.say(packet)
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()

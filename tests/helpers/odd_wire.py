@@ -1,0 +1,108 @@
+"""A websocket between two that does what networks do: it delays, cuts, halves and reorders."""
+
+import asyncio
+import random
+import threading
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
+
+from websockets.asyncio.client import connect
+from websockets.asyncio.server import ServerConnection, serve
+from websockets.exceptions import ConnectionClosed
+
+LARGEST = 2**25
+
+
+@dataclass
+class Mischief:
+    """How often (0 to 1) each message meets with what; delays are at most so long (s)."""
+
+    delay: float = 0.0
+    cut: float = 0.0
+    halve: float = 0.0
+    swap: float = 0.0
+    delay_s: float = 0.05
+
+
+@dataclass
+class OddWire:
+    """Stands before a server; `with` ends it."""
+
+    to: str
+    seed: int = 0
+    mischief: Mischief = field(default_factory=Mischief)
+    cuts: int = 0
+    port: int = 0
+
+    def __enter__(self) -> "OddWire":
+        self._chance = random.Random(self.seed)
+        self._loop = asyncio.new_event_loop()
+        self._over = asyncio.Event()
+        self._started = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+        assert self._started.wait(5)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._loop.call_soon_threadsafe(self._over.set)
+        self._thread.join(5)
+
+    @property
+    def url(self) -> str:
+        return f"ws://127.0.0.1:{self.port}"
+
+    def _run(self) -> None:
+        with asyncio.Runner(loop_factory=lambda: self._loop) as runner:
+            runner.run(self._serve())
+
+    async def _serve(self) -> None:
+        options: dict[str, Any] = {"compression": None, "max_size": LARGEST}
+        async with serve(self._pass, "127.0.0.1", 0, **options) as server:
+            self.port = next(iter(server.sockets)).getsockname()[1]
+            self._started.set()
+            await self._over.wait()
+
+    async def _pass(self, here: ServerConnection) -> None:
+        with suppress(OSError, ConnectionClosed):
+            async with connect(self.to, compression=None, max_size=LARGEST, proxy=None) as there:
+                ways = [
+                    asyncio.create_task(self._carry(here, there)),
+                    asyncio.create_task(self._carry(there, here)),
+                ]
+                await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
+                for way in ways:
+                    way.cancel()
+                await asyncio.gather(*ways, return_exceptions=True)
+                here.transport.abort()
+
+    async def _carry(self, one: Any, other: Any) -> None:
+        """Until something cuts it."""
+        kept: str | bytes | None = None
+        async for packet in one:
+            for said in self._meddled(packet, kept):
+                if said is None:
+                    self.cuts += 1
+                    return
+                if self._happens(self.mischief.delay):
+                    await asyncio.sleep(self._chance.uniform(0, self.mischief.delay_s))
+                await other.send(said)
+            kept = packet if self._swapped else None
+
+    def _meddled(self, packet: Any, kept: Any) -> list[Any]:
+        """What becomes of a packet; None is a cut."""
+        self._swapped = False
+        if self._happens(self.mischief.cut):
+            return [None]
+        if self._happens(self.mischief.halve):
+            packet = packet[: len(packet) // 2]
+        if kept is not None:
+            return [packet, kept]
+        if self._happens(self.mischief.swap):
+            self._swapped = True
+            return []
+        return [packet]
+
+    def _happens(self, often: float) -> bool:
+        return self._chance.random() < often

@@ -1,0 +1,308 @@
+"""A robot of the tests' own behind rosbridge: other names, other encodings, and no head.
+
+It glides in straight lines, in real time; what it may grab lies within its reach.
+"""
+
+import asyncio
+import json
+import math
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from websockets.asyncio.server import ServerConnection, serve
+from websockets.exceptions import ConnectionClosed
+
+from executive.ros.packets import PacketError
+from executive.ros.protocol import (
+    ActionFeedback,
+    ActionResult,
+    CallService,
+    CancelActionGoal,
+    GoalStatus,
+    Operation,
+    Publish,
+    SendActionGoal,
+    ServiceResponse,
+    Subscribe,
+    Unsubscribe,
+    decode,
+    encode,
+)
+
+PROFILE = Path(__file__).with_name("second_robot.toml")
+PERIOD_S = 0.02
+SPEED_M_S = 3.0
+TOPICS = {
+    "/tf": "tf2_msgs/msg/TFMessage",
+    "/acme/odom": "nav_msgs/msg/Odometry",
+    "/acme/rgb": "sensor_msgs/msg/Image",
+    "/acme/range": "sensor_msgs/msg/Image",
+    "/acme/lens": "sensor_msgs/msg/CameraInfo",
+    "/acme/fingers": "sensor_msgs/msg/JointState",
+}
+ACTIONS = {
+    "/acme/go": "acme_msgs/action/Go",
+    "/acme/grab": "acme_msgs/action/Grab",
+    "/acme/drop": "acme_msgs/action/Drop",
+    "/acme/way": "nav2_msgs/action/ComputePathToPose",
+}
+EYE_M = 1.0
+WIDTH, HEIGHT, FOCAL = 64, 48, 60.0
+
+
+class SecondRobot:
+    """The robot and its server, on a thread of its own; `with` ends it."""
+
+    def __init__(self, at: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+        self.at = at
+        self.speed = 0.0
+        self.holds = ""
+        self.graspable = ""
+        self.deaf: set[str] = set()
+        """Actions that never answer a goal."""
+        self.stubborn: set[str] = set()
+        """Actions that do not cancel."""
+        self.goals: list[tuple[str, dict[str, Any]]] = []
+        self.cancels = 0
+        self.headers: list[dict[str, str]] = []
+        self.port = 0
+        self._clients: dict[ServerConnection, dict[str, Subscribe]] = {}
+        self._under_way: dict[str, tuple[ServerConnection, SendActionGoal]] = {}
+        self.time_s = 1000.0
+        """The robot's own time, which a busy machine slows as it slows all else."""
+        self._loop = asyncio.new_event_loop()
+        self._started = threading.Event()
+        self._over = asyncio.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+
+    def __enter__(self) -> "SecondRobot":
+        self._thread.start()
+        assert self._started.wait(5)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._loop.call_soon_threadsafe(self._over.set)
+        self._thread.join(5)
+        self._loop.close()
+
+    @property
+    def url(self) -> str:
+        return f"ws://127.0.0.1:{self.port}"
+
+    @property
+    def busy(self) -> bool:
+        return bool(self._under_way)
+
+    def cut(self) -> None:
+        """Break off all connections."""
+        for client in tuple(self._clients):
+            self._loop.call_soon_threadsafe(client.transport.abort)
+
+    def say(self, packet: str | bytes) -> None:
+        """Send this to whoever listens, as it is."""
+        for client in tuple(self._clients):
+            asyncio.run_coroutine_threadsafe(client.send(packet), self._loop).result(5)
+
+    # --- the server ---
+
+    def _run(self) -> None:
+        self._loop.run_until_complete(self._serve())
+
+    async def _serve(self) -> None:
+        async with serve(self._talk, "127.0.0.1", 0, compression=None) as server:
+            self.port = next(iter(server.sockets)).getsockname()[1]
+            life = asyncio.create_task(self._live())
+            self._started.set()
+            await self._over.wait()
+            life.cancel()
+
+    async def _talk(self, client: ServerConnection) -> None:
+        self._clients[client] = {}
+        assert client.request is not None
+        self.headers.append(dict(client.request.headers.raw_items()))
+        with suppress(ConnectionClosed):
+            async for packet in client:
+                with suppress(PacketError):  # rosbridge says so, and goes on
+                    await self._take(client, decode(packet))
+        del self._clients[client]
+
+    async def _take(self, client: ServerConnection, operation: Operation) -> None:
+        match operation:
+            case Subscribe(id=id):
+                self._clients[client][id] = operation
+            case Unsubscribe(id=id):
+                self._clients[client].pop(id, None)
+            case CallService():
+                values = self._answer(operation.service)
+                answer = ServiceResponse(operation.service, bool(values), values, operation.id)
+                await client.send(encode(answer))
+            case SendActionGoal(action=action):
+                assert isinstance(operation.args, dict)
+                self.goals.append((action, json.loads(json.dumps(operation.args))))
+                if action not in self.deaf:
+                    self._under_way[action] = client, operation
+            case CancelActionGoal(action=action):
+                await self._end(action, GoalStatus.CANCELED)
+
+    def _answer(self, service: str) -> dict[str, Any]:
+        if service.endswith("/_action/cancel_goal"):
+            action = service.removesuffix("/_action/cancel_goal")
+            self.cancels += 1
+            if action in self.stubborn:
+                return {"return_code": 1, "goals_canceling": []}
+            asyncio.ensure_future(self._end(action, GoalStatus.CANCELED))
+            return {"return_code": 0, "goals_canceling": []}
+        feedbacks = {f"{n}/_action/feedback": f"{k}_FeedbackMessage" for n, k in ACTIONS.items()}
+        told = {**TOPICS, **feedbacks}
+        return {
+            "/rosapi/topics": {"topics": list(told), "types": list(told.values())},
+            "/rosapi/services": {"services": ["/rosapi/topics"]},
+            "/rosapi/action_servers": {"action_servers": list(ACTIONS)},
+        }.get(service, {})
+
+    async def _end(self, action: str, status: GoalStatus, said: str = "", **more: Any) -> None:
+        client, goal = self._under_way.pop(action, (None, None))
+        if action == "/acme/go" and status == GoalStatus.CANCELED:
+            self.speed = 0.0
+        if client is not None and goal is not None:
+            values = {"message": said, **more}
+            done = status == GoalStatus.SUCCEEDED
+            with suppress(ConnectionClosed):
+                await client.send(encode(ActionResult(action, done, status, values, goal.id)))
+
+    # --- the robot ---
+
+    async def _live(self) -> None:
+        while True:
+            await asyncio.sleep(PERIOD_S)
+            self.time_s += PERIOD_S
+            for action in tuple(self._under_way):
+                await self._pursue(action)
+            await self._tell()
+
+    async def _pursue(self, action: str) -> None:
+        client, goal = self._under_way[action]
+        assert isinstance(goal.args, dict)
+        with suppress(ConnectionClosed):
+            await client.send(encode(ActionFeedback(action, {"fine": True}, goal.id)))
+        match action:
+            case "/acme/way":
+                await self._end(action, GoalStatus.SUCCEEDED, **self._way(goal.args["goal"]))
+            case "/acme/go":
+                await self._go(goal.args["where"]["pose"])
+            case "/acme/grab":
+                if goal.args["what"] != self.graspable:
+                    await self._end(action, GoalStatus.ABORTED, "there is nothing to grab")
+                else:
+                    self.holds, self.graspable = self.graspable, ""
+                    await self._end(action, GoalStatus.SUCCEEDED)
+            case _:
+                held, self.holds = self.holds, ""
+                said = "" if held else "my hand is empty"
+                await self._end(action, GoalStatus.SUCCEEDED if held else GoalStatus.ABORTED, said)
+
+    def _way(self, goal: dict[str, Any]) -> dict[str, Any]:
+        """A straight line, a pose each 5 cm."""
+        end = goal["pose"]["position"]
+        number = max(2, int(math.dist(self.at[:2], (end["x"], end["y"])) / 0.05))
+        ways = np.linspace(self.at[:2], (end["x"], end["y"]), number)
+        turn = goal["pose"]["orientation"]
+        poses = [{"position": {"x": x, "y": y, "z": 0.0}, "orientation": turn} for x, y in ways]
+        return {"path": {"poses": [{"pose": pose} for pose in poses]}}
+
+    async def _go(self, pose: dict[str, Any]) -> None:
+        x, y, _ = self.at
+        ahead = math.dist((x, y), (pose["position"]["x"], pose["position"]["y"]))
+        step = SPEED_M_S * PERIOD_S
+        turn = 2 * math.atan2(pose["orientation"]["z"], pose["orientation"]["w"])
+        if ahead <= step:
+            self.at, self.speed = (pose["position"]["x"], pose["position"]["y"], turn), 0.0
+            await self._end("/acme/go", GoalStatus.SUCCEEDED)
+            return
+        part, self.speed = step / ahead, SPEED_M_S
+        self.at = (
+            x + part * (pose["position"]["x"] - x),
+            y + part * (pose["position"]["y"] - y),
+            self.at[2],
+        )
+
+    async def _tell(self) -> None:
+        made: dict[str, dict[str, Any]] = {}
+        makers: dict[str, Callable[[], dict[str, Any]]] = {
+            "/tf": self._frames,
+            "/acme/odom": self._odometry,
+            "/acme/rgb": self._color,
+            "/acme/range": self._range,
+            "/acme/lens": self._lens,
+            "/acme/fingers": self._fingers,
+        }
+        for client, subscriptions in tuple(self._clients.items()):
+            wanted = {one.topic: one.compression for one in subscriptions.values()}
+            for topic in (name for name in makers if name in wanted):
+                message = made.setdefault(topic, makers[topic]())
+                with suppress(ConnectionClosed):
+                    await client.send(encode(Publish(topic, message), wanted[topic]))
+
+    def _header(self, frame: str) -> dict[str, Any]:
+        whole = int(self.time_s)
+        stamp = {"sec": whole, "nanosec": int((self.time_s - whole) * 1e9)}
+        return {"frame_id": frame, "stamp": stamp}
+
+    def _frames(self) -> dict[str, Any]:
+        x, y, yaw = self.at
+        upright = {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}
+        ahead = {"x": -0.5, "y": 0.5, "z": -0.5, "w": 0.5}
+        body = {"translation": {"x": x, "y": y, "z": 0.0}, "rotation": upright}
+        eye = {"translation": {"x": 0.1, "y": 0.0, "z": EYE_M}, "rotation": ahead}
+        return {
+            "transforms": [
+                {"header": self._header("world"), "child_frame_id": "body", "transform": body},
+                {"header": self._header("body"), "child_frame_id": "eye", "transform": eye},
+            ]
+        }
+
+    def _odometry(self) -> dict[str, Any]:
+        none = {"x": 0.0, "y": 0.0, "z": 0.0}
+        twist = {"linear": {**none, "x": self.speed}, "angular": none}
+        return {"header": self._header("world"), "twist": {"twist": twist}}
+
+    def _color(self) -> dict[str, Any]:
+        pixels = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
+        pixels[..., 0] = 200  # blue: first, as in bgr8
+        return self._image("bgr8", pixels.tobytes(), 3)
+
+    def _range(self) -> dict[str, Any]:
+        """Millimetres: the floor below the middle, nothing above."""
+        rows = np.arange(HEIGHT) - HEIGHT // 2
+        depth = np.zeros((HEIGHT, WIDTH), "<u2")
+        depth[rows > 3] = (1000 * EYE_M * FOCAL / rows[rows > 3])[:, None]
+        padded = np.pad(depth, ((0, 0), (0, 4)))
+        return {**self._image("16UC1", padded.tobytes(), 2), "step": 2 * (WIDTH + 4)}
+
+    def _image(self, encoding: str, data: bytes, bytes_of_pixel: int) -> dict[str, Any]:
+        return {
+            "header": self._header("eye"),
+            "height": HEIGHT,
+            "width": WIDTH,
+            "encoding": encoding,
+            "is_bigendian": 0,
+            "step": bytes_of_pixel * WIDTH,
+            "data": data,
+        }
+
+    def _lens(self) -> dict[str, Any]:
+        k = np.array([FOCAL, 0, WIDTH / 2, 0, FOCAL, HEIGHT / 2, 0, 0, 1])
+        return {"header": self._header("eye"), "width": WIDTH, "height": HEIGHT, "k": k}
+
+    def _fingers(self) -> dict[str, Any]:
+        width = 0.02 if self.holds else 0.0
+        return {
+            "header": self._header(""),
+            "name": ["finger"],
+            "position": np.array([width]),
+            "velocity": np.array([0.0]),
+        }
