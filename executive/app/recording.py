@@ -14,7 +14,6 @@ from executive.app.sources import written
 from executive.config import Settings
 from executive.files import read_bytes
 from executive.guards import GuardedRobot, in_words
-from executive.ros.profile import profile_text
 from executive.toml_file import MOST_BYTES
 from executive.types import DELIVERY, FLOOR
 from logs.recorder import Sink
@@ -82,12 +81,16 @@ def files_used(settings: Settings) -> dict[str, bytes]:
     Raises:
         InputError: if one of them cannot be read.
     """
-    prompts, profile = settings.prompts, settings.robot and settings.profile
+    prompts, profile = settings.prompts, b""
+    if settings.robot and settings.profile:
+        from executive.ros.profile import profile_text  # most missions do without
+
+        profile, _ = profile_text(settings.profile)
     return {
         "config.toml": settings.to_toml().encode(),
         "home.toml": home_text(settings.home).encode(),
         **({"prompts.toml": read_bytes(prompts, MOST_BYTES)} if prompts else {}),
-        **({"profile.toml": profile_text(profile)[0]} if profile else {}),
+        **({"profile.toml": profile} if profile else {}),
     }
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from executive.app import simulation, wire
+from executive.app import simulation
 from executive.app.embodiment import Embodiment, Factory, Setup
 from executive.app.own import Named
 from executive.errors import InputError
@@ -20,7 +20,9 @@ def embody(setup: Setup) -> Embodiment:
     """
     name = setup.settings.world
     if setup.settings.robot:
-        embodiment = wire.wire(setup)
+        from executive.app.wire import wire  # websockets take a while to import
+
+        embodiment = wire(setup)
     else:
         embodiment = OURS[name](setup) if name in OURS else _own(name, setup)
     if setup.settings.fault and embodiment.truth is None:

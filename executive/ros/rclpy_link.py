@@ -182,9 +182,11 @@ class RclpyLink:
 
     async def close(self) -> None:
         """Leave the graph."""
-        self._executor.shutdown(timeout_sec=0.5)
-        self._node.destroy_node()
-        self._context.try_shutdown()
+        self._context.try_shutdown()  # which ends the spinning
+        await asyncio.to_thread(self._spinning.join, 1.0)
+        if not self._spinning.is_alive():
+            self._executor.shutdown(timeout_sec=0.5)
+            self._node.destroy_node()
 
 
 async def _greet(greeting: Callable[[], Awaitable[None]]) -> None:

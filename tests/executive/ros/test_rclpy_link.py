@@ -93,7 +93,7 @@ def wire(node: Node) -> Iterator[tuple[WireThread, RclpyLink]]:
 
     link = thread.run(join())
     yield thread, link
-    thread.run(link.close())
+    thread.start(link.close()).result(10)
     thread.close()
 
 
