@@ -8,12 +8,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from executive.language.meaning import Said
+from executive.language.spoken import NOTHING, Spoken
 from executive.records import NodeState, Record, TreeShape
 from executive.types import (
+    Called,
     Candidate,
     ChatRequest,
     Command,
     CommandKind,
+    Commands,
     Detection,
     Frame,
     Goal,
@@ -164,6 +168,10 @@ class Knowledge(Protocol):
 
     def has_place(self, name: str) -> bool:
         """Whether a piece of furniture of this name is in the home."""
+        ...
+
+    def called(self, name: str) -> Called | None:
+        """How one speaks of an object, a class or a piece of furniture; None if it is unknown."""
         ...
 
     def objects_named(self, words: str) -> tuple[str, ...]:
@@ -332,8 +340,11 @@ class CommandReader(Protocol):
         """`command`: what do the words ask for?"""
         ...
 
-    def read(self, reply: str) -> tuple[CommandKind, str] | None:
-        """Kind and object of the reply, if it has the format and the object exists."""
+    def read(self, reply: str) -> str:
+        """What the reply asks for, as a plain sentence for the grammar.
+
+        It is empty if the reply has not the format, or names a thing or a place that is not there.
+        """
         ...
 
 
@@ -349,19 +360,33 @@ class Advice:
 class Interpreter(Protocol):
     """Reads what a person says."""
 
-    def command(self, words: str) -> Command | None:
-        """The request in the words, or None if there is none that can be done."""
+    def read(self, words: str) -> Said:
+        """What the words mean, as far as they can be read."""
         ...
 
-    def remark(self, words: str) -> str:
+    def commands(self, words: str, spoken: Spoken = NOTHING, *, holds: bool = False) -> Commands:
+        """The tasks in the words; none if there are none that can be done.
+
+        Args:
+            words: what was said.
+            spoken: of what was spoken before: "it", "there" and "another" stand for that.
+            holds: whether the hand holds something.
+        """
+        ...
+
+    def command(self, words: str) -> Command | None:
+        """The first of the tasks in the words, or None if there are none."""
+        ...
+
+    def remark(self, words: str, spoken: Spoken = NOTHING) -> str:
         """What to say of words that were read and are no command to carry out; empty otherwise.
 
         Nobody else may make a command of them then: they may say what is not to be done.
         """
         ...
 
-    def without_slips(self, words: str) -> Command | None:
-        """The command that the words are with the word for the deed spelled right; None if none."""
+    def without_slips(self, words: str) -> Commands:
+        """The tasks that the words are with the word for the deed spelled right; none if none."""
         ...
 
     def talk(self, words: str, things: Sequence[str] = ()) -> str:

@@ -7,10 +7,11 @@ Quaternions are (x, y, z, w).
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:  # a quarter of the time that --help takes
+    import numpy as np
+    from numpy.typing import NDArray
 
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -66,6 +67,14 @@ class CommandKind(StrEnum):
     """Where it was taken from."""
     GO = "go", Meaning(searches=False, at_goal=True)
     """The robot itself, to the goal."""
+    COUNT = "count", Meaning(searches=False, ends_at=PERSON)
+    """How many there are."""
+    TELL = "tell", Meaning(searches=False, ends_at=PERSON)
+    """What is at a place."""
+    CHECK = "check", Meaning(searches=False, ends_at=PERSON)
+    """Whether a thing is there."""
+    CLEAR = "clear", Meaning(searches=False)
+    """A piece of furniture, of all that is seen on it: each thing goes where it belongs."""
 
     def __new__(cls, verb: str, means: Meaning = Meaning()) -> "CommandKind":
         """The verb itself is the value: it stands in recordings."""
@@ -112,7 +121,30 @@ class Command:
     """What it is for, by the words ("drink from"), which are in the target, too."""
     exceptions: tuple[str, ...] = ()
     """What is not meant: "anything but a banana"."""
+    number: int = 0
+    """How many things: `ALL` that there are; 0: as many as the target names."""
+    among: tuple[str, ...] = ()
+    """Names of which one is meant: "either the hammer or the drill"."""
+    superlative: str = ""
+    """Which of them by a measure: "biggest"; empty if that was not said."""
+    conditional: bool = False
+    """Whether it is to be done only if there is such a thing, or what is `sought` is so."""
+    sought: "Command | None" = None
+    """Of a condition: what is to be looked for first; None: the thing itself."""
+    unless: "Command | None" = None
+    """What is to be done instead if there is none; None: nothing."""
 
+    @property
+    def is_plural(self) -> bool:
+        """Whether several tasks have to be made of it, or one of several."""
+        several = self.number > 1 or self.number == ALL or bool(self.among)
+        return self.conditional or (several and self.kind.means.searches)
+
+
+ALL = -1
+"""As a number of things: each one that there is."""
+Commands = tuple[tuple[Command, ...], ...]
+"""Tasks in the order in which they are to be done; those of one tuple inside in any order."""
 
 HELD = "it"
 """As a target: whatever the hand holds."""
@@ -135,8 +167,33 @@ class Candidate:
 
 
 @dataclass(frozen=True, slots=True)
+class TaskOutcome:
+    """What came of one of the tasks of a mission; its fields are as those of `Outcome`."""
+
+    kind: CommandKind
+    target: str
+    object: str | None
+    status: MissionStatus
+    reason: str
+    location: str | None
+    goals: tuple[str, ...] = ()
+    visited: tuple[str, ...] = ()
+    things: tuple[str, ...] = ()
+    """Of a question: the things that were seen, and are the answer to it."""
+    among: tuple[str, ...] = ()
+    """Of a question: the things that it was about."""
+    parts: "tuple[TaskOutcome, ...]" = ()
+    """Of a task with several things: what came of each that was begun."""
+
+
+@dataclass(frozen=True, slots=True)
 class Outcome:
-    """One mission's result: what `--json` prints and `outcome.json` keeps."""
+    """One mission's result: what `--json` prints and `outcome.json` keeps.
+
+    If there were several tasks, each is in `tasks`; `kind`, `target`, `object`, `source`,
+    `location`, `candidates` and `goals` are those of the last one that was begun, and `done` is
+    only said if all of them were.
+    """
 
     command: str
     kind: CommandKind | None
@@ -158,6 +215,8 @@ class Outcome:
     """Why the language model was of no help, as a clause; empty if it was, or was not asked."""
     goals: tuple[str, ...] = ()
     """The furniture that would do as the place where the thing, or the robot, was to go."""
+    tasks: tuple[TaskOutcome, ...] = ()
+    """What came of each task, in the order in which they ended; those not begun come last."""
 
 
 # --- space ---
@@ -182,6 +241,10 @@ class Place:
     """Name of the room that it stands in."""
     room_kind: str
     """The room's class in the ontology: `Kitchen`, `Bedroom`, ..."""
+    label: str = ""
+    """What the robot calls it ("Anna's desk"); empty: what its name says."""
+    room_label: str = ""
+    """The same of the room."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,6 +256,24 @@ class Thing:
     """Its class in the ontology: `Kitchenware`, `Toy`, ..."""
     color: str = ""
     """What its colour is called, one of `executive.colors.COLORS`; empty if nobody gave one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Called:
+    """What a thing or a piece of furniture is called when one speaks of it."""
+
+    words: str
+    """Without an article: "sugar box"."""
+    plural: bool = False
+    """Whether one says "are" of it, as of scissors."""
+    bare: bool = False
+    """Whether it has no article, as a class of things: "fruit"."""
+    preposition: str = "on"
+    """How things are with it, if it is furniture: "in" or "on"."""
+    room: str = ""
+    """What the room is called that it stands in; empty if the words say so, or it is a thing."""
+    says_room: bool = False
+    """Whether nobody would know it without the room."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -293,8 +374,8 @@ class Frame:
     """
 
     number: int
-    color: NDArray[np.uint8]
-    depth: NDArray[np.float32]
+    color: "NDArray[np.uint8]"
+    depth: "NDArray[np.float32]"
     intrinsics: Intrinsics
     pose: Pose
 
@@ -309,7 +390,9 @@ class Box:
     height: int
 
 
-def _no_points() -> NDArray[np.float32]:
+def _no_points() -> "NDArray[np.float32]":
+    import numpy as np
+
     return np.empty((0, 3), dtype=np.float32)
 
 
@@ -329,8 +412,8 @@ class Detection:
     label: str
     confidence: float
     box: Box
-    mask: NDArray[np.bool_]
-    points: NDArray[np.float32] = field(default_factory=_no_points)
+    mask: "NDArray[np.bool_]"
+    points: "NDArray[np.float32]" = field(default_factory=_no_points)
     cut_off: bool = False
 
     @property
@@ -338,7 +421,9 @@ class Detection:
         """Middle of the visible surface in `map` (metres), or None before it is located."""
         if not len(self.points):
             return None
-        x, y, z = (float(v) for v in np.median(self.points, axis=0))
+        from numpy import median
+
+        x, y, z = (float(v) for v in median(self.points, axis=0))
         return x, y, z
 
 

@@ -16,6 +16,7 @@ from executive.interfaces import (
     Robot,
     User,
 )
+from executive.language.wording import Wording, as_said
 from executive.pending import Pending
 from executive.situation import Situation
 from executive.types import Vector3
@@ -95,8 +96,8 @@ class MissionContext:
     The `sources` know where things are without looking; they are asked in this order, after memory.
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
     the delivery table has no room; `handiest` is all furniture, that where things are put down most
-    easily first. `pending` is what the behaviours wait for: the loop that ticks
-    them has to be given the same.
+    easily first. `distance` is how far apart two places are (metres). `pending` is what the
+    behaviours wait for: the loop that ticks them has to be given the same.
     """
 
     situation: Situation
@@ -115,5 +116,15 @@ class MissionContext:
     place_at: Callable[[Vector3], str | None] = lambda point: None
     near_person: tuple[str, ...] = ()
     handiest: tuple[str, ...] = ()
+    distance: Callable[[str, str], float] = lambda one, other: 0.0
     blind_to: tuple[str, ...] = ()
     pending: Pending = field(default_factory=Pending)
+
+    def as_said(self, words: str) -> str:
+        """A part of the command that was read, as the person said it."""
+        return as_said(self.situation.request.words, words)
+
+    @property
+    def say(self) -> Wording:
+        """Words for the names of things and places."""
+        return Wording(self.knowledge.called)

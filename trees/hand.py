@@ -1,4 +1,4 @@
-"""The hand holds one thing at a time: is it free for another, and may it be emptied first."""
+"""The hand holds one thing at a time: what is in it is put away before another one is taken."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -6,22 +6,49 @@ from py_trees.common import Status
 from executive.types import DELIVERY
 from trees.context import MissionContext
 from trees.deeds.deed import meaning
-from trees.deeds.put_down import put_down_somewhere
-from trees.nodes import Step, fallback, sequence
-from trees.person import AskToPutDown, full_hand, the
+from trees.deeds.put_down import go_and_put, put_down_somewhere
+from trees.nodes import FirstOf, Step, fallback, sequence
+from trees.person import full_hand
+from trees.places import taken_from
+from trees.telling import sentence, tell
 
 
 def hand_is_free(context: MissionContext) -> Behaviour:
-    """Go on if the hand is free for what is asked; else offer to empty it first."""
+    """Go on if the hand is free for what is asked; else put away what it holds, and say so."""
+    hand = context.situation.hand
+
+    def back() -> tuple[str, ...]:
+        return taken_from(context, hand.in_hand)[:1]
+
+    def choose(place: str) -> None:
+        hand.surface = place
+
     return fallback(
         "hand is free",
         HandIsFree("nothing else is in it", context),
         sequence(
             "make room",
-            AskToPutDown("ask to put it down", context),
-            put_down_somewhere(context, "put it down", DELIVERY),
+            fallback(
+                "put it away",
+                FirstOf("back where it was", back, choose, put_back_first(context)),
+                sequence(
+                    "by the person",
+                    SayWhatFirst("say so", context, "I put {held} down by you first."),
+                    put_down_somewhere(context, "put it down", DELIVERY),
+                ),
+            ),
         ),
+        FellOut("it fell", context),
         HandStaysFull("not free", context),
+    )
+
+
+def put_back_first(context: MissionContext) -> Behaviour:
+    """Put what is held where it was taken from, the surface at hand."""
+    return sequence(
+        "put it back",
+        SayWhatFirst("say so", context, "I put {held} back {surface} first."),
+        go_and_put(context),
     )
 
 
@@ -33,17 +60,49 @@ class HandIsFree(Step):
         held = self.situation.hand.in_hand
         if held in (None, self.situation.request.object) or not meaning(self.situation).grasps:
             return Status.SUCCESS
-        return self.fail(full_hand(held))
+        return self.fail(full_hand(held, self.context.say))
+
+
+class SayWhatFirst(Step):
+    """Tells what becomes of what is in the hand.
+
+    Reads hand.in_hand and hand.surface.
+    """
+
+    def __init__(self, name: str, context: MissionContext, text: str) -> None:
+        """`text` may use {held} and {surface}, with its preposition."""
+        super().__init__(name, context)
+        self._text = text
+
+    def update(self) -> Status:
+        """Say it; what has fallen meanwhile cannot be put anywhere."""
+        hand = self.situation.hand
+        if hand.in_hand is None:
+            return self.fail(hand.lost)
+        say = self.context.say
+        said = self._text.format(held=say.the(hand.in_hand), surface=say.at(hand.surface))
+        tell(self.context, said)
+        return self.succeed(said)
+
+
+class FellOut(Step):
+    """Succeeds if what was held fell, and says so: the hand is free by that.
+
+    Reads hand.in_hand and hand.lost.
+    """
+
+    def update(self) -> Status:
+        """Nobody wants it now."""
+        if self.situation.hand.in_hand is not None:
+            return Status.FAILURE
+        tell(self.context, sentence(self.situation.hand.lost or "It fell from my hand"))
+        return self.succeed()
 
 
 class HandStaysFull(Step):
     """Says why the hand is not free; always fails."""
 
     def update(self) -> Status:
-        """There was no room for what it holds, or it may not be put down."""
-        held, why = self.situation.hand.in_hand, self.why_before()
-        if held is None:
-            return self.fail(why)
-        if self.situation.hand.unplaced:
-            return self.fail(f"{why}; I still hold {the(held)}")
-        return self.fail(full_hand(held))
+        """There was no room for what it holds."""
+        held, why = self.situation.hand.in_hand or "", self.why_before()
+        return self.fail(f"{why}; I still hold {self.context.say.the(held)}")

@@ -12,6 +12,7 @@ confirmed     named places    else ontology: its one    if gone, search    or pu
 
 from py_trees.behaviour import Behaviour
 
+from executive.situation import Situation
 from executive.types import PERSON
 from trees.act import act, without_a_search
 from trees.by_plan import search
@@ -19,24 +20,30 @@ from trees.context import MissionContext
 from trees.deeds.deed import Conclude, meaning
 from trees.grasp import grasp
 from trees.hand import hand_is_free
-from trees.nodes import Check, Optionally, fallback, sequence, stages
+from trees.nodes import Check, Optionally, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.places import named_places
 from trees.robot import DriveBack
 from trees.search import eyes_for_it
+from trees.several import several
+from trees.tasks import EachTask
 from trees.understand import understand
 
 
 def mission(context: MissionContext) -> Behaviour:
-    """The whole tree. It always ends in success; how the mission ended is in the situation."""
+    """The whole tree, gone through for each task.
+
+    It always ends in success; how the mission ended is in the situation.
+    """
     situation = context.situation
-    return fallback(
+    return EachTask(
         "mission",
+        context,
         stages(
             "serve",
             understand(context),
-            Check("about a thing to look for", context, lambda: meaning(situation).searches),
+            Check("about a thing to look for", context, lambda: is_about_one(situation)),
             resolve_object(context),
             *eyes_for_it(context),
             named_places(context),
@@ -46,19 +53,29 @@ def mission(context: MissionContext) -> Behaviour:
             act(context),
             Conclude("done", context),
         ),
+        several(context),
         *without_a_search(context),
         sequence("give up", come_back(context), Apologise("apologise", context)),
     )
 
 
+def is_about_one(situation: Situation) -> bool:
+    """Whether there is one thing to look for."""
+    assert situation.request.command
+    return meaning(situation).searches and not situation.request.command.is_plural
+
+
 def come_back(context: MissionContext) -> Behaviour:
-    """Return to the person, if the robot left and can."""
+    """Return to the person, if the robot left and can, and has nothing else to do."""
+    situation = context.situation
     return Optionally(
         "if away",
-        context.situation,
+        situation,
         sequence(
             "come back",
-            Check("is away", context, lambda: context.situation.dialogue.away),
+            Check(
+                "is away", context, lambda: situation.dialogue.away and not situation.agenda.tasks
+            ),
             DriveBack("drive", context, PERSON),
         ),
     )

@@ -1,15 +1,17 @@
 """Leaves that talk to the language model."""
 
 from abc import abstractmethod
+from dataclasses import replace
 
 from py_trees.common import Status
 
 from executive.interfaces import Advice, LanguageModel
+from executive.language.placed import placed
 from executive.records import Activity
-from executive.types import ChatRequest, Command, Replied, Result, Scored, Source
+from executive.types import ChatRequest, Command, CommandKind, Replied, Result, Scored, Source
 from trees.context import MissionContext
 from trees.nodes import Action, why_of
-from trees.person import sentence, tell
+from trees.telling import sentence, tell
 
 
 class ModelAction(Action):
@@ -26,6 +28,10 @@ class ModelAction(Action):
         self.model: LanguageModel = context.model
         self.advice: Advice = context.advice
         self._began: float | None = None
+
+    def doing(self) -> str:
+        """It thinks."""
+        return "ask the language model"
 
     def initialise(self) -> None:
         """Mark the time, and start."""
@@ -150,7 +156,7 @@ class AskFurniture(Chat):
 
 
 class RankKinds(ModelAction):
-    """Has the kinds of command scored; what to do it with is what the words name."""
+    """Has the kinds of command scored; what to do it with, and where, is what the words name."""
 
     def start(self) -> int:
         """Ask for the scores."""
@@ -161,12 +167,20 @@ class RankKinds(ModelAction):
         if not isinstance(result, Scored):
             return self.failed(result)
         kind, words = self.advice.reader.ranked(result), self.situation.request.words
-        self.situation.request.command = Command(kind, self.situation.request.guess, words)
-        return self.succeed(f"{kind} {self.situation.request.guess}")
+        guess = self.situation.request.guess
+        source, goal = placed(words, self.context.knowledge.is_place)
+        if goal and kind.means.grasps:
+            kind = CommandKind.PUT
+        goal = goal if kind == CommandKind.PUT else ""
+        self.situation.request.command = Command(kind, guess, words, source=source, goal=goal)
+        return self.succeed(f"{kind} {guess}")
 
 
 class WriteCommand(ModelAction):
-    """Has the model write kind and object, of which only what exists is taken."""
+    """Has the model write what is to be done, with things and places that exist.
+
+    The grammar reads that, so that it means the same as if the person had said it so.
+    """
 
     def start(self) -> int:
         """Ask."""
@@ -176,9 +190,9 @@ class WriteCommand(ModelAction):
         """Read and verify the reply."""
         if not isinstance(result, Replied):
             return self.failed(result)
-        read = self.advice.reader.read(result.text)
-        if read is None:
-            return self.fail("the language model named no command with a known thing")
-        kind, name = read
-        self.situation.request.command = Command(kind, name, self.situation.request.words)
-        return self.succeed(f"{kind} {name}")
+        plain = self.advice.reader.read(result.text)
+        command = self.context.interpreter.command(plain) if plain else None
+        if command is None:
+            return self.fail("the language model named no command that can be carried out")
+        self.situation.request.command = replace(command, words=self.situation.request.words)
+        return self.succeed(plain)

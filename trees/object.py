@@ -7,11 +7,13 @@ knowledge (paper, section "Integrated use of ontological knowledge base and LLM"
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.interfaces import Knowledge
-from executive.types import HELD, Command, Source
+from executive.types import HELD, Source
 from trees.context import MissionContext
+from trees.meant import meant
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskDoYouMean, AskWhichObject, without_exceptions
+from trees.survey import found_where, nothing_there, survey
+from trees.telling import tell
 
 
 def resolve_object(context: MissionContext) -> Behaviour:
@@ -25,11 +27,31 @@ def resolve_object(context: MissionContext) -> Behaviour:
             AskDoYouMean("ask do you mean", context),
             known_object(context),
         ),
+        see_which_is_there(context),
         sequence(
             "ask",
             Check("person may help", context, lambda: not context.situation.dialogue.no_help),
             AskWhichObject("ask which object", context),
         ),
+    )
+
+
+def see_which_is_there(context: MissionContext) -> Behaviour:
+    """Of several things that may be meant, one that is where the words say; nothing if no word is.
+
+    So "a ball from the desk" is a ball that is there.
+    """
+    request = context.situation.request
+
+    def there() -> list[str]:
+        assert request.command
+        return [request.command.source] if request.command.source and request.options else []
+
+    return FirstOf(
+        "see which is there",
+        there,
+        lambda _: None,
+        sequence("look", survey(context), TakeOneThatIsThere("one of them", context)),
     )
 
 
@@ -48,11 +70,30 @@ def known_object(context: MissionContext) -> Behaviour:
     )
 
 
-def meant(knowledge: Knowledge, command: Command) -> tuple[str, ...]:
-    """The objects that a command may be about: what they are called, look like, or are for."""
-    if command.purpose:
-        return knowledge.objects_for(command.purpose)
-    return knowledge.objects_named(command.target)
+class TakeOneThatIsThere(Step):
+    """Succeeds if one of the things is there; of several, any will do, or a certain one is meant.
+
+    Reads survey.seen; writes request.object, or request.options; search.looks forgets that place,
+    so that it is looked at again.
+    """
+
+    source = "eyes"
+
+    def update(self) -> Status:
+        """Say it if there is none: then the person is asked."""
+        request, search = self.situation.request, self.situation.search
+        assert request.command
+        found = self.situation.survey.found
+        if not found:
+            why = nothing_there(self.context)
+            tell(self.context, f"{why}.")
+            return self.fail(why)
+        if len(found) > 1 and request.command.number != 1:
+            request.options = tuple(found)
+            return self.fail(f"there are {found_where(found, self.context.say)}")
+        request.object, place = next(iter(found.items()))
+        search.looks.visited = [p for p in search.looks.visited if p != place]
+        return self.succeed(request.object)
 
 
 class HeldIsMeant(Step):
@@ -121,6 +162,8 @@ class GuessName(Step):
         if self.situation.request.options:
             return self.fail(f"'{target}' is known")
         knowledge = self.context.knowledge
+        if knowledge.objects_named(target):
+            return self.fail(f"'{target}' is known, and all of it is said not to be meant")
         if other := knowledge.other_color(target):
             names: tuple[str, ...] = tuple(name for name, _ in other.actual)
             if len(names) > 1:

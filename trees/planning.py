@@ -9,12 +9,14 @@ from py_trees.common import Status
 from executive.belief import ANYWHERE, PLAN, Belief, Likely, Statement, in_order
 from executive.plan import Chance, Plan, Prices, best_plan
 from executive.records import Planned, WaysTold
+from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.text import printable
 from executive.types import PERSON, Candidate, Source
 from trees.context import MissionContext
 from trees.hearing import PERSON_TRUST, believed
 from trees.nodes import Step
-from trees.person import SAYS, AskWhere, tell
+from trees.person import AskWhere
+from trees.telling import tell
 
 MOST_PLANNED = 60
 """Among so many places it is planned, the likeliest; the others come in when those are done."""
@@ -22,8 +24,8 @@ WORTH_TELLING = 0.01
 """What is less likely is no candidate, unless it is next."""
 MOST_TOLD = 3
 """So many places the person is told of at once."""
-NOBODY_SAYS = "it may be anywhere"
-USUALLY = "it is usually there"
+NOBODY_SAYS = "it may be anywhere", "they may be anywhere"
+USUALLY = "it is usually there", "they are usually there"
 """Where the ontology has several default locations."""
 
 
@@ -179,10 +181,12 @@ class TellWhere(Step):
         return self.succeed(first.place)
 
     def _tell(self, places: tuple[str, ...], source: str) -> None:
+        name, say = self.situation.request.object or "", self.context.say
         own = {source.name: source.says for source in self.context.sources}
-        says = {**SAYS, ANYWHERE: NOBODY_SAYS, **own}
+        ours = SAYS_OF_SEVERAL if say.agree(name, "", "are") else SAYS
+        says = {**ours, ANYWHERE: say.agree(name, *NOBODY_SAYS), **own}
         if self.situation.search.default_locations:
-            says[Source.ONTOLOGY] = USUALLY
+            says[Source.ONTOLOGY] = say.agree(name, *USUALLY)
         why = printable(says.get(source, f"so says the {source}"))
-        where = ", then ".join(places)
-        tell(self.context, f"I look for the {self.situation.request.object} at {where}: {why}.")
+        where = ", then ".join(say.at_each(places))
+        tell(self.context, f"I look for {say.the(name)} {where}: {why}.")

@@ -1,21 +1,35 @@
 """What is asked for? The grammar of commands says, else the language model and the person do."""
 
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.placed import placed
 from executive.records import Utterance
-from executive.types import HELD, MissionStatus, Question, QuestionKind
+from executive.types import HELD, Command, CommandKind, MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
-from trees.nodes import Step, fallback, sequence
-from trees.person import AskYesNo
+from trees.nodes import FirstOf, Step, fallback, sequence
+from trees.order import begin_next
+from trees.person import AskYesNo, places_in
+from trees.telling import in_one_sentence
 
 
 def understand(context: MissionContext) -> Behaviour:
-    """Words -> `situation.request.command`."""
+    """Words -> `situation.request.command`, and `situation.agenda` if there is more to do.
+
+    The next tasks need no reading: they come from the agenda.
+    """
+    request = context.situation.request
+
+    def at_hand() -> list[Command]:
+        return [request.command] if request.command else []
+
     readers: list[Behaviour] = [
+        FirstOf("on the agenda", at_hand, lambda _: None, TakeUp("take it up", context)),
         ReadCommand("grammar reads it", context),
         sequence(
             "a slip",
@@ -39,24 +53,40 @@ def let_the_model_read(context: MissionContext) -> Behaviour:
     )
 
 
+class TakeUp(Step):
+    """The task at hand is understood: it was on the agenda.
+
+    Reads request.command.
+    """
+
+    source = "person"
+
+    def update(self) -> Status:
+        """Name it."""
+        assert self.situation.request.command
+        return self.succeed(named(self.situation.request.command))
+
+
 class ReadCommand(Step):
-    """Words -> command, by the grammar of commands."""
+    """Words -> commands, by the grammar of commands.
+
+    Reads request.words; writes request.command and agenda.tasks, else request.remark.
+    """
 
     source = "person"
 
     def update(self) -> Status:
         """Read the words."""
-        self.context.recorder.record(Utterance("person", self.situation.request.words))
-        command = self.context.interpreter.command(self.situation.request.words)
-        if command is None:
-            self.situation.request.remark = self.context.interpreter.remark(
-                self.situation.request.words
-            )
+        words, spoken = self.situation.request.words, self.situation.dialogue.spoken
+        self.context.recorder.record(Utterance("person", words))
+        holds = self.situation.hand.in_hand is not None
+        commands = self.context.interpreter.commands(words, spoken, holds=holds)
+        if not commands:
+            self.situation.request.remark = self.context.interpreter.remark(words, spoken)
             return self.fail("this is no command that the grammar knows")
-        self.situation.request.command = command
-        source = f"from {command.source}" if command.source else ""
-        goal = f"to {command.goal}" if command.goal else ""
-        return self.succeed(" ".join(filter(None, (command.kind, command.target, source, goal))))
+        self.situation.agenda.add(commands)
+        begin_next(self.context)
+        return self.succeed("; ".join(map(named, chain.from_iterable(commands))))
 
 
 class ReadPastSlips(Step):
@@ -69,14 +99,23 @@ class ReadPastSlips(Step):
         words = self.situation.request.words
         if self.situation.request.remark:
             return self.fail("it was read")
-        command = self.context.interpreter.without_slips(words)
-        if command is None:
+        commands = self.context.interpreter.without_slips(words)
+        if not commands:
             return self.fail("it is like no command")
-        target = self._known(command.target)
-        if target is None:
-            return self.fail(f"'{command.target}' is like no known name")
-        self.situation.request.command = replace(command, target=target, words=words)
-        return self.succeed(f"{command.kind} {target}")
+        known: list[tuple[Command, ...]] = []
+        for group in commands:
+            targets = [self._known(command.target) for command in group]
+            if None in targets:
+                return self.fail(f"'{group[targets.index(None)].target}' is like no known name")
+            known.append(
+                tuple(
+                    replace(command, target=target or "", words=words)
+                    for command, target in zip(group, targets, strict=True)
+                )
+            )
+        self.situation.agenda.add(tuple(known))
+        begin_next(self.context)
+        return self.succeed("; ".join(f"{c.kind} {c.target}" for c in chain.from_iterable(known)))
 
     def _known(self, target: str) -> str | None:
         """The target if it is known, else the name that it is a slip of, if it is one."""
@@ -89,7 +128,8 @@ class ReadPastSlips(Step):
 class HasKnownName(Step):
     """Succeeds if a known thing is named, so that there is something to do it with.
 
-    What the grammar did read is not the model's to read otherwise: it may say what not to do.
+    What the grammar did read is not the model's to read otherwise: it may say what not to do. A
+    model that writes and cannot score, behind a server, may know other words for the things.
     """
 
     def update(self) -> Status:
@@ -97,7 +137,8 @@ class HasKnownName(Step):
         if self.situation.request.remark:
             return self.fail("it was read")
         names = self.context.knowledge.names_in(self.situation.request.words)
-        if not names:
+        model = self.context.model
+        if not names and (self.context.parameters.elicit == "rank" or not model or model.can_rank):
             return self.fail("no known thing is named")
         self.situation.request.guess = " and ".join(names)
         return self.succeed(self.situation.request.guess)
@@ -107,15 +148,17 @@ class ConfirmCommand(AskYesNo):
     """Asks whether this is what was asked for: a model's reading is never simply done."""
 
     def question(self) -> Question:
-        """Say what would be done."""
+        """Say what would be done, all of it."""
         assert self.situation.request.command
-        kind, target = self.situation.request.command.kind, self.situation.request.command.target
-        knowledge = self.context.knowledge
-        objects = [o for name in knowledge.names_in(target) for o in knowledge.objects_named(name)]
-        place = self.situation.request.command.source
-        what = f"{kind.replace('_', ' ')} {target}" + f" from {place}" * bool(place)
-        text = f"Do you mean: {what}?"
-        return Question(QuestionKind.CONFIRM, target, text, tuple(objects))
+        first, knowledge = self.situation.request.command, self.context.knowledge
+        names = knowledge.names_in(first.target)
+        objects = tuple(one for name in names for one in knowledge.objects_named(name))
+        commands = (first, *(task.command for task in self.situation.agenda.tasks))
+        wanted = ", then ".join(in_one_sentence(self.context, command) for command in commands)
+        text = f"Do you mean: {wanted}?"
+        if others := passed_over(self.context, commands):
+            text += f" I make nothing of {' and '.join(map(repr, others))}."
+        return Question(QuestionKind.CONFIRM, first.target, text, objects)
 
     def agreed(self) -> None:
         """The command stands."""
@@ -125,12 +168,44 @@ class ConfirmCommand(AskYesNo):
         return f"I am not sure what '{self.situation.request.words}' asks for"
 
 
+def named(command: Command) -> str:
+    """A command in the log: "bring mug from desk", "put mug to sofa"."""
+    kind = command.kind.replace("_", " ")
+    source = f"from {command.source}" if command.source else ""
+    goal = f"to {command.goal}" if command.goal else ""
+    return " ".join(filter(None, (kind, command.target, source, goal)))
+
+
+def passed_over(context: MissionContext, commands: Sequence[Command]) -> list[str]:
+    """Things and places in the words of which nothing was made, as they were said."""
+    knowledge, words = context.knowledge, context.situation.request.words
+    read = " and ".join(name for one in commands for name in (one.target, *one.exceptions))
+    things = [name for name in knowledge.names_in(words) if name not in knowledge.names_in(read)]
+    spoken_of = {place for one in commands for place in _places_of(context, one)}
+    places = [
+        place
+        for place in placed(words, knowledge.is_place)
+        if place and not {*places_in(context, place)} <= spoken_of
+    ]
+    return [*(context.as_said(context.say.words(name)) for name in things), *places]
+
+
+def _places_of(context: MissionContext, command: Command) -> set[str]:
+    """The furniture that a command speaks of."""
+    return {
+        *places_in(context, command.source),
+        *places_in(context, command.goal),
+        *(places_in(context, command.target) if command.kind == CommandKind.GO else ()),
+    }
+
+
 class NotUnderstood(Step):
     """What nobody can read is the person's to say again; always fails."""
 
     def update(self) -> Status:
         """Say what can be said; what was read, and is not to be or cannot be done, has a reason."""
         self.situation.request.command = None
+        self.situation.agenda.tasks.clear()
         if remark := self.situation.request.remark:
             return self.fail(remark.removesuffix("."))
         self.situation.ending.status = MissionStatus.NOT_UNDERSTOOD
@@ -138,5 +213,5 @@ class NotUnderstood(Step):
         said = f"'{words}'" if words.strip() else "what you said"
         return self.fail(
             f"I do not understand {said}; "
-            'say for example "Find an apple", "Take the mug" or "Bring a sugar_box"'
+            'say for example "Find an apple", "Take the mug" or "Bring a sugar box"'
         )

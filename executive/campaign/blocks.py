@@ -11,6 +11,7 @@ import io
 import random
 from collections.abc import Generator, Iterable, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from math import dist
 from pathlib import Path
 from typing import Any
@@ -196,7 +197,7 @@ def _row(
         object=outcome.object or "",
         status=str(outcome.status),
         reason=outcome.reason,
-        completed=completed(outcome, truth),
+        completed=completed(outcome, partial(whereabouts, world=world)),
         truth=truth,
         source=str(outcome.source or ""),
         location=outcome.location or "",

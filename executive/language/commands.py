@@ -1,11 +1,12 @@
 """From what was said to a command that the tree can carry out, or to a word on why not."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from executive.language.meaning import (
     ME,
     About,
+    Again,
     Choice,
     Correction,
     Courtesy,
@@ -22,16 +23,16 @@ from executive.language.meaning import (
     Verb,
     Where,
 )
-from executive.types import HELD, Command, CommandKind
+from executive.types import HELD, Command, CommandKind, Commands
 
-_DEEDS = [kind.replace("_", " ") for kind in CommandKind]
-CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one thing at a time"
-CANNOT = {
-    Verb.CLEAR: "I cannot tidy up so far",
-    Verb.COUNT: "I cannot count things so far",
-    Verb.TELL: "I cannot tell what is there so far",
-    Verb.CHECK: "I cannot tell whether something is there so far, but I can find it",
+_QUESTIONS = {
+    CommandKind.COUNT: "count things",
+    CommandKind.TELL: "tell what is somewhere",
+    CommandKind.CHECK: "check whether something is there",
+    CommandKind.CLEAR: "clear a table",
 }
+_DEEDS = [_QUESTIONS.get(kind) or kind.replace("_", " ") for kind in CommandKind]
+CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one after the other"
 UNTOLD = "I cannot tell you that so far."
 COURTESIES = {
     Courtesy.HELLO: "Hello!",
@@ -39,20 +40,24 @@ COURTESIES = {
     Courtesy.GOODBYE: "Goodbye!",
 }
 THING = "thing"
+THERE = ("there", "over there")
+"""Words for the place that was spoken of."""
 _ALONE = (Verb.FIND, Verb.TAKE, Verb.BRING)
 """Deeds that another one with "it" may follow, which has them in it."""
 
 
-def command_in(said: Said, words: str) -> Command | str | None:
-    """The command; or what to say of it, if it was read but is not to be done, or cannot be.
+def commands_in(said: Said, words: str) -> Commands | str | None:
+    """The tasks; or what to say of it, if it was read but is not to be done, or cannot be.
 
     None if there is nothing to say: it was not read, or answers a question.
     """
     match said:
         case Request():
-            return _command(_folded(said.tasks), words)
+            return _commands(_resolved(_folded(said.tasks)), words)
         case Refusal():
             return "Then I will not."
+        case Again():
+            return "There is nothing yet that I could do again."
         case Unable():
             return f"I cannot {said.verb}."
         case Question():
@@ -60,7 +65,7 @@ def command_in(said: Said, words: str) -> Command | str | None:
         case Courtesy():
             return talk(said)
         case Statement():
-            return "I cannot take note of that so far; I ask when I need to know it."
+            return "I take note of where things are when I am at nothing else."
         case Correction():
             return "I am doing nothing that this could change; say all that I am to do."
     return None
@@ -122,44 +127,113 @@ def _is_it(things: Things | None) -> bool:
     return thing.pronoun and not thing.other and thing.number is None
 
 
-def _command(tasks: tuple[Task, ...], words: str) -> Command | str:
-    """What the tree can do: one task, with one kind of thing."""
-    if len(tasks) != 1:
-        return "I can do one thing at a time so far; tell me the first, then the next."
-    [task] = tasks
-    if why := _why_not(task):
-        return f"{why}. {CAN}."
-    if task.goal == ME and task.verb == Verb.PUT:
-        task = replace(task, verb=Verb.BRING)
-    members = task.things.members if task.things else ()
+def _resolved(tasks: Sequence[Task]) -> Iterator[Task]:
+    """The tasks with "it" and "there" as what was spoken of before in the same breath."""
+    things: Things | None = None
+    place: Where | None = None
+    for task in tasks:
+        if things and _is_it(task.things) and task.verb != Verb.PUT_DOWN:
+            task = replace(task, things=things)
+        if place and _is_there(task.source):
+            task = replace(task, source=place)
+        elif task.verb in (Verb.COUNT, Verb.CHECK) and _is_there(task.source):
+            task = replace(task, source=None)  # "how many fruits are there"
+        if place and _is_there(task.goal):
+            task = replace(task, goal=place)
+        yield task
+        things = task.things if task.things and not _is_it(task.things) else things
+        named = next((p for p in (task.goal, task.source) if p and not p.pronoun and p != ME), None)
+        place = named or place
+
+
+def _is_there(where: Where | None) -> bool:
+    return where is not None and where.pronoun and where.words in THERE
+
+
+def _commands(tasks: Iterable[Task], words: str) -> Commands | str:
+    """A command for each thing of each task; or why one of them cannot be done."""
+    commands: list[tuple[Command, ...]] = []
+    for task in tasks:
+        if why := _why_not(task):
+            return f"{why}. {CAN}."
+        commands.append(tuple(_command(task, things, words) for things in _each(task)))
+    return tuple(commands)
+
+
+def _each(task: Task) -> tuple[Things | None, ...]:
+    """Of several things that are all meant, each one; a condition is about all of them."""
+    things = task.things
+    if things is None or things.one_of or task.conditional:
+        return (things,)
+    return tuple(Things((thing,)) for thing in things.members)
+
+
+def _command(task: Task, things: Things | None, words: str) -> Command:
+    if task.conditional:
+        return _conditional(task, words)
+    members = things.members if things else ()
+    brings = task.verb == Verb.BRING or (task.verb == Verb.PUT and task.goal == ME)
     return Command(
-        CommandKind(task.verb),
-        _held(task.things) if task.verb == Verb.PUT_DOWN else _names(task.things),
+        CommandKind.BRING if brings else CommandKind(task.verb),
+        _held(things) if task.verb == Verb.PUT_DOWN else _names(things, task.verb),
         words,
-        source=_in_words(task.source) if task.source else "",
-        goal=_in_words(task.goal) if task.goal and task.verb != Verb.BRING else "",
+        source=in_words(task.source) if task.source else "",
+        goal=in_words(task.goal) if task.goal and not brings else "",
         purpose=" and ".join(thing.purpose for thing in members if thing.purpose),
         exceptions=tuple(but.words for thing in members for but in thing.exceptions),
+        number=_number(task, members),
+        among=tuple(map(_name, members)) if things and things.one_of else (),
+        superlative=_superlative(task),
     )
+
+
+def _conditional(task: Task, words: str) -> Command:
+    """What is to be done if there is such a thing; where a place is named, only there."""
+    sought = task.sought or Task(Verb.CHECK, task.things, task.source)
+    sought = replace(sought, things=sought.things or task.things)
+    if _is_it(task.things):
+        task = replace(task, things=sought.things, source=task.source or sought.source)
+    [deed] = (_command(replace(task, conditional=False), task.things, words),)
+    unless = task.unless
+    if unless and _is_it(unless.things):
+        unless = replace(unless, things=sought.things)
+    return replace(
+        deed,
+        conditional=True,
+        sought=_command(sought, sought.things, words) if sought.source else None,
+        unless=_command(unless, unless.things, words) if unless else None,
+    )
+
+
+def _number(task: Task, members: Sequence[Thing]) -> int:
+    """How many, if it was said; that it is one, only counts where a place may have several."""
+    if len(members) != 1 or task.verb not in (*_ALONE, Verb.PUT, Verb.PUT_BACK):
+        return 0
+    number = members[0].number or 0
+    return number if number != 1 or task.source else 0
+
+
+def _superlative(task: Task) -> str:
+    members = task.things.members if task.things and task.verb == Verb.TELL else ()
+    return next((thing.superlative for thing in members), "")
 
 
 def _why_not(task: Task) -> str:
     """Why the tree cannot do it, as a clause; empty if it can."""
-    if task.conditional:
-        return "I cannot do things on a condition so far"
-    if task.verb.value not in {kind.value for kind in CommandKind}:
-        return CANNOT[task.verb]
     for place in (task.source, task.goal):
         if place and place.pronoun:
             return f"I do not know where '{place.words}' is; say the name of the place"
     if task.verb == Verb.PUT_DOWN and task.source:
         return "I put down only what I hold"
+    if task.verb in (Verb.TELL, Verb.CLEAR) and not task.source:
+        return f"I can {task.verb} only at a place; say which"
     things = task.things.members if task.things else ()
     if any(but.pronoun for thing in things for but in thing.exceptions):
         return "I do not know what is not meant; say its name"
-    if any(thing.number not in (None, 1) for thing in things):
-        return f"I cannot {task.verb} several things at once so far"
-    return ""
+    if task.conditional and len(things) > 1:
+        return "I can do things on a condition only one by one"
+    parts = (part for part in (task.sought, task.unless) if part)
+    return next(filter(None, map(_why_not, parts)), "")
 
 
 def _held(things: Things | None) -> str:
@@ -168,20 +242,27 @@ def _held(things: Things | None) -> str:
     return HELD if held or things is None else _names(things)
 
 
-def _names(things: Things | None) -> str:
+def _names(things: Things | None, verb: Verb = Verb.FIND) -> str:
     if things is None:
         return ""
-    return (" or " if things.one_of else " and ").join(map(_name, things.members))
+    told = verb == Verb.TELL
+    names = ((thing.words or THING) if told else _name(thing) for thing in things.members)
+    return (" or " if things.one_of else " and ").join(names)
 
 
 def _name(thing: Thing) -> str:
-    """What it is called; "something" may be any thing."""
+    """What it is called; "something" may be any thing.
+
+    How many there are to be is no part of that, unless it is one: "one" may belong to the name.
+    """
     named = thing.words or thing.purpose or thing.pronoun
+    if thing.number not in (None, 1) and thing.words:
+        return f"{thing.superlative} {thing.words}".strip()
     return thing.said if named else THING
 
 
-def _in_words(where: Where) -> str:
+def in_words(where: Where) -> str:
     """A place as words that its name can be looked for in."""
     near = {Relation.NEXT_TO: "next to ", Relation.UNDER: "under "}.get(where.relation, "")
-    within = f" in {_in_words(where.within)}" if where.within else ""
-    return " or ".join([f"{near}{where.words}{within}", *map(_in_words, where.others)])
+    within = f" in {in_words(where.within)}" if where.within else ""
+    return " or ".join([f"{near}{where.words}{within}", *map(in_words, where.others)])

@@ -2,12 +2,14 @@
 
 from collections.abc import Iterable, Sequence
 from functools import cache
+from itertools import chain
 
-from executive.language.commands import agrees, command_in, talk
-from executive.language.meaning import Answer, Choice, Request, Task, Unread, Verb
+from executive.language.commands import agrees, commands_in, talk
+from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread, Verb
 from executive.language.reader import english
 from executive.language.slips import without_slips
-from executive.types import Command
+from executive.language.spoken import NOTHING, Spoken, resolved
+from executive.types import Command, Commands
 
 
 class EnglishInterpreter:
@@ -23,27 +25,36 @@ class EnglishInterpreter:
         odd = tuple(sorted({name for name in names if not _is_read(name)}))
         self._reader = english(odd) if odd else english()
 
-    def command(self, words: str) -> Command | None:
-        """The request in the words, or None if there is none that can be done."""
-        read = self._read(words)
-        return read if isinstance(read, Command) else None
+    def read(self, words: str) -> Said:
+        """What the words mean, as far as the grammar reads them."""
+        return self._reader.read(words)
 
-    def remark(self, words: str) -> str:
+    def commands(self, words: str, spoken: Spoken = NOTHING, *, holds: bool = False) -> Commands:
+        """The tasks in the words; none if there are none that can be done."""
+        read = self._read(words, spoken, holds)
+        return read if isinstance(read, tuple) else ()
+
+    def command(self, words: str) -> Command | None:
+        """The first of the tasks, or None if there are none."""
+        commands = self.commands(words)
+        return commands[0][0] if commands else None
+
+    def remark(self, words: str, spoken: Spoken = NOTHING) -> str:
         """What to say of words that were read and are no command to carry out; empty if they are.
 
         It is empty, too, if they were not read: then somebody else may.
         """
-        read = self._read(words)
+        read = self._read(words, spoken, False)
         return read if isinstance(read, str) else ""
 
-    def _read(self, words: str) -> Command | str | None:
-        """The command; or what to say; nothing to say if somebody else may read it."""
-        read = command_in(self._reader.read(words), words)
+    def _read(self, words: str, spoken: Spoken, holds: bool) -> Commands | str | None:
+        """The tasks; or what to say; nothing to say if somebody else may read it."""
+        read = commands_in(resolved(self._reader.read(words), spoken, holds=holds), words)
         denial = ""
         if read is None:
             denial = self._reader.denial(words)
-        elif isinstance(read, Command):
-            names = (read.target, read.source, read.goal, read.purpose, *read.exceptions)
+        elif isinstance(read, tuple):
+            names = chain.from_iterable(named_in(command) for group in read for command in group)
             denial = next(filter(None, map(self._reader.denial_in_name, names)), "")
         if denial:
             return f"I do nothing: I hear '{denial}', and do not understand the rest."
@@ -53,22 +64,24 @@ class EnglishInterpreter:
         """The answer to small talk, or to who asks for help; empty if it is neither."""
         return talk(self._reader.read(words), things)
 
-    def without_slips(self, words: str) -> Command | None:
-        """The command that the words are with the word for the deed spelled right; None if none."""
+    def without_slips(self, words: str) -> Commands:
+        """The tasks that the words are with the word for the deed spelled right; none if none."""
         for likely in without_slips(self._reader, words):
-            if command := self.command(likely):
-                return command
-        return None
+            if commands := self.commands(likely):
+                return commands
+        return ()
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
-        said = self._reader.read(answer)
-        if said in (Answer(Choice.NO), Answer(Choice.UNKNOWN)):
+        if self._reader.declines(answer) or not self._reader.plain(answer).strip("?"):
             return True
-        return self._reader.declines(answer) or not self._reader.plain(answer).strip("?")
+        declining = (Answer(Choice.NO), Answer(Choice.UNKNOWN))
+        return self._reader.knows(answer) and self._reader.read(answer) in declining
 
     def agrees(self, answer: str) -> bool | None:
         """Whether an answer says yes or no; None if it says neither."""
+        if not self._reader.knows(answer):
+            return None
         said = self._reader.read(answer)
         if (agreed := agrees(said)) is not None or not isinstance(said, Unread | Request):
             return agreed
@@ -77,15 +90,18 @@ class EnglishInterpreter:
         return None if begun and self._reader.denial(rest) else begun
 
 
+def named_in(command: Command) -> tuple[str, ...]:
+    """All that a command names."""
+    return command.target, command.source, command.goal, command.purpose, *command.exceptions
+
+
 @cache
 def _is_read(name: str) -> bool:
     """Whether the grammar reads a name as one, without being told."""
-    plain = english().plain(name)
-    parts = plain.split()
-    if all(word.isalpha() and word not in english().vocabulary for word in parts):
+    if not english().knows(name):
         return True
     match english().read(f"find {name}"):
         case Request(tasks=(Task(verb=Verb.FIND, things=things, source=None, goal=None),)):
             assert things
-            return [thing.said for thing in things.members] == [plain]
+            return [thing.said for thing in things.members] == [english().plain(name)]
     return False

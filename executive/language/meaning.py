@@ -6,8 +6,7 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-ALL = -1
-"""As a number of things: each one that there is."""
+from executive.types import ALL as ALL  # as a number of things
 
 
 class Verb(StrEnum):
@@ -70,6 +69,7 @@ class Thing:
         other: another one than before.
         exceptions: what it is not to be: "anything but a banana".
         definite: "the mug" is a certain one, "a mug" is any.
+        superlative: which of them by a measure: "biggest"; empty if that was not said.
         said: all of this as it was said, but for articles and exceptions: "two mugs".
     """
 
@@ -80,6 +80,7 @@ class Thing:
     other: bool = False
     exceptions: tuple["Thing", ...] = ()
     definite: bool = False
+    superlative: str = ""
     said: str = field(default="", compare=False)
 
 
@@ -148,18 +149,29 @@ class Unable:
 
 
 @dataclass(frozen=True, slots=True)
+class Again:
+    """The same once more: "do that again"."""
+
+
+@dataclass(frozen=True, slots=True)
 class Correction:
     """Not that, but this: "no, the banana"; or that and this: "and the pear".
 
     Attributes:
-        meant: what is meant; things only: the deed is that of before.
+        meant: what is meant; things only: the deed is that of before. None if only a place is.
         wrong: what is not meant, if it was said.
+        source: where it is instead: "no, from the desk".
+        goal: where it is to go instead: "no, to the kitchen".
+        place: one of these two: "no, in the kitchen".
         adds: whether what was meant before still is.
         denies: whether it begins with a no.
     """
 
-    meant: "Request | Things"
+    meant: "Request | Things | None" = None
     wrong: Things | None = None
+    source: Where | None = None
+    goal: Where | None = None
+    place: Where | None = None
     adds: bool = False
     denies: bool = False
 
@@ -230,4 +242,15 @@ class Unread:
     at: str = ""
 
 
-Said = Request | Refusal | Unable | Correction | Question | Statement | Answer | Courtesy | Unread
+Said = (
+    Request
+    | Refusal
+    | Unable
+    | Again
+    | Correction
+    | Question
+    | Statement
+    | Answer
+    | Courtesy
+    | Unread
+)

@@ -7,7 +7,7 @@ from executive.situation.snapshot import logged_as
 from executive.types import Command, CommandKind
 
 
-def _command(command: Command | None) -> dict[str, Any] | None:
+def command_as_logged(command: Command | None) -> dict[str, Any] | None:
     """What was not said is left out, as in earlier recordings, whose commands had no places."""
     if command is None:
         return None
@@ -20,7 +20,7 @@ class Request:
     """What the person wants, in the order in which it becomes known."""
 
     words: str = ""
-    command: Command | None = field(default=None, metadata=logged_as(plain=_command))
+    command: Command | None = field(default=None, metadata=logged_as(plain=command_as_logged))
     remark: str = ""
     """What to say of the words if they were read, and are no command to carry out."""
     options: tuple[str, ...] = ()

@@ -1,6 +1,7 @@
 """What this mission knows so far: the one place that behaviours read from and write to."""
 
-from dataclasses import dataclass, field, is_dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, is_dataclass, replace
 from functools import cache
 from typing import Any, Self
 
@@ -10,9 +11,12 @@ from executive.events import (
     Ended,
     Event,
     HandFelt,
+    Heard,
     Started,
     StopRequested,
 )
+from executive.language.spoken import NOTHING, Spoken
+from executive.situation.agenda import Agenda
 from executive.situation.dialogue import Dialogue
 from executive.situation.ending import Ending
 from executive.situation.hand import Hand
@@ -20,18 +24,33 @@ from executive.situation.model import ModelUse
 from executive.situation.request import Request
 from executive.situation.search import Search
 from executive.situation.snapshot import PART, snapshot
-from executive.types import Outcome, Replied, Scored
+from executive.situation.survey import Survey
+from executive.types import (
+    Command,
+    CommandKind,
+    MissionStatus,
+    Outcome,
+    Replied,
+    Scored,
+    TaskOutcome,
+)
+
+NOT_BEGUN = "I did not get to it"
+ONE_AT_A_TIME = "I took it, and put it away again: I hold one thing at a time"
 
 
 @dataclass
 class Situation:
     """Facts of one mission, in parts.
 
-    Events are folded in by the loop before each tick; everything else is set by behaviours.
+    Events are folded in by the loop before each tick; everything else is set by behaviours. Of
+    several tasks, what is found out for one is forgotten when the next begins.
     """
 
+    agenda: Agenda = field(default_factory=Agenda, metadata=PART)
     request: Request = field(default_factory=Request, metadata=PART)
     search: Search = field(default_factory=Search, metadata=PART)
+    survey: Survey = field(default_factory=Survey, metadata=PART)
     hand: Hand = field(default_factory=Hand, metadata=PART)
     dialogue: Dialogue = field(default_factory=Dialogue, metadata=PART)
     model: ModelUse = field(default_factory=ModelUse, metadata=PART)
@@ -39,11 +58,19 @@ class Situation:
 
     @classmethod
     def at_start(
-        cls, words: str = "", *, in_hand: str | None = None, restless: bool = False
+        cls,
+        words: str = "",
+        *,
+        in_hand: str | None = None,
+        restless: bool = False,
+        spoken: Spoken = NOTHING,
     ) -> Self:
-        """What is known before the first tick: the words, and in what state the robot was left."""
+        """What is known before the first tick: the words, and how things stood before them."""
         return cls(
-            request=Request(words), hand=Hand(in_hand=in_hand), ending=Ending(restless=restless)
+            request=Request(words),
+            hand=Hand(in_hand=in_hand),
+            dialogue=Dialogue(spoken=spoken),
+            ending=Ending(restless=restless),
         )
 
     def fold(self, event: Event) -> None:
@@ -57,10 +84,47 @@ class Situation:
                 self.ending.stop(by)
             case Broke(reason):
                 self.ending.break_off(reason)
+            case Heard(words):
+                self.dialogue.heard.append(words)
             case HandFelt(holding):
                 self.hand.feel(holding)
             case Ended() | DeadlinePassed():
                 pass
+
+    def begin(self, command: Command) -> None:
+        """Turn to a task: what was found out for another one counts no more."""
+        hand = self.hand
+        held = Hand(in_hand=hand.in_hand, felt=hand.felt, reached_for=hand.reached_for)
+        _renew(self.request, Request(self.request.words, command))
+        _renew(self.search, Search())
+        _renew(self.survey, Survey())
+        _renew(hand, held)
+        _renew(self.ending, Ending(restless=self.ending.restless))
+        self.dialogue.no_help = ""
+
+    def end_task(self) -> None:
+        """What came of the task at hand is settled, if there is one that is not done in parts."""
+        if self.request.command and not self._is_split:
+            self.agenda.end(self._of_task(self.request.command))
+
+    def conclude(self) -> None:
+        """Settle how the whole ended, if there was more than one task: done if all of them were."""
+        self.agenda.ended = ended = list(self._held_still(self.agenda.ended))
+        if len(ended) > 1 or any(task.parts for task in ended):
+            all_done = all(task.status == MissionStatus.DONE for task in ended)
+            self.ending.status = MissionStatus.DONE if all_done else MissionStatus.NOT_DONE
+            self.ending.reason = task_by_task(ended) if len(ended) > 1 else ended[0].reason
+
+    def _held_still(self, ended: Sequence[TaskOutcome]) -> Iterator[TaskOutcome]:
+        """The same; what was taken, and put away again for another thing, is not held."""
+        for number, task in enumerate(ended, start=1):
+            taken = task.kind == CommandKind.TAKE and task.status == MissionStatus.DONE
+            if not taken or task.object == self.hand.in_hand:
+                yield task
+            elif any(later.object == task.object for later in ended[number:]):
+                yield task  # it was to be put somewhere
+            else:
+                yield replace(task, status=MissionStatus.NOT_DONE, reason=ONE_AT_A_TIME)
 
     @property
     def has_it(self) -> bool:
@@ -83,18 +147,22 @@ class Situation:
 
     def outcome(self, *, mission_time_s: float, wall_time_s: float, run_dir: str | None) -> Outcome:
         """The mission's result."""
-        command, found = self.request.command, self.search.found
+        found = self.search.found
+        if self.ending.decided and self.agenda.ended:  # its last part is none of what was said
+            last: Command | TaskOutcome | None = self.agenda.ended[-1]
+        else:
+            last = self.request.command
         return Outcome(
             command=self.request.words,
-            kind=command.kind if command else None,
-            target=command.target if command else None,
+            kind=last.kind if last else None,
+            target=last.target if last else None,
             object=self.request.object,
             status=self.ending.status,
             reason=self.ending.why,
             source=found.source if found else None,
             location=found.place if found else None,
             inquiries=self.dialogue.inquiries,
-            visited=tuple(self.search.looks.visited),
+            visited=self._visited(),
             llm_calls=self.model.calls,
             candidates=self.search.candidates,
             mission_time_s=round(mission_time_s, 3),
@@ -103,7 +171,65 @@ class Situation:
             run_dir=run_dir,
             model_failure=self.model.failure,
             goals=self.request.goals,
+            tasks=(*self.agenda.ended, *self._unfinished()),
         )
+
+    def _visited(self) -> tuple[str, ...]:
+        """In all tasks: what the one at hand has visited is in those that ended when it has."""
+        at_hand = () if self.agenda.ended and not self._is_at_hand else self.search.looks.visited
+        return (*self.agenda.visited(), *at_hand)
+
+    def _unfinished(self) -> Iterator[TaskOutcome]:
+        """The task at hand, and those not begun, if the mission was cut short."""
+        command = self.request.command
+        if self._is_at_hand and command:
+            yield self._of_task(command)
+        for task in self.agenda.tasks:
+            kind, target = task.command.kind, task.command.target
+            yield TaskOutcome(kind, target, None, self.ending.status, NOT_BEGUN, None)
+
+    @property
+    def _is_split(self) -> bool:
+        """Whether the task at hand is done in parts, none of which was begun yet."""
+        wholes = self.agenda.wholes
+        return bool(wholes) and wholes[-1].command is self.request.command
+
+    @property
+    def _is_at_hand(self) -> bool:
+        """Whether a task was begun that has not ended."""
+        return self.request.command is not None and not self.ending.decided
+
+    def _of_task(self, command: Command) -> TaskOutcome:
+        found, answers = self.search.found, not command.kind.means.searches
+        return TaskOutcome(
+            kind=command.kind,
+            target=command.target,
+            object=self.request.object,
+            status=self.ending.status,
+            reason=self.ending.why,
+            location=found.place if found else None,
+            goals=self.request.goals,
+            visited=tuple(self.search.looks.visited),
+            things=tuple(self.survey.found) if answers else (),
+            among=(self.survey.about or ()) if answers else (),
+        )
+
+
+def task_by_task(ended: Sequence[TaskOutcome]) -> str:
+    """What came of each of several tasks, numbered, a sentence each."""
+    return " ".join(
+        f"{number}. {'' if task.status == MissionStatus.DONE else 'Not done: '}{_ended(task)}"
+        for number, task in enumerate(ended, start=1)
+    )
+
+
+def _ended(task: TaskOutcome) -> str:
+    return task.reason if task.reason.endswith((".", "!", "?", "…")) else f"{task.reason}."
+
+
+def _renew(part: Any, fresh: Any) -> None:
+    """Make a part as a fresh one; it stays the same object, which behaviours hold."""
+    vars(part).update(vars(fresh))
 
 
 def _copied(value: Any) -> Any:

@@ -57,7 +57,7 @@ class PlaceNames:
             return (spoken(kind), *called.get(kind, ()))
 
         rooms = (
-            [(place_words(p.room), p.room) for p in places],
+            [(place_words(name), p.room) for p in places for name in (p.room, p.room_label)],
             [(place_words(name), p.room) for p in places for name in names_of(p.room_kind)],
         )
         furniture = (
@@ -149,10 +149,15 @@ class PlaceNames:
 
 
 def _orders(place: Place) -> tuple[Words, ...]:
-    """A name and, where it says the room, the same with the room first: "kitchen cabinet"."""
-    name, base = place_words(place.name), place_words(base_name(place))
+    """A name; where it says the room, with the room first; and as the robot says it, in full.
+
+    As in "kitchen cabinet" and in "desk in the bedroom".
+    """
+    name, base, label = map(place_words, (place.name, base_name(place), place.label))
     room = tuple(w for w in name if w not in base)
-    return name, (*room, *base)
+    full = place_words(place.room_label or place.room)
+    labelled = (label, (*label, *full)) if label else ()
+    return name, (*room, *base), (*name, *full), (*base, *full), *labelled
 
 
 def base_name(place: Place) -> str:

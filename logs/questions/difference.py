@@ -72,7 +72,7 @@ def _words(node: NodeState) -> str:
 
 def outcome_aspects(one: Outcome, other: Outcome, *, exact: bool) -> Iterator[Aspect]:
     """What differs between two outcomes, beyond what each run has of its own."""
-    left_out = {*OF_THE_RUN, *(() if exact else ("reason", "candidates"))}
+    left_out = {*OF_THE_RUN, *(() if exact else ("reason", "candidates", "tasks"))}
     names = [field.name for field in fields(Outcome)]
     mine, theirs = ({n: getattr(outcome, n) for n in names} for outcome in (one, other))
     for aspect in _facts(mine, theirs, left_out):

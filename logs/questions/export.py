@@ -143,6 +143,11 @@ def _llm_calls(run: Run) -> Iterator[Row]:
 
 _STRINGS = pa.list_(pa.string())
 _CANDIDATE = {"place": pa.string(), "source": pa.string(), "probability": pa.float64()}
+_PART = {
+    **dict.fromkeys(("kind", "target", "object", "status", "reason", "location"), pa.string()),
+    **dict.fromkeys(("goals", "visited", "things", "among"), _STRINGS),
+}
+_TASK = {**_PART, "parts": pa.list_(pa.struct(_PART))}
 _VERIFIED = {
     "label": pa.string(),
     "accepted": _STRINGS,
@@ -184,6 +189,7 @@ TABLES: dict[str, tuple[Callable[[Run], Iterable[Row]], Columns]] = {
             run_dir=pa.string(),
             model_failure=pa.string(),
             goals=_STRINGS,
+            tasks=pa.list_(pa.struct(_TASK)),
         ),
     ),
     "ticks": (

@@ -6,21 +6,26 @@ was taken, those before it failed and said why, those after it were not needed.
 
 import re
 from collections import defaultdict
-from collections.abc import Callable, Container, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from heapq import merge
 from itertools import islice
+from typing import Any
 
+from executive.events import Heard
 from executive.records import (
     Activity,
+    EventTaken,
     LlmCall,
     NodeShape,
     NodeState,
     Planned,
     Tick,
     TreeShape,
+    Utterance,
     Verified,
 )
+from executive.situation import TAKEN_BACK
 from executive.text import printable
 from executive.types import Scored
 from logs.recording.reader import At, Run
@@ -75,12 +80,25 @@ def why(run: Run) -> list[Decision]:
         Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
         for at in run.mishaps()
     )
-    decisions = list(merge(_Chain(run).decisions(), planned, ordered, key=lambda d: d.time_s))
+    chain = merge(_heard(run), _Chain(run).decisions(), planned, ordered, key=lambda d: d.time_s)
+    decisions = list(chain)
     outcome = run.outcome()
     if outcome is not None:
         ending = outcome.reason or outcome.status
         decisions.append(Decision(outcome.mission_time_s, "outcome", ending, "", outcome.status))
     return decisions
+
+
+def _heard(run: Run) -> Iterator[Decision]:
+    """What the person said unasked, and what the robot answered."""
+    waiting: list[At[Heard]] = []
+    for at in run.records(EventTaken, Utterance):
+        match at.value:
+            case EventTaken(Heard() as heard):
+                waiting.append(At(at.time_s, heard))
+            case Utterance(speaker="robot", text=answer) if waiting:
+                before = waiting.pop(0)
+                yield Decision(before.time_s, f"heard '{before.value.words}'", answer, "person", "")
 
 
 class _Chain:
@@ -102,15 +120,27 @@ class _Chain:
             at = At(thought.time_s, thought.value)
             states = {node.path: node for node in at.value.nodes}
             yield from _visits(before, at, self._searches)
-            earlier = {node.path: node.status for node in before.value.nodes} if before else {}
-            yield from _outermost(
-                self._decision(at, fallback, states)
-                for fallback in self._family.fallbacks
-                if (status := states[fallback.path].status) in ("SUCCESS", "FAILURE")
-                and earlier.get(fallback.path) != status
-            )
+            ended = list(_tasks_ended(before, at))
+            goes_on = bool(ended) and _goes_on(at)
+            if goes_on:  # what is settled in this tick is so for the next task
+                yield from ended
+                self._reasons.clear()
+            anew = goes_on or before is None
+            yield from _outermost(self._settled(at, states, None if anew else before))
+            if not goes_on:
+                yield from ended
             self._remember(states)
             before = at
+
+    def _settled(
+        self, at: At[Tick], states: dict[str, NodeState], before: At[Tick] | None
+    ) -> Iterator[Decision]:
+        """What was settled in a tick: what was not so before."""
+        earlier = {node.path: node.status for node in before.value.nodes} if before else {}
+        for fallback in self._family.fallbacks:
+            status = states[fallback.path].status
+            if status in ("SUCCESS", "FAILURE") and earlier.get(fallback.path) != status:
+                yield self._decision(at, fallback, states)
 
     def _decision(
         self, at: At[Tick], fallback: NodeShape, states: dict[str, NodeState]
@@ -239,9 +269,36 @@ def _visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> 
         if not was.get("found"):
             yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
     elif _runs(searches, before) and place in (was.get("visited") or ()) and is_left:
+        if _is_given_up(was, now):
+            yield Decision(at.time_s, f"look at {place}", "given up", "person", tip)
+            return
         why_not = (now.get("unseen") or {}).get(place)
         seen = f"not all of it seen: {why_not}" if why_not else "not seen there"
         yield Decision(at.time_s, f"look at {place}", seen, "eyes", tip)
+
+
+def _is_given_up(was: Mapping[str, Any], now: Mapping[str, Any]) -> bool:
+    """Whether the task was, for what the person said meanwhile."""
+    if len(now.get("ended") or ()) > len(was.get("ended") or ()):
+        return bool(now["ended"][-1]["reason"] == TAKEN_BACK)
+    return now.get("command") != was.get("command") or not now.get("visited")
+
+
+def _tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
+    """How each task ended that has ended since; nothing if there was but one."""
+    ended = at.value.situation.get("ended") or ()
+    if len(ended) < 2 and not _goes_on(at):
+        return
+    known = len(before.value.situation.get("ended") or ()) if before else 0
+    for number, task in enumerate(ended[known:], start=known + 1):
+        what = f"task {number}: {task['kind'].replace('_', ' ')} {task['target']}".strip()
+        answer = f"{task['status'].replace('_', ' ')}: {task['reason']}"
+        yield Decision(at.time_s, what, answer, "", at.value.tip)
+
+
+def _goes_on(at: At[Tick]) -> bool:
+    """Whether the mission did not end with this tick."""
+    return any(node.status == "RUNNING" for node in at.value.nodes)
 
 
 def _runs(paths: Container[str], at: At[Tick]) -> bool:

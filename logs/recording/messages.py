@@ -19,6 +19,7 @@ from executive.types import (
     RankRequest,
     Replied,
     Scored,
+    TaskOutcome,
     Usage,
 )
 from logs.recording.schema import STATUS
@@ -273,14 +274,20 @@ def finished_to_fields(finished: Finished) -> dict[str, Any]:
             {"place": c.place, "source": c.source, "probability": c.probability}
             for c in outcome.candidates
         ],
+        "tasks": list(map(_task_to_fields, outcome.tasks)),
     }
+
+
+def _task_to_fields(task: TaskOutcome) -> dict[str, Any]:
+    fields = {name: getattr(task, name) for name in TaskOutcome.__slots__}
+    return {**fields, "parts": list(map(_task_to_fields, task.parts))}
 
 
 def finished_from_message(message: Any) -> Finished:
     """The end of an `/outcome` message."""
 
     def optional(name: str) -> str | None:
-        return getattr(message, name) if message.HasField(name) else None
+        return _optional(message, name)
 
     kind = optional("kind")
     outcome = Outcome(
@@ -305,5 +312,26 @@ def finished_from_message(message: Any) -> Finished:
         run_dir=optional("run_dir"),
         model_failure=message.model_failure,
         goals=tuple(message.goals),
+        tasks=tuple(map(_task, message.tasks)),
     )
     return Finished(outcome)
+
+
+def _task(message: Any) -> TaskOutcome:
+    return TaskOutcome(
+        kind=CommandKind(message.kind),
+        target=message.target,
+        object=_optional(message, "object"),
+        status=MissionStatus(message.status),
+        reason=message.reason,
+        location=_optional(message, "location"),
+        goals=tuple(message.goals),
+        visited=tuple(message.visited),
+        things=tuple(message.things),
+        among=tuple(message.among),
+        parts=tuple(map(_task, message.parts)),
+    )
+
+
+def _optional(message: Any, name: str) -> str | None:
+    return getattr(message, name) if message.HasField(name) else None

@@ -128,6 +128,19 @@ EVENT: Definitions = {
 
 OUTCOME: Definitions = {
     "Candidate": {"place": "string", "source": "string", "probability": "optional double"},
+    "TaskOutcome": {
+        "kind": "string",
+        "target": "string",
+        "object": "optional string",
+        "status": "string",
+        "reason": "string",
+        "location": "optional string",
+        "goals": "repeated string",
+        "visited": "repeated string",
+        "things": "repeated string",
+        "among": "repeated string",
+        "parts": "repeated TaskOutcome",
+    },
     "Outcome": {
         **STAMPED,
         "command": "string",
@@ -148,6 +161,7 @@ OUTCOME: Definitions = {
         "run_dir": "optional string",
         "model_failure": "string",
         "goals": "repeated string",
+        "tasks": "repeated TaskOutcome",
     },
 }
 

@@ -43,15 +43,14 @@ def test_a_held_thing_is_said_to_be_held(session: Session, words: str) -> None:
     assert outcome.mission_time_s == 0.0
 
 
-def test_with_nobody_to_ask_a_full_hand_takes_nothing_else_and_does_not_drive_for_it(
-    tmp_path: Path,
-) -> None:
+def test_what_is_held_is_put_back_for_another_thing_with_nobody_to_ask(tmp_path: Path) -> None:
     with serving(tmp_path, recorded=False, user="none") as session:
+        place = session.world.resting_place("hammer")
         session.run("Take the hammer")
         outcome = session.run("Bring the power_drill")
-        assert (outcome.status, outcome.visited) == (MissionStatus.NOT_DONE, ())
-        assert outcome.reason == "my hand holds the hammer; ask me first to bring that"
-        assert session.run("Find the power_drill").status == MissionStatus.DONE
+        assert (outcome.status, outcome.object) == (MissionStatus.DONE, "power_drill")
+        assert "I put the hammer back on the shelf in the lobby first." in session.parts.user.told
+        assert session.world.resting_place("hammer") == place
 
 
 def test_a_thing_at_the_delivery_place_stays_there(session: Session) -> None:

@@ -22,10 +22,6 @@ def said(run: Run) -> list[str]:
         ("Leave the mug alone", "Then I will not."),
         ("Bring no apple", "I do nothing: I hear 'no', and do not understand the rest."),
         ("Throw the apple", "I cannot throw."),
-        (
-            "Take the mug. Then bring the apple.",
-            "I can do one thing at a time so far; tell me the first, then the next.",
-        ),
     ],
 )
 def test_nothing_is_done_whoever_answers_whatever_is_asked(
@@ -40,11 +36,7 @@ def test_nothing_is_done_whoever_answers_whatever_is_asked(
 @pytest.mark.parametrize(
     ("words", "cannot"),
     [
-        ("Bring two apples", "I cannot bring several things at once so far"),
-        ("Bring the mug if there is one", "I cannot do things on a condition so far"),
-        ("What is on the desk?", "I cannot tell what is there so far"),
         ("Where did you put the mug?", "I cannot tell you that so far"),
-        ("The mug is on the sofa", "I cannot take note of that so far"),
     ],
 )
 def test_what_cannot_be_done_yet_is_told(words: str, cannot: str) -> None:
@@ -61,7 +53,7 @@ def test_what_is_said_not_to_be_meant_is_neither_offered_nor_taken() -> None:
 
 def test_a_slip_in_the_verb_is_asked_about_with_all_that_would_be_done() -> None:
     run = run_mission("Bing me an aple", llm=False, answers=["yes"])
-    assert said(run)[0] == "Do you mean: bring apple?"
+    assert said(run)[0] == "Do you mean: bring the apple?"
     assert (run.outcome.kind, run.outcome.object) == (CommandKind.BRING, "apple")
 
 

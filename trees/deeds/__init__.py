@@ -1,6 +1,9 @@
 """What the robot can do with a thing, a file a verb; a new one is entered here."""
 
 from trees.deeds.bring import Bring
+from trees.deeds.check import CheckWhether
+from trees.deeds.clear import Clear
+from trees.deeds.count import Count
 from trees.deeds.deed import Deed
 from trees.deeds.find import Find
 from trees.deeds.go import Go
@@ -8,8 +11,12 @@ from trees.deeds.put import Put
 from trees.deeds.put_back import PutBack
 from trees.deeds.put_down import PutDown
 from trees.deeds.take import Take
+from trees.deeds.tell import TellWhatIsThere
 
-DEEDS: tuple[Deed, ...] = (Bring(), Find(), Take(), PutDown(), Put(), PutBack(), Go())
+DEEDS: tuple[Deed, ...] = (
+    *(Bring(), Find(), Take(), PutDown(), Put(), PutBack(), Go()),
+    *(Count(), TellWhatIsThere(), CheckWhether(), Clear()),
+)
 """In the order in which the tree has them."""
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
 
-from executive.types import DELIVERY, FLOOR, CommandKind, Outcome
+from executive.types import DELIVERY, FLOOR, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.deeds.fall import SayItFell, pick_up_again
@@ -18,6 +18,7 @@ class Bring(Deed):
     """As in "Bring me the mug"."""
 
     kind = CommandKind.BRING
+    did = "brought"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
         """It may be on the delivery table already."""
@@ -26,11 +27,11 @@ class Bring(Deed):
             "is there already",
             asked_to(context, self.kind),
             Check("at the delivery place", context, lambda: situation.search.is_delivered),
-            Report("report", context, "The {object} is here already, on the delivery table."),
+            Report("report", context, "{The_object} {is_} here already, on the delivery table."),
         )
         yield sequence("bring", asked_to(context, self.kind), deliver(context), say_where(context))
 
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It is on the delivery table."""
         return whereabouts == DELIVERY
 
@@ -45,15 +46,15 @@ def say_where(context: MissionContext) -> Behaviour:
             Report(
                 "report",
                 context,
-                "I put the {object} on {surface}; I could not put it on the delivery table: {why}.",
+                "I put {the_object} {put}; I could not put {it} on the delivery table: {why}.",
             ),
         ),
         sequence(
             "from there",
             found_at_a_place(context),
-            Report("report", context, "Here is the {object} from {place}."),
+            Report("report", context, "Here {is_} {the_object} from {place}."),
         ),
-        Report("report", context, "Here is the {object}."),
+        Report("report", context, "Here {is_} {the_object}."),
     )
 
 

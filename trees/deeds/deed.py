@@ -1,13 +1,13 @@
 """What there is to know of a verb: a template for one's own, in `docs/examples/own_verb.md`."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.situation import Situation
-from executive.types import CommandKind, Meaning, MissionStatus, Outcome
+from executive.types import CommandKind, Meaning, MissionStatus, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.nodes import Check, Step
 
@@ -16,6 +16,8 @@ class Deed(ABC):
     """How the robot does what a verb asks for. It holds nothing: one serves all missions."""
 
     kind: CommandKind
+    did: str = "did"
+    """As it is told when it was done to several things: "I brought two of three"."""
 
     @abstractmethod
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
@@ -27,7 +29,7 @@ class Deed(ABC):
         """
 
     @abstractmethod
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """Whether it was done, where the robot says so: for campaigns, which know the truth.
 
         Args:
@@ -35,7 +37,11 @@ class Deed(ABC):
             whereabouts: the furniture that the thing is on in the end, `HAND`, or nothing.
         """
 
-    def how_far(self, situation: Situation, why: str) -> str:
+    def is_true_of(self, outcome: Outcome | TaskOutcome, where: Callable[[str], str]) -> bool:
+        """The same, for deeds about more than one thing: `where` tells the `whereabouts` of any."""
+        return self.is_true(outcome, where(outcome.object or ""))
+
+    def how_far(self, context: MissionContext, why: str) -> str:
         """What came of it although not all was done, which `why` tells; as a clause, too."""
         return why
 

@@ -6,8 +6,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.situation import table
-from executive.types import PERSON, CommandKind, Outcome, Result, Succeeded
+from executive.types import PERSON, CommandKind, Outcome, Result, Succeeded, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Check, FirstOf, fallback, sequence
@@ -45,7 +44,7 @@ class Go(Deed):
             Conclude("done", context),
         )
 
-    def is_true(self, outcome: Outcome, whereabouts: str) -> bool:
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It got there last, as far as it tells: the truth of things does not say."""
         return outcome.goals == (PERSON,) or outcome.visited[-1:] in [(g,) for g in outcome.goals]
 
@@ -71,4 +70,5 @@ class GoThere(DriveToGoal):
     def failed(self, result: Result) -> Status:
         """Say where to."""
         super().failed(result)
-        return self.fail(f"I could not get to {table(self.situation.request.goal)}: {self.reason}")
+        there = self.context.say.the(self.situation.request.goal)
+        return self.fail(f"I could not get to {there}: {self.reason}")

@@ -8,4 +8,5 @@ class PutBack(Put):
     """As in "Put the mug back". Where that is, `trees/places.py` finds out."""
 
     kind = CommandKind.PUT_BACK
-    report = "I put {the_object} back on {surface}."
+    did = "put back"
+    report = "I put {the_object} back {put}."

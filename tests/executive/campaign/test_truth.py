@@ -25,28 +25,28 @@ def test_what_was_done_is_completed_where_each_command_wants_the_thing(
 ) -> None:
     run = run_mission(words, llm=False)
     assert whereabouts("apple", run.world) == truth
-    assert completed(run.outcome, truth)
-    assert not completed(run.outcome, "bed")
-    assert not completed(run.outcome, "")
+    assert completed(run.outcome, lambda name: truth)
+    assert not completed(run.outcome, lambda name: "bed")
+    assert not completed(run.outcome, lambda name: "")
 
 
 def test_a_robot_that_only_says_so_has_completed_nothing() -> None:
     run = run_mission("Find an apple", llm=False)
-    assert not completed(replace(run.outcome, location="sofa"), "dining_table")
-    assert not completed(replace(run.outcome, visited=("sofa",)), "dining_table")
+    assert not completed(replace(run.outcome, location="sofa"), lambda name: "dining_table")
+    assert not completed(replace(run.outcome, visited=("sofa",)), lambda name: "dining_table")
 
 
 @pytest.mark.parametrize(("truth", "done"), [("sofa", True), ("hand", False), ("", False)])
 def test_what_was_put_down_is_on_some_furniture(truth: str, done: bool) -> None:
     outcome = replace(run_mission("Find an apple", llm=False).outcome, kind=CommandKind.PUT_DOWN)
-    assert completed(outcome, truth) == done
+    assert completed(outcome, lambda name: truth) == done
 
 
 @pytest.mark.parametrize("kind", [Pick, PutDown])
 def test_a_robot_that_says_that_it_failed_has_completed_nothing(kind: type) -> None:
     fault = lambda goal: "the hand is stuck" if isinstance(goal, kind) else None  # noqa: E731
     run = run_mission("Bring an apple", llm=False, fault=fault)
-    assert not completed(run.outcome, "delivery")
+    assert not completed(run.outcome, lambda name: "delivery")
 
 
 def test_the_shortest_way_leads_through_doors_and_is_the_same_back() -> None:

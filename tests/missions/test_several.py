@@ -1,0 +1,135 @@
+"""Several things in one task, one of several, deeds on a condition, and all that is somewhere."""
+
+from pathlib import Path
+
+import pytest
+from replays import recorded
+
+from executive.campaign.truth import completed
+from executive.replay.replaying import replay
+from executive.testing.bench import Run, run_mission
+from executive.types import DriveTo, Goal, MissionStatus
+from kb.facts import FactStore
+from logs.recording.reader import Run as Recorded
+
+DONE, NOT_DONE = MissionStatus.DONE, MissionStatus.NOT_DONE
+
+
+def run(words: str, **more: object) -> Run:
+    return run_mission(words, llm=False, facts=FactStore(), **more)  # type: ignore[arg-type]
+
+
+def on(run: Run, place: str) -> set[str]:
+    return {name for name, at in run.world.things.items() if at == place}
+
+
+def truly_done(run: Run) -> bool:
+    return completed(run.outcome, lambda name: run.world.resting_place(name) or "")
+
+
+def test_as_many_as_were_asked_for_are_brought() -> None:
+    two = run("Bring two fruits")
+    assert two.outcome.reason == "I brought both: the apple and the banana."
+    assert (two.outcome.status, on(two, "delivery")) == (DONE, {"apple", "banana"})
+    assert truly_done(two)
+
+
+def test_fewer_than_were_asked_for_are_told_and_are_not_done() -> None:
+    two = run("Bring two apples")
+    assert (two.outcome.status, on(two, "delivery")) == (NOT_DONE, {"apple"})
+    assert two.outcome.reason == "I brought one of two: the apple; I know of no more."
+
+
+def test_one_that_fails_is_made_up_for_by_another_of_its_kind() -> None:
+    def stuck(goal: Goal) -> str | None:
+        return "it is locked" if goal == DriveTo("dining_table") else None
+
+    two = run("Bring two fruits", fault=stuck)
+    assert two.outcome.status == DONE
+    assert len(on(two, "delivery")) == 2
+
+
+def test_all_of_a_kind_are_brought_but_for_those_that_are_left_out() -> None:
+    all_ = run("Bring all the fruit but the pear")
+    assert on(all_, "delivery") == {"apple", "banana", "orange", "peach", "strawberry"}
+    assert (all_.outcome.status, len(all_.outcome.tasks), len(all_.outcome.tasks[0].parts)) == (
+        DONE,
+        1,
+        5,
+    )
+
+
+def test_all_that_is_seen_at_a_place_is_meant_if_one_is_named() -> None:
+    here = run("Put everything from the coffee table on the sofa")
+    assert (on(here, "sofa"), on(here, "coffee_table")) == ({"mug", "pudding_box"}, set())
+
+
+@pytest.mark.parametrize("words", ["Bring either the mug or the pear", "Bring the pear or the mug"])
+def test_of_two_things_of_which_one_is_enough_the_nearest_is_brought(words: str) -> None:
+    one = run(words)
+    assert (one.outcome.status, on(one, "delivery")) == (DONE, {"mug"})
+
+
+def test_if_one_of_two_things_fails_the_other_is_brought() -> None:
+    one = run("Bring the unicorn or the mug")
+    assert (one.outcome.status, on(one, "delivery")) == (DONE, {"mug"})
+
+
+def test_one_hand_takes_one_thing() -> None:
+    two = run("Take two fruits")
+    assert two.outcome.status == NOT_DONE
+    assert two.outcome.reason == "I took one of two: the apple; I can hold one thing at a time."
+
+
+@pytest.mark.parametrize(
+    ("words", "brought"),
+    [
+        ("Bring the mug from the coffee table if there is one, otherwise the pear", "mug"),
+        ("Bring the mug from the desk if there is one, otherwise the pear", "pear"),
+        ("Bring a unicorn if there is one, otherwise the pear", "pear"),
+        ("If there is a fruit on the dining table, bring it, otherwise bring the mug", "apple"),
+        ("If there is a tool on the dining table, bring it, otherwise bring the mug", "mug"),
+    ],
+)
+def test_on_a_condition_it_is_this_or_that(words: str, brought: str) -> None:
+    either = run(words)
+    assert (either.outcome.status, on(either, "delivery")) == (DONE, {brought})
+
+
+def test_if_there_is_none_and_nothing_else_is_asked_for_nothing_is_done() -> None:
+    none = run("If there is a tool on the dining table, bring it")
+    assert none.outcome.status == DONE
+    assert none.outcome.reason == "No, I see no tool on the dining table."
+    assert none.world.things == none.world.home.placement
+
+
+def test_any_that_is_there_will_do_for_one_of_a_kind_at_a_place() -> None:
+    one = run("Bring a fruit from the dining table")
+    assert (one.outcome.object, one.outcome.inquiries) == ("apple", 0)
+
+
+def test_of_several_that_are_there_a_certain_one_is_asked_for() -> None:
+    one = run("Bring the fruit from the dining table", answers=["the banana"])
+    assert on(one, "delivery") == {"banana"}
+    [asked] = one.user.asked  # type: ignore[attr-defined]
+    assert asked.options == ("apple", "banana", "strawberry")
+
+
+def test_furniture_is_cleared_of_all_that_is_seen_on_it() -> None:
+    table = run("Clear the coffee table")
+    assert (table.outcome.status, on(table, "coffee_table")) == (DONE, set())
+    assert table.outcome.reason == "I cleared away both: the mug and the pudding box."
+    assert truly_done(table)
+
+
+def test_what_belongs_nowhere_else_is_asked_about_when_furniture_is_cleared() -> None:
+    shelf = run("Clear the shelf", answers=["on the desk"] * 9)
+    assert {"hammer", "power_drill", "tennis_ball"} <= on(shelf, "desk")
+
+
+def test_a_recording_has_the_parts_and_replays(tmp_path: Path) -> None:
+    folder = recorded(tmp_path, "Bring two fruits and find the mug", llm=False)
+    outcome = Recorded(folder).outcome()
+    assert outcome
+    assert [len(task.parts) for task in outcome.tasks] == [2, 0]
+    assert replay(folder).parting is None

@@ -1,0 +1,81 @@
+"""What questions that are answered by looking have in common: look, come back, answer."""
+
+from abc import abstractmethod
+from collections.abc import Callable, Iterable
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.situation import Situation
+from executive.types import PERSON, Outcome, TaskOutcome
+from trees.context import MissionContext
+from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.nodes import Step, sequence
+from trees.robot import DriveBack
+from trees.survey import survey
+from trees.telling import tell
+
+
+class Answer(Deed):
+    """A question about what is somewhere. Only what was seen is told, and what could not be."""
+
+    def ways(self, context: MissionContext) -> Iterable[Behaviour]:
+        """Nothing is touched for this."""
+        yield sequence(
+            str(self.kind),
+            asked_to(context, self.kind),
+            survey(context, lambda: self.is_enough(context.situation)),
+            DriveBack("come back", context, PERSON),
+            Tell("answer", context, self.answer),
+            Conclude("done", context),
+        )
+
+    def is_enough(self, situation: Situation) -> bool:
+        """Whether the answer is known before all places were looked at."""
+        return False
+
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
+        """One thing does not tell."""
+        return False
+
+    def is_true_of(self, outcome: Outcome | TaskOutcome, where: Callable[[str], str]) -> bool:
+        """The things are where the robot has looked; and no others that it was asked for."""
+        if isinstance(outcome, Outcome):
+            [outcome] = outcome.tasks
+        there = {name for name in outcome.among if where(name) in outcome.visited}
+        named = set(outcome.things)
+        return self.agrees(named, there) and all(where(name) in outcome.visited for name in named)
+
+    def agrees(self, named: set[str], there: set[str]) -> bool:
+        """Whether the things that were named answer for those that are there."""
+        return not there - named
+
+    @abstractmethod
+    def answer(self, context: MissionContext) -> tuple[str, str]:
+        """A sentence that answers, and why it is no answer to what was asked; empty if it is."""
+
+
+class Tell(Step):
+    """Tells the answer; fails if it is none, or may be wrong because not all was seen.
+
+    Reads survey.seen and search.looks; writes ending.reason.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        context: MissionContext,
+        answer: Callable[[MissionContext], tuple[str, str]],
+    ) -> None:
+        """`answer` makes it of what was seen."""
+        super().__init__(name, context)
+        self._answer = answer
+
+    def update(self) -> Status:
+        """What was seen is told in either case."""
+        said, why_not = self._answer(self.context)
+        if why_not:
+            return self.fail(f"{said.rstrip('.')}; {why_not}")
+        self.situation.ending.tell(said)
+        tell(self.context, said)
+        return self.succeed(said)

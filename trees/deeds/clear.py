@@ -1,0 +1,78 @@
+"""Clear furniture: see what is on it, and put each thing where it belongs, or where one says."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.types import CommandKind, Outcome, TaskOutcome
+from trees.context import MissionContext
+from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.nodes import Step, fallback, sequence
+from trees.survey import not_seen, nothing_there, survey
+from trees.telling import tell
+
+
+class Clear(Deed):
+    """As in "Clear the coffee table"."""
+
+    kind = CommandKind.CLEAR
+    did = "cleared away"
+
+    def ways(self, context: MissionContext) -> Iterable[Behaviour]:
+        """Each thing that is seen there becomes a task of its own."""
+        yield sequence(
+            "clear",
+            asked_to(context, self.kind),
+            survey(context),
+            fallback(
+                "clear it",
+                PutEachAway("each thing away", context),
+                sequence(
+                    "clear already", NothingThere("is clear", context), Conclude("done", context)
+                ),
+            ),
+        )
+
+    def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
+        """What was on it is somewhere else: the truth of its parts says so."""
+        return True
+
+
+class PutEachAway(Step):
+    """Succeeds if there are things; each is to be put where it usually is, but not here.
+
+    Reads request.command and survey.seen; writes agenda.wholes and agenda.tasks.
+    """
+
+    def update(self) -> Status:
+        """Of what has no other place, the person is asked where to put it."""
+        command, found = self.situation.request.command, self.situation.survey.found
+        assert command
+        if not found:
+            return self.fail(nothing_there(self.context))
+        parts = []
+        for name, here in found.items():
+            usual = self.context.knowledge.usual_places(name)
+            goal = command.goal or " or ".join(place for place in usual if place != here)
+            part = replace(command, kind=CommandKind.PUT, target=name, source=here, goal=goal)
+            parts.append(replace(part, exceptions=(), purpose=""))
+        self.situation.agenda.split(command, parts, len(parts))
+        return self.succeed(", ".join(found))
+
+
+class NothingThere(Step):
+    """Succeeds if it is clear already, surely.
+
+    Reads survey.seen and search.looks; writes ending.reason.
+    """
+
+    def update(self) -> Status:
+        """Say so."""
+        if why := not_seen(self.context):
+            return self.fail(f"{nothing_there(self.context)}; {why}")
+        said = f"{nothing_there(self.context)}; it is clear."
+        self.situation.ending.tell(said)
+        tell(self.context, said)
+        return self.succeed(said)

@@ -1,0 +1,92 @@
+"""Several things in one task, one of several, or a deed on a condition: done part by part."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.types import ALL, Command
+from trees.context import MissionContext
+from trees.meant import things_meant
+from trees.nodes import Check, EachOf, Step, fallback, sequence
+from trees.survey import not_seen, nothing_there, survey
+from trees.unknown import nearest, unresolved
+from trees.wholes import without_condition
+
+
+def several(context: MissionContext) -> Behaviour:
+    """A task with more than one thing -> the parts of it, on the agenda.
+
+    Where a place is named, the robot goes there to see which things there are.
+    """
+    request = context.situation.request
+
+    def somewhere() -> Sequence[str]:
+        command = request.command
+        named = command and command.source and not (command.conditional or command.among)
+        return [command.source] if command and named else []
+
+    return sequence(
+        "several",
+        Check(
+            "several things", context, lambda: bool(request.command and request.command.is_plural)
+        ),
+        EachOf("if it is somewhere", somewhere, lambda _: None, survey(context)),
+        fallback(
+            "in parts",
+            OnACondition("on a condition", context),
+            EachThing("each thing", context),
+        ),
+    )
+
+
+class OnACondition(Step):
+    """Succeeds if it is a deed on a condition; that is looked into first.
+
+    Reads request.command; writes agenda.wholes and agenda.tasks.
+    """
+
+    def update(self) -> Status:
+        """Without a place where to look first, trying to do it shows whether there is one."""
+        command = self.situation.request.command
+        assert command
+        if not command.conditional:
+            return Status.FAILURE
+        first = command.sought or without_condition(command)
+        self.situation.agenda.split(command, (first,), wanted=1)
+        return self.succeed(first.kind)
+
+
+class EachThing(Step):
+    """Succeeds if there are such things; as many of them as are wanted become tasks.
+
+    Reads request.command and survey.seen; writes agenda.wholes and agenda.tasks.
+    """
+
+    def update(self) -> Status:
+        """Of names that were given, each; of a class, each of its things, or those seen."""
+        command, found = self.situation.request.command, self.situation.survey.found
+        assert command
+        if self.situation.survey.seen:
+            why = not_seen(self.context)
+            if not found:
+                return self.fail("; ".join(filter(None, (nothing_there(self.context), why))))
+            parts = [part_of(command, name, place) for name, place in found.items()]
+        elif command.among:
+            parts = [part_of(command, name, command.source) for name in command.among]
+        else:
+            parts = [part_of(command, n, "") for n in things_meant(self.context, command)]
+        if not parts:
+            near = nearest(self.context, command.target)
+            return self.fail(unresolved(self.context, command.target, near))
+        wanted = 1 if command.among else len(parts) if command.number == ALL else command.number
+        self.situation.agenda.split(command, parts, min(wanted, len(parts)))
+        return self.succeed(", ".join(part.target for part in parts))
+
+
+def part_of(command: Command, name: str, place: str) -> Command:
+    """The same deed with one thing, at a place if one is given."""
+    return replace(
+        command, target=name, source=place, purpose="", exceptions=(), number=0, among=()
+    )

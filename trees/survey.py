@@ -1,0 +1,228 @@
+"""Look around at places: what is there? For questions, and for tasks with what is somewhere."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.language.wording import Wording
+from executive.records import Activity
+from executive.situation import candidates_from
+from executive.types import Candidate, Detection, Result, Saw, Source
+from trees.context import MissionContext
+from trees.meant import listed, robot_at, things_meant
+from trees.nodes import EachOf, Optionally, Step, sequence
+from trees.person import is_place, places_in
+from trees.robot import LookAtCandidate, SeeTarget, Visit
+from trees.telling import tell
+from trees.unknown import nearest, unresolved
+
+
+def survey(context: MissionContext, enough: Callable[[], bool] = lambda: False) -> Behaviour:
+    """Words for things and places -> `situation.survey`, until it is `enough` or all was seen.
+
+    A place that cannot be reached is left out; it fails if none could be looked at.
+    """
+    situation = context.situation
+
+    def choose(candidate: Candidate) -> None:
+        situation.search.candidate = candidate
+
+    return sequence(
+        "look around",
+        KnowsWhatToLookFor("knows what", context),
+        KnowsWhereToLook("knows where", context),
+        EachOf(
+            "each place",
+            lambda: situation.search.candidates,
+            choose,
+            EachOf(
+                "unless it is enough",
+                lambda: [] if enough() else [None],
+                lambda _: None,
+                look_at_all(context),
+            ),
+        ),
+        SawSomething("saw some place", context),
+    )
+
+
+def look_at_all(context: MissionContext) -> Behaviour:
+    """Go to the place at hand and see all that is there, if that can be."""
+    situation = context.situation
+
+    def views() -> range:
+        assert situation.search.candidate
+        place = situation.search.candidate.place
+        parts = context.robot.views(place)
+        situation.search.looks.begin(place, parts)
+        situation.survey.look_at(place)
+        return range(parts)
+
+    def choose(view: int) -> None:
+        situation.search.view = view
+
+    return Optionally(
+        "if it can be seen",
+        situation,
+        sequence(
+            "look at all of it",
+            Visit("drive", context),
+            EachOf(
+                "each view",
+                views,
+                choose,
+                sequence("glance", LookAtCandidate("aim", context), SeeAll("see", context)),
+            ),
+            RememberWhatIsGone("remember", context),
+            activity=Activity.SEARCHING,
+        ),
+    )
+
+
+class SeeAll(SeeTarget):
+    """Takes a picture and keeps all that is surely in it.
+
+    Reads search.candidate and search.view; writes survey.seen and search.looks.
+    """
+
+    def ended(self, result: Result) -> Status:
+        """What is on furniture behind this place counts as there."""
+        search, survey = self.situation.search, self.situation.survey
+        assert search.candidate
+        if not isinstance(result, Saw):
+            return self.failed(result)
+        self._remember(result.detections)
+        for seen in result.detections:
+            if seen.confidence >= self.context.parameters.min_confidence:
+                survey.see(self._where(seen).place, seen.label)
+                lengths = lengths_of(seen)
+                survey.lengths[seen.label] = max(lengths, survey.lengths.get(seen.label, ()))
+        search.looks.without(search.candidate.place, search.view)
+        return self.succeed(", ".join(survey.seen[search.candidate.place]))
+
+
+class RememberWhatIsGone(Step):
+    """What was believed to be here and was not seen is here no more.
+
+    Reads search.candidate, search.looks and survey.seen.
+    """
+
+    def update(self) -> Status:
+        """Only what was looked at can be known."""
+        search, seen = self.situation.search, self.situation.survey.seen
+        assert search.candidate
+        place, facts = search.candidate.place, self.context.facts
+        if search.looks.all_without(place):
+            believed = [name for name, places in facts.beliefs().items() if place in places]
+            for name in believed:
+                if name not in seen[place]:
+                    facts.missed(name, place)
+        return Status.SUCCESS
+
+
+class KnowsWhatToLookFor(Step):
+    """Succeeds if the words name known things; with none named, it is about everything.
+
+    Reads request.command; writes survey.about.
+    """
+
+    def update(self) -> Status:
+        """Look the words up."""
+        command = self.situation.request.command
+        assert command
+        if not command.target:
+            return self.succeed("everything")
+        about = things_meant(self.context, command)
+        if not about:
+            near = nearest(self.context, command.target)
+            return self.fail(unresolved(self.context, command.target, near))
+        self.situation.survey.about = about
+        return self.succeed(", ".join(about))
+
+
+class KnowsWhereToLook(Step):
+    """Succeeds if the home has the places that the words name; with none named, it is everywhere.
+
+    Reads request.command and survey.about; writes search.candidates.
+    """
+
+    source = Source.USER
+
+    def update(self) -> Status:
+        """The likeliest first, of those the nearest."""
+        context, command = self.context, self.situation.request.command
+        assert command
+        places = places_in(context, command.source) if command.source else ()
+        if command.source and not (places and is_place(context, command.source)):
+            return self.fail(f"I know no '{context.as_said(command.source)}'")
+        everywhere = tuple(place.name for place in context.knowledge.places())
+        likely = [
+            place
+            for name in self.situation.survey.about or ()
+            for place in (*context.facts.places_of(name), *context.knowledge.usual_places(name))
+        ]
+        here = robot_at(self.situation)
+        order = sorted(
+            places or everywhere, key=lambda p: (p not in likely, context.distance(here, p))
+        )
+        self.situation.search.candidates = candidates_from(order, Source.USER)
+        where = listed(context.say.at_each(order)) if places else "everywhere"
+        tell(context, f"I look {where}.")
+        return self.succeed(", ".join(order))
+
+
+class SawSomething(Step):
+    """Fails if no place could be looked at.
+
+    Reads survey.seen and search.looks.
+    """
+
+    def update(self) -> Status:
+        """Say why."""
+        if self.situation.survey.seen:
+            return Status.SUCCESS
+        return self.fail(not_seen(self.context))
+
+
+def not_seen(context: MissionContext) -> str:
+    """Which places, or parts of them, were not seen, and why, as a clause; empty if all was."""
+    looks, say = context.situation.search.looks, context.say
+    reached = [p for p in context.situation.survey.seen if p not in looks.unreached]
+    clauses = [f"I could not get to {say.the(p)}: {why}" for p, why in looks.unreached.items()]
+    for place in reached:
+        if not looks.all_without(place):
+            why = looks.unseen.get(place, "")
+            clauses.append(f"I did not see all of {say.the(place)}" + f": {why}" * bool(why))
+    return "; ".join(clauses)
+
+
+def found_where(found: Mapping[str, str], say: Wording) -> str:
+    """Things and where they are: "the apple and the pear on the desk, the mug on the sofa"."""
+    places = dict.fromkeys(found.values())
+    groups = (
+        f"{listed([say.the(name) for name, at in found.items() if at == place])} {say.at(place)}"
+        for place in places
+    )
+    return listed(tuple(groups)) if len(places) < 3 else ", ".join(groups)
+
+
+def nothing_there(context: MissionContext) -> str:
+    """That none of what was asked for is where the robot has looked, as a clause."""
+    command = context.situation.request.command
+    assert command
+    what = f"no {context.say.words(command.target)}" if command.target else "nothing"
+    places = tuple(context.situation.survey.seen)
+    where = context.say.at(places[0]) if len(places) == 1 else "there"
+    return f"I see {what} {where if command.source else 'anywhere'}"
+
+
+def lengths_of(seen: Detection) -> tuple[float, ...]:
+    """How long a thing is along its own axes, by its visible surface (m); empty if not located."""
+    if len(seen.points) < 3:
+        return ()
+    centred = seen.points - seen.points.mean(axis=0)
+    _, _, axes = np.linalg.svd(centred, full_matrices=False)
+    spans = np.ptp(centred @ axes.T, axis=0)
+    return tuple(sorted((float(span) for span in spans), reverse=True))

@@ -1,0 +1,109 @@
+"""A task that is done in parts: when it is settled, and what is told of it."""
+
+from dataclasses import replace
+
+from executive.situation import Whole
+from executive.types import Command, CommandKind, MissionStatus, TaskOutcome
+from trees.context import MissionContext
+from trees.deeds import deed_of
+from trees.meant import listed
+from trees.telling import tell
+
+NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+
+
+def settle(context: MissionContext) -> bool:
+    """End the task that is done in parts, if it is settled, and tell what came of it."""
+    agenda = context.situation.agenda
+    if not agenda.wholes:
+        return False
+    whole = agenda.wholes[-1]
+    if whole.command.conditional:
+        decide(context, whole)
+    if agenda.has_parts and (whole.command.conditional or len(whole.done) < most(whole)):
+        return False
+    agenda.drop_parts()
+    agenda.wholes.pop()
+    agenda.end(outcome_of(context, whole))
+    return True
+
+
+def most(whole: Whole) -> int:
+    """How many parts can be done: one hand takes one thing."""
+    return 1 if whole.command.kind == CommandKind.TAKE else whole.wanted
+
+
+def decide(context: MissionContext, whole: Whole) -> None:
+    """Of a condition: what follows from the part that has ended."""
+    agenda, command = context.situation.agenda, whole.command
+    if len(whole.parts) != 1 or agenda.has_parts:
+        return
+    [last] = whole.parts
+    if command.sought:
+        holds = bool(last.things) if last.status == MissionStatus.DONE else None
+    else:
+        holds = last.status == MissionStatus.DONE or last.location is not None
+    if holds and command.sought:
+        agenda.go_on_with(((what_follows(command, last),),))
+    elif holds is False and command.unless:
+        agenda.go_on_with(((command.unless,),))
+
+
+def what_follows(command: Command, answer: TaskOutcome) -> Command:
+    """The deed, with the thing that was seen, if it was about such a thing."""
+    deed = without_condition(command)
+    if command.sought and deed.target == command.sought.target:
+        return replace(deed, target=answer.things[0], purpose="", number=0)
+    return deed
+
+
+def without_condition(command: Command) -> Command:
+    """The deed itself."""
+    return replace(command, conditional=False, sought=None, unless=None)
+
+
+def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
+    """What came of the whole; told, if its parts alone do not tell it."""
+    command, last = whole.command, whole.parts[-1]
+    if command.conditional or command.among:
+        done = last.status == MissionStatus.DONE
+        reason = last.reason if done else sentences(whole.parts)
+    else:
+        done = len(whole.done) >= whole.wanted and whole.wanted >= command.number
+        reason = how_many(context, whole)
+        tell(context, reason)
+    return TaskOutcome(
+        kind=command.kind,
+        target=command.target,
+        object=last.object,
+        status=MissionStatus.DONE if done else MissionStatus.NOT_DONE,
+        reason=reason,
+        location=last.location,
+        goals=last.goals,
+        visited=tuple(place for part in whole.parts for place in part.visited),
+        parts=tuple(whole.parts),
+    )
+
+
+def sentences(parts: list[TaskOutcome]) -> str:
+    """Why each of them was not done."""
+    return "; ".join(dict.fromkeys(part.reason.rstrip(".") for part in parts))
+
+
+def how_many(context: MissionContext, whole: Whole) -> str:
+    """Of how many it was done, of which, and why not of the others."""
+    did, wanted = deed_of(whole.command.kind).did, max(whole.wanted, whole.command.number)
+    names = [context.say.the(part.object or part.target) for part in whole.done]
+    why = sentences([part for part in whole.parts if part.status != MissionStatus.DONE])
+    if len(names) == wanted:
+        count, why = {1: "", 2: "both: "}.get(wanted, f"all {number(wanted)}: "), ""
+    else:
+        count = f"{number(len(names))} of {number(wanted)}" + ": " * bool(names)
+        one_hand = whole.command.kind == CommandKind.TAKE
+        why = why or ("I can hold one thing at a time" if one_hand else "I know of no more")
+    return f"I {did} {count}{listed(names)}" + f"; {why}" * bool(why) + "."
+
+
+def number(count: int) -> str:
+    """A small number in letters."""
+    return NUMBERS[count] if count < len(NUMBERS) else str(count)
