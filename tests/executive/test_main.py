@@ -14,7 +14,8 @@ from ontologies import ANNA, OWL
 
 from executive.__main__ import main
 
-QUICK = ["--world", "fake", "--llm", "none", "--user", "oracle", "--json"]
+FAKE = ["--world", "fake", "--search", "paper", "--llm", "none"]
+QUICK = [*FAKE, "--user", "oracle", "--json"]
 FIELDS = "command, kind, target, object, status, reason, source, location, inquiries, visited, \
 llm_calls, candidates, mission_time_s, thinking_time_s, wall_time_s, run_dir, model_failure, \
 goals, tasks"
@@ -131,7 +132,7 @@ def test_a_broken_model_file_is_bad_input(
 
 def start(*arguments: str) -> subprocess.Popen[str]:
     return subprocess.Popen(
-        [sys.executable, "-m", "executive", "--world", "fake", "--llm", "none", *arguments],
+        [sys.executable, "-m", "executive", *FAKE, *arguments],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
