@@ -16,7 +16,7 @@ from executive.__main__ import main
 
 QUICK = ["--world", "fake", "--llm", "none", "--user", "oracle", "--json"]
 FIELDS = "command, kind, target, object, status, reason, source, location, inquiries, visited, \
-llm_calls, candidates, mission_time_s, thinking_time_s, wall_time_s, run_dir, model_failure"
+llm_calls, candidates, mission_time_s, thinking_time_s, wall_time_s, run_dir, model_failure, goals"
 
 
 @pytest.fixture(autouse=True)
