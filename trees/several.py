@@ -82,7 +82,7 @@ class EachThing(Step):
             return self.fail(
                 unresolved(knowledge, command.target, nearest(knowledge, command.target))
             )
-        wanted = 1 if command.among else len(parts) if command.number == ALL else command.number
+        wanted = len(parts) if command.number == ALL else max(command.number, 1)
         self.situation.agenda.split(command, parts, min(wanted, len(parts)))
         return self.succeed(", ".join(part.target for part in parts))
 

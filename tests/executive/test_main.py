@@ -16,7 +16,8 @@ from executive.__main__ import main
 
 QUICK = ["--world", "fake", "--llm", "none", "--user", "oracle", "--json"]
 FIELDS = "command, kind, target, object, status, reason, source, location, inquiries, visited, \
-llm_calls, candidates, mission_time_s, thinking_time_s, wall_time_s, run_dir, model_failure, goals"
+llm_calls, candidates, mission_time_s, thinking_time_s, wall_time_s, run_dir, model_failure, \
+goals, tasks"
 
 
 @pytest.fixture(autouse=True)
