@@ -27,6 +27,7 @@ from executive.shell import (
     DONE,
     NOT_DONE,
     STOPPED,
+    all_is_kept,
     end_at_once,
     entry_point,
     handle_stop_signals,
@@ -91,22 +92,31 @@ def serve(
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
     console = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
-    from executive.app.session import Session  # heavy: not for --help or a wrong option
+    with all_is_kept():
+        from executive.app.session import Session  # heavy: not for --help or a wrong option
 
-    with Session(settings, inbox=inbox, user=console, view=view, gui=gui) as session:
+        session = Session(settings, inbox=inbox, user=console, view=view, gui=gui)
+    with session:
         stop_on_signals(inbox)
         try:
             if words is None and console:
                 code = converse(session, console, as_json)
-            elif not as_json and session.talk(words or ""):
-                code = DONE
             else:
-                code = conclude(session.run(words or ""), as_json)
+                code = do(session, words or "", as_json)
+                while session.heard:
+                    code = do(session, session.heard.popleft(), as_json)
             leave_within(CLOSED_S, code)
             return code
         except KeyboardInterrupt:
             leave_within(CLOSED_S, STOPPED)
             raise
+
+
+def do(session: "Session", words: str, as_json: bool) -> int:
+    """Do what is said, or answer it; the exit code."""
+    if not as_json and session.talk(words):
+        return DONE
+    return conclude(session.run(words), as_json)
 
 
 def conclude(outcome: Outcome, as_json: bool) -> int:
@@ -140,8 +150,7 @@ def converse(session: "Session", console: Console, as_json: bool) -> int:
     code = DONE
     line = session.next_command(console, f"{PROMPT} (stop ends what I do, quit ends the session)")
     while line is not None:
-        if as_json or not session.talk(line):
-            code = conclude(session.run(line), as_json)
+        code = do(session, line, as_json)
         if session.stopped_by not in ("", THE_PERSON):
             return STOPPED
         line = session.next_command(console, PROMPT)

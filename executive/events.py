@@ -53,6 +53,13 @@ class StopRequested:
 
 
 @dataclass(frozen=True, slots=True)
+class Heard:
+    """The person said something that answers no question, while the robot is at something."""
+
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
 class HandFelt:
     """What the fingers feel is not what they felt before: something, nothing; None: no telling."""
 
@@ -66,7 +73,7 @@ class Broke:
     reason: str
 
 
-Event = Started | Ended | DeadlinePassed | StopRequested | HandFelt | Broke
+Event = Started | Ended | DeadlinePassed | StopRequested | Heard | HandFelt | Broke
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,8 +86,8 @@ class _Computed:
 class Inbox:
     """Events on their way to the thread that ticks, and what is computed for it meanwhile.
 
-    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant); the
-    rest belongs to the thread that ticks.
+    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant), and
+    `hear` and `end` from any thread; the rest belongs to the thread that ticks.
     """
 
     def __init__(self) -> None:
@@ -120,6 +127,11 @@ class Inbox:
     def post(self, event: Event) -> None:
         """Put an event in the box and wake whoever waits."""
         self._queue.put(event)
+
+    def hear(self, words: str) -> None:
+        """Post what the person says unasked, from any thread; what says stop is a stop."""
+        said = writable(words)
+        self.post(StopRequested(THE_PERSON) if control(said) else Heard(said))
 
     def end(self, request: int, result: Result) -> None:
         """Post the end of a request; what is no result is Failed.

@@ -8,8 +8,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from executive.language.meaning import Said
+from executive.language.spoken import NOTHING, Spoken
 from executive.records import NodeState, Record, TreeShape
 from executive.types import (
+    Called,
     Candidate,
     ChatRequest,
     Command,
@@ -156,6 +159,10 @@ class Knowledge(Protocol):
 
     def has_place(self, name: str) -> bool:
         """Whether a piece of furniture of this name is in the home."""
+        ...
+
+    def called(self, name: str) -> Called | None:
+        """How one speaks of an object, a class or a piece of furniture; None if it is unknown."""
         ...
 
     def objects_named(self, words: str) -> tuple[str, ...]:
@@ -341,15 +348,25 @@ class Advice:
 class Interpreter(Protocol):
     """Reads what a person says."""
 
-    def commands(self, words: str) -> Commands:
-        """The tasks in the words; none if there are none that can be done."""
+    def read(self, words: str) -> Said:
+        """What the words mean, as far as they can be read."""
+        ...
+
+    def commands(self, words: str, spoken: Spoken = NOTHING, *, holds: bool = False) -> Commands:
+        """The tasks in the words; none if there are none that can be done.
+
+        Args:
+            words: what was said.
+            spoken: of what was spoken before: "it", "there" and "another" stand for that.
+            holds: whether the hand holds something.
+        """
         ...
 
     def command(self, words: str) -> Command | None:
         """The first of the tasks in the words, or None if there are none."""
         ...
 
-    def remark(self, words: str) -> str:
+    def remark(self, words: str, spoken: Spoken = NOTHING) -> str:
         """What to say of words that were read and are no command to carry out; empty otherwise.
 
         Nobody else may make a command of them then: they may say what is not to be done.

@@ -12,6 +12,7 @@ The console commands come in here, too. Unlike `python -m` they do not import fr
 they are run in.
 """
 
+import gc
 import os
 import sys
 from types import TracebackType
@@ -20,6 +21,7 @@ from types import TracebackType
 def begin() -> None:
     """Have a signal that says stop end the program without a traceback, also while it imports."""
     sys.excepthook = _quiet
+    gc.disable()  # until `entry_point`: all that is imported stays
     from executive import shell  # takes 50 ms, in which Python raises KeyboardInterrupt
 
     shell.begin()

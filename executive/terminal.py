@@ -53,6 +53,13 @@ class Terminal:
         except (OSError, ValueError) as error:
             self._lose(error)
 
+    def write_line(self, text: str, color: int) -> None:
+        """Write a line; in a colour (an SGR code of ECMA-48) if somebody sees colours."""
+        if self.is_seen() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
+            self.write_raw(f"\x1b[{color}m{printable(text)}\x1b[0m\n")
+        else:
+            self.write(f"{printable(text)}\n")
+
     def flush(self) -> None:
         """Have it written."""
         if self._stream is None:
@@ -71,6 +78,11 @@ class Terminal:
     def isatty(self) -> bool:
         """No: what libraries write to terminals only, such as colours, it would spell out."""
         return False
+
+    @property
+    def screen(self) -> TextIO | None:
+        """The stream below, for a library that draws on a terminal; None if it is lost."""
+        return self._stream
 
     def is_seen(self) -> bool:
         """Whether somebody sees it as it is written: it is a terminal, and not a file or a pipe."""

@@ -7,10 +7,11 @@ Quaternions are (x, y, z, w).
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:  # a quarter of the time that --help takes
+    import numpy as np
+    from numpy.typing import NDArray
 
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -254,6 +255,24 @@ class Thing:
 
 
 @dataclass(frozen=True, slots=True)
+class Called:
+    """What a thing or a piece of furniture is called when one speaks of it."""
+
+    words: str
+    """Without an article: "sugar box"."""
+    plural: bool = False
+    """Whether one says "are" of it, as of scissors."""
+    bare: bool = False
+    """Whether it has no article, as a class of things: "fruit"."""
+    preposition: str = "on"
+    """How things are with it, if it is furniture: "in" or "on"."""
+    room: str = ""
+    """What the room is called that it stands in; empty if the words say so, or it is a thing."""
+    says_room: bool = False
+    """Whether nobody would know it without the room."""
+
+
+@dataclass(frozen=True, slots=True)
 class OtherColor:
     """Things that are called as was said, and have none of the colours that were said."""
 
@@ -351,8 +370,8 @@ class Frame:
     """
 
     number: int
-    color: NDArray[np.uint8]
-    depth: NDArray[np.float32]
+    color: "NDArray[np.uint8]"
+    depth: "NDArray[np.float32]"
     intrinsics: Intrinsics
     pose: Pose
 
@@ -367,7 +386,9 @@ class Box:
     height: int
 
 
-def _no_points() -> NDArray[np.float32]:
+def _no_points() -> "NDArray[np.float32]":
+    import numpy as np
+
     return np.empty((0, 3), dtype=np.float32)
 
 
@@ -387,8 +408,8 @@ class Detection:
     label: str
     confidence: float
     box: Box
-    mask: NDArray[np.bool_]
-    points: NDArray[np.float32] = field(default_factory=_no_points)
+    mask: "NDArray[np.bool_]"
+    points: "NDArray[np.float32]" = field(default_factory=_no_points)
     cut_off: bool = False
 
     @property
@@ -396,7 +417,9 @@ class Detection:
         """Middle of the visible surface in `map` (metres), or None before it is located."""
         if not len(self.points):
             return None
-        x, y, z = (float(v) for v in np.median(self.points, axis=0))
+        from numpy import median
+
+        x, y, z = (float(v) for v in median(self.points, axis=0))
         return x, y, z
 
 

@@ -11,14 +11,17 @@ from io import TextIOWrapper, UnsupportedOperation
 from typing import TextIO
 
 from executive.events import THE_PERSON, Inbox, StopRequested
+from executive.keyboard import keyboard_of
 from executive.language.control import Control, control
+from executive.terminal import Terminal
 from executive.text import LONGEST, one_line, printable, too_long, writable
 from executive.types import Answered, Failed, Question, QuestionKind
 
 STOPPING = "Stopping."
-BUSY = "I am busy. Say it again when I ask, or say stop."
 FORGOTTEN = "What you said before is forgotten."
 
+CYAN = 36
+"""What the robot says, where colours are seen."""
 MOST_LINES = 1000
 """A script is read no further while so many lines of it wait."""
 POLL_S = 0.05
@@ -30,9 +33,9 @@ class Console:
 
     One thread reads lines all the time, so that a stop is heard, and answered, at any moment. What
     else is said goes to whoever asks: a question of the robot, or the prompt for a command. From a
-    terminal, a line that comes while nobody asks is not kept: it would become the answer to a
-    question that the person has not seen. Any other source is a script, whose lines are kept in
-    order. What waits when a stop comes is forgotten.
+    terminal, a line that comes while nobody asks is an event of its own: it never becomes the
+    answer to a question that the person has not seen. Any other source is a script, whose lines are
+    kept in order. What waits when a stop comes is forgotten.
     """
 
     def __init__(
@@ -51,6 +54,7 @@ class Console:
         """Why no more lines come; empty if they do."""
         source = source or sys.stdin
         self._typed = source is not None and _is_terminal(source)
+        self._keyboard = keyboard_of(source, self._out) if source and self._out else None
         if source is None:
             self._ended = "there is nobody to ask"
         else:
@@ -59,14 +63,14 @@ class Console:
     def ask(self, question: Question) -> int:
         """Print the question; ends Answered with the next line, or Failed at the end of input."""
         self._say(question.text)
-        return self._wait(prompting=False)
+        return self._prompt(self._wait(prompting=False))
 
     def listen(self, prompt: str = "") -> int:
         """Wait for a command; ends like `ask`, and Failed if the person ends the session."""
         request = self._wait(prompting=True)
         if prompt:
             self._say(prompt)
-        return request
+        return self._prompt(request)
 
     def cancel(self, request: int) -> None:
         """Withdraw the question."""
@@ -74,6 +78,7 @@ class Console:
         with self._lock:
             if self._request == request:
                 self._request = None
+                self._rest()
 
     def tell(self, text: str) -> None:
         """Print it."""
@@ -82,9 +87,24 @@ class Console:
 
     def _say(self, text: str) -> None:
         """Print it; a person who cannot be told is no reason to end anything."""
-        if self._out is not None:
-            with suppress(OSError, ValueError):
+        with suppress(OSError, ValueError):
+            if isinstance(self._out, Terminal):
+                self._out.write_line(text, CYAN)
+                self._out.flush()
+            elif self._out is not None:
                 print(printable(text), file=self._out, flush=True)
+
+    def _prompt(self, request: int) -> int:
+        """Show a prompt, unless a line waited already."""
+        with self._lock:
+            if self._keyboard and self._request == request:
+                self._keyboard.prompt()
+        return request
+
+    def _rest(self) -> None:
+        """Take the prompt away."""
+        if self._keyboard:
+            self._keyboard.rest()
 
     def _wait(self, *, prompting: bool) -> int:
         request = self._inbox.open(real=True)
@@ -99,7 +119,7 @@ class Console:
     # --- from here on in the thread that reads ---
 
     def _read(self, source: TextIO) -> None:
-        for line in _lines(source):
+        for line in self._keyboard.lines() if self._keyboard else _lines(source):
             while len(self._lines) >= MOST_LINES:
                 time.sleep(POLL_S)
             if self._hear(writable(line).strip()) is Control.QUIT:
@@ -115,7 +135,7 @@ class Console:
         elif why := too_long(line):
             self._say(f"Sorry: {why}.")
         elif words and not self._keep(words):
-            self._say(BUSY)
+            self._inbox.hear(words)
         return said
 
     def _keep(self, words: str) -> bool:
@@ -164,6 +184,7 @@ class Console:
         else:
             return
         self._request = None
+        self._rest()
 
 
 def _is_terminal(source: TextIO) -> bool:

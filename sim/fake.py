@@ -59,6 +59,22 @@ class _Due:
     finish: Callable[[], Result] = field(compare=False)
 
 
+@dataclass(frozen=True)
+class Drive:
+    """A drive in a straight line; poses are x and y (m) and yaw (rad) in `map`."""
+
+    began: float
+    start: tuple[float, float, float]
+    goal: tuple[float, float, float]
+    seconds: float
+
+    def at(self, time: float) -> tuple[float, float, float]:
+        """Where the robot is then; it turns as it sets off."""
+        part = min(1.0, (time - self.began) / self.seconds) if self.seconds else 1.0
+        x, y, _ = (a + part * (b - a) for a, b in zip(self.start, self.goal, strict=True))
+        return x, y, self.goal[2]
+
+
 class FakeWorld:
     """Who is where, and what ends when. Implements World."""
 
@@ -89,6 +105,8 @@ class FakeWorld:
         self.at: str | None = "person"
         self.pose = home.robot_start
         self.looking_at: str | None = None
+        self.drive: Drive | None = None
+        """The drive that is under way."""
         self._time = 0.0
         self._numbers = count()
         self._agenda: list[_Due] = []
@@ -122,6 +140,17 @@ class FakeWorld:
         orientation = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
         base = Transform("map", "base_link", Pose((x, y, 0.0), orientation))
         self.recorder.record(Transforms((base,)))
+
+    @property
+    def time(self) -> float:
+        """How long it has gone on (s)."""
+        return self._time
+
+    def brake(self) -> None:
+        """Be where the drive that is given up has led so far, if there is one."""
+        if self.drive:
+            self.pose, self.drive = self.drive.at(self._time), None
+            self.describe()
 
     def schedule(self, delay: float, finish: Callable[[], Result]) -> int:
         """Open a request that ends after `delay` seconds with what `finish` returns."""
@@ -157,6 +186,7 @@ class FakeRobot:
     def start(self, goal: Goal) -> int:
         """Pursue a goal for its nominal time."""
         if self._request is not None and self._world.forget(self._request):
+            self._world.brake()
             self._world.inbox.end(self._request, Failed("replaced by another goal"))
         delay, effect = self._plan(goal)
 
@@ -169,7 +199,8 @@ class FakeRobot:
 
     def cancel(self, request: int) -> None:
         """Stop where it is."""
-        self._world.forget(request)
+        if self._world.forget(request):
+            self._world.brake()
         self._world.inbox.drop(request)
 
     def _plan(self, goal: Goal) -> tuple[float, Callable[[], Result]]:
@@ -195,9 +226,10 @@ class FakeRobot:
         goal = world.home.stand(place)
         distance = math.dist(goal[:2], world.pose[:2])
         world.at = world.looking_at = None
+        world.drive = Drive(world.time, world.pose, goal, distance / SPEED_M_S)
 
         def arrive() -> Result:
-            world.at, world.pose = place, goal
+            world.at, world.pose, world.drive = place, goal, None
             world.describe()
             return Succeeded()
 

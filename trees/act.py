@@ -23,7 +23,7 @@ def act(context: MissionContext) -> Behaviour:
                 "had it before", context, lambda: situation.has_it and not situation.search.found
             ),
             Check("not asked to bring", context, lambda: not meaning(situation).carries),
-            Report("report", context, "I hold the {object}."),
+            Report("report", context, "I hold {the_object}."),
         ),
         SayHowFar("not all of it", context),
     )
@@ -42,4 +42,4 @@ class SayHowFar(Step):
         """The verb knows what is worth telling."""
         assert self.situation.request.command
         deed, why = deed_of(self.situation.request.command.kind), self.why_before()
-        return self.fail(deed.how_far(self.situation, why))
+        return self.fail(deed.how_far(self.context, why))

@@ -16,6 +16,7 @@ from executive.interfaces import (
     Robot,
     User,
 )
+from executive.language.wording import Wording, as_said
 from executive.pending import Pending
 from executive.situation import Situation
 from executive.types import Vector3
@@ -110,3 +111,12 @@ class MissionContext:
     distance: Callable[[str, str], float] = lambda one, other: 0.0
     blind_to: tuple[str, ...] = ()
     pending: Pending = field(default_factory=Pending)
+
+    def as_said(self, words: str) -> str:
+        """A part of the command that was read, as the person said it."""
+        return as_said(self.situation.request.words, words)
+
+    @property
+    def say(self) -> Wording:
+        """Words for the names of things and places."""
+        return Wording(self.knowledge.called)

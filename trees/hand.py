@@ -3,14 +3,14 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.situation import table
 from executive.types import DELIVERY
 from trees.context import MissionContext
 from trees.deeds.deed import meaning
 from trees.deeds.put_down import go_and_put, put_down_somewhere
 from trees.nodes import FirstOf, Step, fallback, sequence
-from trees.person import full_hand, tell, the
+from trees.person import full_hand
 from trees.places import taken_from
+from trees.telling import sentence, tell
 
 
 def hand_is_free(context: MissionContext) -> Behaviour:
@@ -38,6 +38,7 @@ def hand_is_free(context: MissionContext) -> Behaviour:
                 ),
             ),
         ),
+        FellOut("it fell", context),
         HandStaysFull("not free", context),
     )
 
@@ -46,7 +47,7 @@ def put_back_first(context: MissionContext) -> Behaviour:
     """Put what is held where it was taken from, the surface at hand."""
     return sequence(
         "put it back",
-        SayWhatFirst("say so", context, "I put {held} back on {surface} first."),
+        SayWhatFirst("say so", context, "I put {held} back {surface} first."),
         go_and_put(context),
     )
 
@@ -59,7 +60,7 @@ class HandIsFree(Step):
         held = self.situation.hand.in_hand
         if held in (None, self.situation.request.object) or not meaning(self.situation).grasps:
             return Status.SUCCESS
-        return self.fail(full_hand(held))
+        return self.fail(full_hand(held, self.context.say))
 
 
 class SayWhatFirst(Step):
@@ -69,7 +70,7 @@ class SayWhatFirst(Step):
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {held} and {surface}."""
+        """`text` may use {held} and {surface}, with its preposition."""
         super().__init__(name, context)
         self._text = text
 
@@ -78,15 +79,30 @@ class SayWhatFirst(Step):
         hand = self.situation.hand
         if hand.in_hand is None:
             return self.fail(hand.lost)
-        said = self._text.format(held=the(hand.in_hand), surface=table(hand.surface))
+        say = self.context.say
+        said = self._text.format(held=say.the(hand.in_hand), surface=say.at(hand.surface))
         tell(self.context, said)
         return self.succeed(said)
+
+
+class FellOut(Step):
+    """Succeeds if what was held fell, and says so: the hand is free by that.
+
+    Reads hand.in_hand and hand.lost.
+    """
+
+    def update(self) -> Status:
+        """Nobody wants it now."""
+        if self.situation.hand.in_hand is not None:
+            return Status.FAILURE
+        tell(self.context, sentence(self.situation.hand.lost or "It fell from my hand"))
+        return self.succeed()
 
 
 class HandStaysFull(Step):
     """Says why the hand is not free; always fails."""
 
     def update(self) -> Status:
-        """There was no room for what it holds, or it fell."""
-        held, why = self.situation.hand.in_hand, self.why_before()
-        return self.fail(why if held is None else f"{why}; I still hold {the(held)}")
+        """There was no room for what it holds."""
+        held, why = self.situation.hand.in_hand or "", self.why_before()
+        return self.fail(f"{why}; I still hold {self.context.say.the(held)}")

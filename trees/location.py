@@ -95,7 +95,9 @@ class OntologyKnowsPlace(Step):
         assert self.situation.request.object
         usual = self.context.knowledge.usual_places(self.situation.request.object)
         if len(usual) == 1 and usual[0] in self.situation.search.looks.visited:
-            return self.fail(f"{usual[0]} is its place, but it is not there")
+            name, say = self.situation.request.object, self.context.say
+            but = say.agree(name, "is its place, but it is", "is their place, but they are")
+            return self.fail(f"{say.the(usual[0])} {but} not there")
         if len(usual) == 1:
             self.situation.search.candidates = candidates_from(usual, Source.ONTOLOGY)
             return self.succeed(usual[0])

@@ -9,7 +9,7 @@ from executive.records import Activity
 from executive.types import ChatRequest, Command, Replied, Result, Scored, Source
 from trees.context import MissionContext
 from trees.nodes import Action, why_of
-from trees.person import sentence, tell
+from trees.telling import sentence, tell
 
 
 class ModelAction(Action):
@@ -26,6 +26,10 @@ class ModelAction(Action):
         self.model: LanguageModel = context.model
         self.advice: Advice = context.advice
         self._began: float | None = None
+
+    def doing(self) -> str:
+        """It thinks."""
+        return "ask the language model"
 
     def initialise(self) -> None:
         """Mark the time, and start."""

@@ -160,6 +160,10 @@ class Action(Step):
         """Whether what it started was neither ended nor cancelled, whatever its status says."""
         return self._request is not None
 
+    def doing(self) -> str:
+        """What the robot does while it is under way, behind "I"; empty if there is no word."""
+        return ""
+
     def initialise(self) -> None:
         """Start."""
         super().initialise()

@@ -11,8 +11,9 @@ from executive.types import HELD, Source
 from trees.context import MissionContext
 from trees.meant import meant
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import AskDoYouMean, AskWhichObject, tell, without_exceptions
+from trees.person import AskDoYouMean, AskWhichObject, without_exceptions
 from trees.survey import found_where, nothing_there, survey
+from trees.telling import tell
 
 
 def resolve_object(context: MissionContext) -> Behaviour:
@@ -84,12 +85,12 @@ class TakeOneThatIsThere(Step):
         assert request.command
         found = self.situation.survey.found
         if not found:
-            why = nothing_there(self.situation)
+            why = nothing_there(self.context)
             tell(self.context, f"{why}.")
             return self.fail(why)
         if len(found) > 1 and request.command.number != 1:
             request.options = tuple(found)
-            return self.fail(f"there are {found_where(found)}")
+            return self.fail(f"there are {found_where(found, self.context.say)}")
         request.object, place = next(iter(found.items()))
         search.looks.visited = [p for p in search.looks.visited if p != place]
         return self.succeed(request.object)
@@ -161,6 +162,8 @@ class GuessName(Step):
         if self.situation.request.options:
             return self.fail(f"'{target}' is known")
         knowledge = self.context.knowledge
+        if knowledge.objects_named(target):
+            return self.fail(f"'{target}' is known, and all of it is said not to be meant")
         if other := knowledge.other_color(target):
             names: tuple[str, ...] = tuple(name for name, _ in other.actual)
             if len(names) > 1:

@@ -2,26 +2,24 @@
 
 import re
 from abc import abstractmethod
-from collections.abc import Mapping
 from dataclasses import replace
 
 from py_trees.common import Status
 
+from executive.language.answers import named, picked
+from executive.language.meaning import Answer, Refusal, Request, Said, Unread
+from executive.language.wording import Wording
 from executive.records import Activity, Utterance
-from executive.situation import candidates_from, table
+from executive.replies import SAYS, SAYS_OF_SEVERAL
+from executive.situation import candidates_from
 from executive.text import printable, too_long
-from executive.types import DELIVERY, SOMETHING, Answered, Question, QuestionKind, Result, Source
+from executive.types import DELIVERY, Answered, Question, QuestionKind, Result, Source
+from trees.attention import attend_to
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
-from trees.unknown import either, nearest, unknown, unresolved
+from trees.telling import sentence, tell
+from trees.unknown import nearest, unknown, unresolved
 
-SAYS: Mapping[str, str] = {
-    Source.ONTOLOGY: "that is its place",
-    Source.LLM: "the language model's guess",
-    Source.USER: "as you said",
-    Source.MEMORY: "I remember it there",
-}
-"""How the person is told who names a place to look at; other sources say it themselves."""
 NEXT_TO = "next to "
 NO_PLACE = "I know no such place. "
 
@@ -39,7 +37,7 @@ class Ask(Action):
         """Wait for each answer as long as the parameters allow."""
         super().__init__(name, context, context.parameters.answer_s)
         self._tries = 0
-        self._commanded = False
+        self._attended = False
 
     @abstractmethod
     def question(self) -> Question:
@@ -53,24 +51,19 @@ class Ask(Action):
     def unresolved(self) -> str:
         """What stays unknown without an answer, as a clause."""
 
-    def busy(self) -> str:
-        """What goes on, for who gives a command instead of an answer, as a clause."""
-        return "I am still at what you asked for before"
-
     def declines(self, answer: str) -> bool:
         """Whether the answer is that there is none."""
         return self.context.interpreter.declines(answer)
 
     def initialise(self) -> None:
         """Ask for the first time."""
-        self._tries, self._commanded = 0, False
+        self._tries, self._attended = 0, False
         super().initialise()
 
     def start(self) -> int:
         """Ask."""
         question = self.question()
-        first = f"{self.busy()}; say stop to end that. " if self._commanded else ""
-        question = replace(question, text=printable(first + question.text))
+        question = replace(question, text=printable(question.text))
         self._tries += 1
         self.situation.dialogue.inquiries += 1
         self.context.recorder.record(Utterance("robot", question.text))
@@ -82,14 +75,29 @@ class Ask(Action):
             return self._no_help(why_of(result))
         self.context.recorder.record(Utterance("person", result.text))
         unread = too_long(result.text)
-        if not unread and self.declines(result.text):
+        said = self.context.interpreter.read(result.text)
+        refuses = isinstance(said, Refusal) and said.words != ""
+        if not unread and not refuses and self.declines(result.text):
             return self._no_help("you could not tell me")
         if not unread and self.understood(result.text):
             return self.succeed(result.text)
-        self._commanded = self.context.interpreter.command(result.text) is not None
+        self._attended = not unread and self._attend_to(result.text)
+        if self.situation.agenda.interrupts:
+            return Status.RUNNING  # until the tree gives it up, in this tick
         if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
+
+    def _attend_to(self, words: str) -> bool:
+        """Answer what is no answer: a further wish, a correction, a question."""
+        if isinstance(self.context.interpreter.read(words), Answer | Unread):
+            return False
+        tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
+        return True
+
+    def doing(self) -> str:
+        """It waits."""
+        return "wait for your answer"
 
     def out_of_time(self) -> Status:
         """Nobody answered."""
@@ -147,7 +155,8 @@ class AskDoYouMean(AskYesNo):
         """Offer the guess."""
         assert self.situation.request.command
         target, guess = self.situation.request.command.target, self.situation.request.guess
-        text = f"{unknown(self.context.knowledge, target)}. Do you mean {guess}?"
+        meant = self.context.say.the(guess)
+        text = f"{unknown(self.context, target)}. Do you mean {meant}?"
         objects = self.context.knowledge.objects_named(guess)
         return Question(QuestionKind.CONFIRM, guess, text, objects)
 
@@ -172,7 +181,7 @@ class AskDoYouMean(AskYesNo):
         """Name the guess."""
         assert self.situation.request.command
         target, guess = self.situation.request.command.target, self.situation.request.guess
-        return unresolved(self.context.knowledge, target, (guess,))
+        return unresolved(self.context, target, (guess,))
 
 
 class AskWhichObject(Ask):
@@ -184,48 +193,61 @@ class AskWhichObject(Ask):
     def question(self) -> Question:
         """Offer the members of the class, or the nearest known names."""
         assert self.situation.request.command
-        target = self.situation.request.command.target
+        target, any_of = self.situation.request.command.target, self.context.say.any_of
         if (options := self.situation.request.options) and self.situation.request.several:
-            text = f"I can do one thing at a time. Which first: {either(options)}?"
+            text = f"I can do one thing at a time. Which first: {any_of(options)}?"
         elif options:
-            text = f"Which {target} do you mean: {either(options)}?"
-        elif options := self._other_names(target):
-            said = unknown(self.context.knowledge, target)
-            text = f"{said}. Do you mean {either(options)}, or something else?"
+            text = f"Which {target} do you mean: {any_of(options)}?"
+        elif self._all_left_out():
+            text = f"I know no other {target}. Which thing do you mean?"
         else:
-            text = f"I know no '{target}'. Which thing do you mean?"
+            options, said = self._other_names(target), unknown(self.context, target)
+            meant = f"Do you mean {any_of(options)}, or something else?"
+            text = f"{said}. {meant if options else 'Which thing do you mean?'}"
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
+
+    def _all_left_out(self) -> bool:
+        """Whether things were named, and all of them said not to be meant: "another mug"."""
+        assert self.situation.request.command
+        return bool(self.context.knowledge.objects_named(self.situation.request.command.target))
 
     def _other_names(self, target: str) -> tuple[str, ...]:
         """The nearest known names, less the one that the person did not mean."""
-        names = nearest(self.context.knowledge, target)
+        names = nearest(self.context, target)
         return tuple(name for name in names if name != self.situation.request.guess)
 
     def understood(self, answer: str) -> bool:
         """One object is enough; several narrow the next question down."""
-        command = self.context.interpreter.command(answer)
-        named = self.context.knowledge.objects_named(answer)
-        if (
-            self.situation.request.options and command and not named
-        ):  # "Bring the banana", one of them
-            named = self.context.knowledge.objects_named(command.target)
-        if self.situation.request.options:
-            named = tuple(n for n in named if n in self.situation.request.options)
-        named = without_exceptions(self.context, named)
-        if len(named) > 1:
-            self.situation.request.options = named
-        elif named:
-            self.situation.request.object = named[0]
-        return len(named) == 1
+        options, find = self.situation.request.options, self.context.knowledge.objects_named
+        said = self.context.interpreter.read(answer)
+        if chosen := picked(said, self.question().options):
+            meant = tuple(one for name in chosen for one in find(name))
+        else:
+            meant = find(answer) or self._named(said)
+        if options:
+            meant = tuple(one for one in meant if one in options)
+        meant = without_exceptions(self.context, meant)
+        if len(meant) > 1:
+            self.situation.request.options = meant
+        elif meant:
+            self.situation.request.object = meant[0]
+        return len(meant) == 1
+
+    def _named(self, said: Said) -> tuple[str, ...]:
+        """What an answer names in more words; a command is one only for what was offered."""
+        offered = self.situation.request.options or not isinstance(said, Request)
+        return self.context.knowledge.objects_named(named(said)) if offered else ()
 
     def unresolved(self) -> str:
         """Name the nearest known things."""
         assert self.situation.request.command
         target = self.situation.request.command.target
         if self.situation.request.options:
-            return f"'{target}' may be {either(self.situation.request.options)}"
-        knowledge = self.context.knowledge
-        return unresolved(knowledge, target, nearest(knowledge, target))
+            options = self.context.say.any_of(self.situation.request.options)
+            return f"'{self.context.as_said(target)}' may be {options}"
+        if self._all_left_out():
+            return f"I know no other {target}"
+        return unresolved(self.context, target, nearest(self.context, target))
 
 
 class AskWhere(Ask):
@@ -236,18 +258,13 @@ class AskWhere(Ask):
 
     def question(self) -> Question:
         """Say where it was looked for, if anywhere."""
-        name = self.situation.request.object or ""
-        text = f"Where is the {name}?"
-        if so_far := self.situation.search.so_far(name):
+        name, say = self.situation.request.object or "", self.context.say
+        text = f"Where {say.is_(name)} {say.the(name)}?"
+        if so_far := self.situation.search.so_far(name, say):
             text = f"{so_far}. {text}"
         if self._tries:
-            known = ", ".join(place.name for place in self.context.knowledge.places())
-            text = f"{NO_PLACE * (not self._commanded)}{text} I know: {known}."
+            text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         return Question(QuestionKind.WHERE_IS, name, text)
-
-    def busy(self) -> str:
-        """It is looked for."""
-        return f"I am still looking for the {self.situation.request.object}"
 
     def understood(self, answer: str) -> bool:
         """Any places that exist become the candidates."""
@@ -260,8 +277,8 @@ class AskWhere(Ask):
 
     def unresolved(self) -> str:
         """Say what was tried."""
-        name = self.situation.request.object
-        return self.situation.search.so_far(name) or f"I do not know where the {name} is"
+        name, say = self.situation.request.object or "", self.context.say
+        return self.situation.search.so_far(name, say) or f"I do not know where {say.are(name)}"
 
 
 class AskWhereToPut(Ask):
@@ -273,16 +290,12 @@ class AskWhereToPut(Ask):
     def question(self) -> Question:
         """Say where there was none."""
         held = self.situation.hand.in_hand or ""
-        text = f"{self.unresolved()}. Where shall I put {the(held)}?"
+        text = f"Where shall I put {self.context.say.the(held)}?"
         if self._tries:
-            known = ", ".join(place.name for place in self.context.knowledge.places())
-            text = f"Where shall I put {the(held)}? I know: {known}."
-            text = NO_PLACE * (not self._commanded) + text
+            text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
+        else:
+            text = f"{self.unresolved()}. {text}"
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
-
-    def busy(self) -> str:
-        """It is in the hand."""
-        return f"I am still holding {the(self.situation.hand.in_hand or '')}"
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
@@ -291,8 +304,9 @@ class AskWhereToPut(Ask):
 
     def unresolved(self) -> str:
         """Say where it was tried."""
-        hand = self.situation.hand
-        return hand.not_put_down or f"I could get to no place to put {the(hand.in_hand or '')}"
+        hand, say = self.situation.hand, self.context.say
+        nowhere = f"I could get to no place to put {say.the(hand.in_hand or '')}"
+        return hand.not_put_down(say) or nowhere
 
 
 class Announce(Step):
@@ -303,12 +317,14 @@ class Announce(Step):
 
     def update(self) -> Status:
         """Say it."""
-        says = {**SAYS, **{source.name: source.says for source in self.context.sources}}
         candidates = self.situation.search.candidates
-        places = ", then ".join(candidate.place for candidate in candidates)
+        name, say = self.situation.request.object or "", self.context.say
+        ours = SAYS_OF_SEVERAL if say.agree(name, "", "are") else SAYS
+        says = {**ours, **{source.name: source.says for source in self.context.sources}}
+        places = ", then ".join(say.at_each(candidate.place for candidate in candidates))
         why = printable(says.get(candidates[0].source, f"so says the {candidates[0].source}"))
-        tell(self.context, f"I look for the {self.situation.request.object} at {places}: {why}.")
-        return self.succeed(places)
+        tell(self.context, f"I look for {say.the(name)} {places}: {why}.")
+        return self.succeed(", then ".join(candidate.place for candidate in candidates))
 
 
 class Report(Step):
@@ -318,21 +334,30 @@ class Report(Step):
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {object}, {the_object}, {place}, {surface}, {goal} and {why}."""
+        """`text` may use {the_object}, {is_}, {it}, {at}, {place}, {put}, {goal} and {why}.
+
+        As in "{The_object} {is_} {at}": the mug is on the desk in the bedroom; {place} is the same
+        without "on", {put} is where it was put down.
+        """
         super().__init__(name, context)
         self._text = text
 
     def update(self) -> Status:
         """Say it, and keep it as the mission's reason."""
-        found = self.situation.search.found
+        found, hand, say = self.situation.search.found, self.situation.hand, self.context.say
+        name = self.situation.request.object or ""
+        the = say.the(name) if name else ""
         said = printable(
             self._text.format(
-                object=self.situation.request.object,
-                the_object=the(self.situation.request.object or ""),
-                place=found.place if found else "nowhere",
-                surface=table(self.situation.hand.put_at),
-                goal=table(self.situation.request.goal),
-                why=self.situation.hand.unplaced.get(DELIVERY, ""),
+                the_object=the,
+                The_object=the[:1].upper() + the[1:],
+                is_=say.is_(name),
+                it=say.it(name),
+                at=say.at_in_full(found.place) if found else "nowhere",
+                place=say.the(found.place) if found else "nowhere",
+                put=say.at(hand.put_at),
+                goal=say.the(self.situation.request.goal),
+                why=hand.unplaced.get(DELIVERY, ""),
             )
         )
         self.situation.ending.tell(said)
@@ -364,26 +389,15 @@ def without_exceptions(context: MissionContext, names: tuple[str, ...]) -> tuple
     return tuple(name for name in names if name not in left_out)
 
 
-def tell(context: MissionContext, text: str) -> None:
-    """Say something, on one line, to the person and to the log."""
-    said = printable(text)
-    context.recorder.record(Utterance("robot", said))
-    context.user.tell(said)
-
-
-def sentence(text: str) -> str:
-    """The text with a full stop, unless it has an end."""
-    return text if text.endswith((".", "!", "?", "…")) else f"{text}."
-
-
-def full_hand(held: str) -> str:
+def full_hand(held: str, say: Wording) -> str:
     """Why nothing else is taken, as a clause."""
-    return f"my hand holds {the(held)}"
+    return f"my hand holds {say.the(held)}"
 
 
-def the(held: str) -> str:
-    """What is held, in a sentence: its name, or that it is not known."""
-    return held if held == SOMETHING else f"the {held}"
+def known_places(context: MissionContext) -> str:
+    """Which furniture there is, as a sentence."""
+    places = (context.say.the(place.name) for place in context.knowledge.places())
+    return f"I know: {', '.join(places)}."
 
 
 def places_in(context: MissionContext, answer: str) -> tuple[str, ...]:

@@ -6,15 +6,23 @@ from collections.abc import Sequence
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.situation import table
-from executive.types import PERSON, SOMETHING, Command, CommandKind, Question, QuestionKind, Source
+from executive.language.answers import picked
+from executive.language.wording import either
+from executive.types import (
+    DELIVERY,
+    PERSON,
+    SOMETHING,
+    Command,
+    CommandKind,
+    Question,
+    QuestionKind,
+    Source,
+)
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
-from trees.person import NEXT_TO, NO_PLACE, Ask, AskWhere, is_place, places_in, tell, the
-from trees.unknown import either
+from trees.person import NEXT_TO, NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
+from trees.telling import TO_THE_PERSON, tell
 
-TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
-"""Words for the goal that is the person who speaks."""
 BESIDE = ("under ", NEXT_TO)
 """Beginnings of where nothing can be put."""
 
@@ -87,7 +95,7 @@ class SourceIsKnown(Step):
         assert request.object
         named = places_in(self.context, request.command.source)
         if not named or not is_place(self.context, request.command.source):
-            return self.fail(f"I know no '{request.command.source}'")
+            return self.fail(f"I know no '{self.context.as_said(request.command.source)}'")
         likely = (
             *self.context.facts.places_of(request.object),
             *usual_places(self.context),
@@ -118,7 +126,7 @@ class AskFromWhere(AskWhere):
     def unresolved(self) -> str:
         """The place is unknown."""
         assert self.situation.request.command
-        return f"I know no '{self.situation.request.command.source}'"
+        return f"I know no '{self.context.as_said(self.situation.request.command.source)}'"
 
 
 class SearchAnyway(Step):
@@ -128,8 +136,10 @@ class SearchAnyway(Step):
         """Nothing that was said is passed over in silence."""
         request = self.situation.request
         assert request.command
-        said = f"I know no '{request.command.source}'"
-        tell(self.context, f"{said}; I look for the {request.object} where it may be.")
+        said = f"I know no '{self.context.as_said(request.command.source)}'"
+        say, name = self.context.say, request.object or ""
+        where = f"where {say.agree(name, 'it', 'they')} may be"
+        tell(self.context, f"{said}; I look for {say.the(name)} {where}.")
         return self.succeed(said)
 
 
@@ -149,14 +159,28 @@ class GoalIsKnown(Step):
         if goal.lower() in TO_THE_PERSON:
             self.situation.request.goals = (PERSON,)
             return self.succeed(PERSON)
+        if things := neighbours(self.context):
+            return self._beside(things)
         named = goals_in(self.context)
         if not named:
             return self.fail(unknown(self.context))
         if options_in(self.context):
-            return self.fail(f"'{goal}' may be {either(named)}")
+            may_be = self.context.say.any_of(named)
+            return self.fail(f"'{self.context.as_said(goal)}' may be {may_be}")
         goes = self.situation.request.asks_to(CommandKind.GO)
         self.situation.request.goals = named if goes else best_first(self.context, named)
         return self.succeed(", ".join(self.situation.request.goals))
+
+    def _beside(self, things: Sequence[str]) -> Status:
+        """Beside a thing is on the furniture where that most likely is; say which that is."""
+        known = [place for thing in things for place in likely_places(self.context, thing)]
+        if not known:
+            return self.fail(unknown(self.context))
+        say = self.context.say
+        thing = next(t for t in things if known[0] in likely_places(self.context, t))
+        tell(self.context, f"As far as I know, {say.are(thing)} {say.at(known[0])}.")
+        self.situation.request.goals = (known[0],)
+        return self.succeed(known[0])
 
 
 class TakenFrom(Step):
@@ -172,7 +196,8 @@ class TakenFrom(Step):
         request = self.situation.request
         known = taken_from(self.context, request.object)
         if not known:
-            return self.fail(f"I do not know where I took the {request.object}")
+            what = self.context.say.the(request.object or "")
+            return self.fail(f"I do not know where I took {what}")
         request.goals = (known[0],)
         return self.succeed(known[0])
 
@@ -188,13 +213,14 @@ class UsualPlace(Step):
     def update(self) -> Status:
         """Say so: it is not where it was."""
         request = self.situation.request
-        usual = usual_places(self.context)
+        usual, say, name = usual_places(self.context), self.context.say, request.object or ""
         if not usual:
-            return self.fail(f"I do not know where {the(request.object or '')} belongs")
+            belongs = say.agree(name, "belongs", "belong")
+            return self.fail(f"I do not know where {say.the(name)} {belongs}")
         request.goals = usual
-        where = either(tuple(map(table, usual)))
-        what = the(request.object or "")
-        tell(self.context, f"I do not know where {what} was; it belongs on {where}.")
+        was = say.agree(name, "was; it belongs", "were; they belong")
+        there = either(say.at_each(usual))
+        tell(self.context, f"I do not know where {say.the(name)} {was} {there}.")
         return self.succeed(", ".join(usual))
 
 
@@ -210,12 +236,13 @@ class AskWhereTo(Ask):
         kind = QuestionKind.WHERE_TO_GO if goes else QuestionKind.WHERE_TO_PUT
         about = self.situation.request.object or ""
         goal, options = goal_words(self.context), options_in(self.context)
+        say = self.context.say
         if options:
-            return Question(kind, about, f"Which {goal} do you mean: {either(options)}?", options)
-        text = "Where shall I go?" if goes else f"Where shall I put {the(about)}?"
+            text = f"Which {goal} do you mean: {say.any_of(options)}?"
+            return Question(kind, about, text, options)
+        text = "Where shall I go?" if goes else f"Where shall I put {say.the(about)}?"
         if self._tries:
-            known = ", ".join(place.name for place in self.context.knowledge.places())
-            text = f"{NO_PLACE * (not self._commanded)}{text} I know: {known}."
+            text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         elif goal:
             text = f"{self.unresolved()}. {text}"
         return Question(kind, about, text)
@@ -223,7 +250,8 @@ class AskWhereTo(Ask):
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
         if options := options_in(self.context):
-            named = tuple(p for p in places_in(self.context, answer) if p in options)
+            chosen = picked(self.context.interpreter.read(answer), options)
+            named = chosen or tuple(p for p in places_in(self.context, answer) if p in options)
             if len(named) != 1:
                 return False
         else:
@@ -234,7 +262,8 @@ class AskWhereTo(Ask):
     def unresolved(self) -> str:
         """What is not known."""
         if options := options_in(self.context):
-            return f"'{goal_words(self.context)}' may be {either(options)}"
+            goal = self.context.as_said(goal_words(self.context))
+            return f"'{goal}' may be {self.context.say.any_of(options)}"
         return unknown(self.context)
 
 
@@ -263,6 +292,19 @@ def goal_words(context: MissionContext) -> str:
     return command.goal or alone
 
 
+def neighbours(context: MissionContext) -> tuple[str, ...]:
+    """The things beside one of which it is to be put: "next to the mug"."""
+    goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
+    thing = goal.removeprefix(NEXT_TO)
+    return () if goes or thing == goal else context.knowledge.objects_named(thing)
+
+
+def likely_places(context: MissionContext, thing: str) -> tuple[str, ...]:
+    """Where a thing is believed to be, or else belongs."""
+    believed = (*context.facts.places_of(thing), *context.knowledge.usual_places(thing))
+    return tuple(p for p in believed if p == DELIVERY or context.knowledge.has_place(p))
+
+
 def goals_in(context: MissionContext) -> tuple[str, ...]:
     """The places that the words for where to name; none if nothing can be put so."""
     goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
@@ -281,11 +323,14 @@ def unknown(context: MissionContext) -> str:
     """Why nobody knows where to, as a clause."""
     request, goal = context.situation.request, goal_words(context)
     goes = request.asks_to(CommandKind.GO)
+    if things := neighbours(context):
+        return f"I do not know where {context.say.are(things[0])}"
     if goal.startswith(BESIDE) and not goes:
-        return f"I can put things on furniture, or in it, but not '{goal}'"
+        return f"I can put things on furniture, or in it, but not '{context.as_said(goal)}'"
     if goal:
-        return f"I do not know where '{goal}' is"
-    return "I do not know where to " + ("go" if goes else f"put {the(request.object or '')}")
+        return f"I do not know where '{context.as_said(goal)}' is"
+    put = f"put {context.say.the(request.object or '')}"
+    return "I do not know where to " + ("go" if goes else put)
 
 
 def is_one(context: MissionContext, named: Sequence[str]) -> bool:

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from py_trees.common import Status
 
 from executive.interfaces import Facts, PlaceSource
+from executive.replies import SAYS
 from executive.situation import candidates_from
 from executive.types import DELIVERY, Candidate, Source
 from trees.context import MissionContext
 from trees.nodes import Step
-from trees.person import SAYS
 
 
 class Recall(Step):
@@ -28,7 +28,7 @@ class Recall(Step):
         here = filter(self._is_here, places)
         new = self.worth_a_visit(candidates_from(here, self.knows.name))
         if not new:
-            return self.fail(self.unknown(self.situation.request.object))
+            return self.fail(self.unknown(self.context.say.the(self.situation.request.object)))
         self.situation.search.candidates = new
         return self.succeed(", ".join(candidate.place for candidate in new))
 
@@ -38,7 +38,7 @@ class Recall(Step):
 
     def unknown(self, thing: str) -> str:
         """That the source does not help, as a clause."""
-        return f"the {self.knows.name} names no place to look for the {thing}"
+        return f"the {self.knows.name} names no place to look for {thing}"
 
     def _is_here(self, place: str) -> bool:
         return place == DELIVERY or self.context.knowledge.has_place(place)
@@ -70,4 +70,4 @@ class MemoryKnowsPlaces(Recall):
 
     def unknown(self, thing: str) -> str:
         """It was not seen."""
-        return f"I have not seen the {thing}"
+        return f"I have not seen {thing}"

@@ -7,7 +7,6 @@ from dataclasses import replace
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.situation import table
 from executive.types import (
     FLOOR,
     PERSON,
@@ -27,6 +26,8 @@ from executive.types import (
 )
 from trees.context import MissionContext
 from trees.nodes import UNSAID, Action, why_of
+from trees.progress import on_the_way, on_to_the_next
+from trees.telling import tell
 
 
 class BodyAction(Action):
@@ -49,9 +50,13 @@ class BodyAction(Action):
 
     def failed(self, result: Result) -> Status:
         """Fail for the reason that the robot gives."""
-        why = why_of(result)
+        why = self.why(result)
         self.note_failure(why)
         return self.fail(f"I could not {self.attempt()}: {why}" if why == UNSAID else why)
+
+    def why(self, result: Result) -> str:
+        """Why it failed, in words: what robots say of things and places are names."""
+        return self.context.say.in_words(why_of(result))
 
     def out_of_time(self) -> Status:
         """Fail because it took too long."""
@@ -79,8 +84,14 @@ class RobotAction(BodyAction):
     def goal(self) -> Goal:
         """What to pursue."""
 
+    def progress(self) -> str:
+        """What to tell the person when it begins, who cannot see it; empty if that is known."""
+        return ""
+
     def start(self) -> int:
-        """Hand the goal to the robot."""
+        """Hand the goal to the robot, and tell the person."""
+        if said := self.progress():
+            tell(self.context, said)
         self._goal = self.goal()
         self.feedback_message = _in_words(self._goal)
         self.situation.ending.restless = True
@@ -92,20 +103,37 @@ class RobotAction(BodyAction):
         if isinstance(result, Succeeded):
             return Status.SUCCESS
         if isinstance(result, Failed) and result.lost:
-            self.situation.hand.lost, self.situation.hand.in_hand = why_of(result), None
+            self.situation.hand.lost, self.situation.hand.in_hand = self.why(result), None
         return self.failed(result)
+
+    def doing(self) -> str:
+        """By the goal."""
+        say = self.context.say
+        match self._goal:
+            case DriveTo(place):
+                return f"drive to {say.the(place)}"
+            case LookAt(place):
+                return f"look {say.at(place)}"
+            case Pick(detection):
+                return f"pick up {say.the(detection.label)}"
+            case PutDown(place):
+                return f"put {say.the(self.situation.hand.in_hand or SOMETHING)} {say.at(place)}"
+            case Halt():
+                return "stop"
 
     def attempt(self) -> str:
         """By the goal."""
+        say = self.context.say
         match self._goal:
             case DriveTo(place):
-                return f"get to {place}"
+                return f"get to {say.the(place)}"
             case LookAt(place):
-                return f"look at {place}"
+                return f"look at {say.the(place)}"
             case Pick(detection):
-                return f"pick up the {detection.label}"
+                return f"pick up {say.the(detection.label)}"
             case PutDown(place):
-                return f"put it down on {table(place)}"
+                it = say.it(self.situation.request.object or SOMETHING)
+                return f"put {it} down {say.at(place)}"
             case Halt():
                 return "stop"
 
@@ -143,8 +171,12 @@ class DriveToCandidate(RobotAction):
 class Visit(DriveToCandidate):
     """Goes to a place for the first time: it counts as visited if it is reached.
 
-    Reads search.candidate; writes search.looks.
+    Reads search.candidate and search.looks; writes search.looks.
     """
+
+    def progress(self) -> str:
+        """The first place was announced; of the next ones, say why."""
+        return on_to_the_next(self.context)
 
     def ended(self, result: Result) -> Status:
         """Count only a place that was reached."""
@@ -152,6 +184,25 @@ class Visit(DriveToCandidate):
         if isinstance(result, Succeeded):
             self.situation.search.looks.reached(self.situation.search.candidate.place)
         return super().ended(result)
+
+
+class ComeToRest(RobotAction):
+    """Stands still, so that the fingers tell what was got hold of; always fails: then one goes on.
+
+    Reads and writes agenda.unsettled.
+    """
+
+    activity = Activity.HANDLING
+
+    def goal(self) -> Goal:
+        """Do nothing."""
+        return Halt()
+
+    def ended(self, result: Result) -> Status:
+        """What the hand holds is known by now."""
+        self.situation.agenda.unsettled = False
+        super().ended(result)
+        return Status.FAILURE
 
 
 class DriveBack(RobotAction):
@@ -166,6 +217,10 @@ class DriveBack(RobotAction):
         """Name the place."""
         super().__init__(name, context)
         self._place = place
+
+    def progress(self) -> str:
+        """Say what comes of it."""
+        return on_the_way(self.context, self._place)
 
     def goal(self) -> Goal:
         """Drive there."""
@@ -257,7 +312,7 @@ class PickUp(RobotAction):
         assert search.detection
         name = search.detection.label
         if isinstance(result, Succeeded) and hand.felt is False:
-            result = Failed(f"the {name} slipped from my fingers")
+            result = Failed(f"{self.context.say.the(name)} slipped from my fingers")
         if isinstance(result, Failed) and hand.felt and hand.in_hand == name:
             if not self._finished:
                 self._finished = True
@@ -350,6 +405,10 @@ class DriveToSurface(RobotAction):
 
     activity = Activity.DRIVING
 
+    def progress(self) -> str:
+        """Say where to."""
+        return on_the_way(self.context, self.situation.hand.surface)
+
     def goal(self) -> Goal:
         """Drive there; the person is not there."""
         self.situation.dialogue.away = True
@@ -363,6 +422,10 @@ class DriveToGoal(RobotAction):
     """
 
     activity = Activity.DRIVING
+
+    def progress(self) -> str:
+        """Say where to."""
+        return on_the_way(self.context, self.situation.request.goal)
 
     def goal(self) -> Goal:
         """Drive there."""
@@ -379,7 +442,8 @@ class DriveToGoal(RobotAction):
         """It cannot be put down there."""
         if self.situation.hand.in_hand:
             place = self.situation.request.goal
-            self.situation.hand.unplaced[place] = f"I could not get to {table(place)}: {why}"
+            there = self.context.say.the(place)
+            self.situation.hand.unplaced[place] = f"I could not get to {there}: {why}"
 
 
 class SeeTarget(BodyAction):
@@ -395,6 +459,11 @@ class SeeTarget(BodyAction):
         """`closer`, a part of the thing is enough."""
         super().__init__(name, context)
         self._closer = closer
+
+    def doing(self) -> str:
+        """It sees."""
+        candidate = self.situation.search.candidate
+        return f"look {self.context.say.at(candidate.place)}" if candidate else ""
 
     def start(self) -> int:
         """Look."""
@@ -428,7 +497,7 @@ class SeeTarget(BodyAction):
     def attempt(self) -> str:
         """By the place."""
         candidate = self.situation.search.candidate
-        return f"look at {candidate.place if candidate else 'it'}"
+        return f"look at {self.context.say.the(candidate.place) if candidate else 'it'}"
 
     def note_failure(self, why: str) -> None:
         """A part of the place stays unseen."""
@@ -471,13 +540,14 @@ class SeeLost(SeeTarget):
             return self.failed(result)
         seen = self._surest(result)
         if seen is None:
-            return self.fail(f"I do not see it on the {self.situation.hand.spot}")
+            it = self.context.say.it(self.situation.request.object or SOMETHING)
+            return self.fail(f"I do not see {it} {self.context.say.at(self.situation.hand.spot)}")
         self.situation.search.detection = seen
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
     def attempt(self) -> str:
         """By the spot."""
-        return f"look at the {self.situation.hand.spot}"
+        return f"look at {self.context.say.the(self.situation.hand.spot)}"
 
     def note_failure(self, why: str) -> None:
         """Nothing: this is no search of a place."""

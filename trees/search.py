@@ -3,16 +3,17 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.wording import either
 from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Source
 from trees.context import MissionContext
 from trees.location import resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import Announce, AskWhere, tell
+from trees.person import Announce, AskWhere
 from trees.recall import MemoryKnowsPlaces, Recall
 from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
-from trees.unknown import either
+from trees.telling import tell
 
 
 def search(context: MissionContext) -> Behaviour:
@@ -135,7 +136,9 @@ class Recognises(Step):
         """What is in the hand need not be."""
         name = self.situation.request.object
         if name in self.context.blind_to and name != self.situation.hand.in_hand:
-            return self.fail(f"I would not recognise the {name}: my detector does not know it")
+            say = self.context.say
+            not_known = f"my detector does not know {say.it(name)}"
+            return self.fail(f"I would not recognise {say.the(name)}: {not_known}")
         return Status.SUCCESS
 
 
@@ -147,15 +150,15 @@ class NotHere(Step):
 
     def update(self) -> Status:
         """Only what was looked at can be known."""
-        name, search = self.situation.request.object, self.situation.search
+        name, search, say = self.situation.request.object, self.situation.search, self.context.say
         assert name
         assert search.candidate
         place = search.candidate.place
         if not search.looks.all_without(place):
-            return self.fail(search.looks.why_not_all(name, place))
+            return self.fail(search.looks.why_not_all(name, place, say))
         self.context.facts.missed(name, place)
         search.gone = search.detection is not None
-        return self.fail(f"no {name} at {place}")
+        return self.fail(f"no {say.words(name)} {say.at(place)}")
 
 
 class SayNotThere(Step):
@@ -166,11 +169,11 @@ class SayNotThere(Step):
 
     def update(self) -> Status:
         """Say it of what was seen; of what was not, say why."""
-        name, search = self.situation.request.object, self.situation.search
-        places = [c.place for c in search.candidates]
-        said = f"the {name} is not at {either(tuple(places))}"
+        name, search = self.situation.request.object or "", self.situation.search
+        say, places = self.context.say, [c.place for c in search.candidates]
+        said = f"{say.are(name)} not {either(say.at_each(places))}"
         if not all(map(search.looks.all_without, places)):
-            said = search.so_far(name)
+            said = search.so_far(name, say)
         tell(self.context, f"{said[0].upper()}{said[1:]}. I look further.")
         return self.fail(said)
 
@@ -183,6 +186,7 @@ class GiveUpSearch(Step):
 
     def update(self) -> Status:
         """Sum up the search, and why the person could not help if they were asked."""
-        name, silence = self.situation.request.object, self.situation.dialogue.no_help
-        so_far = self.situation.search.so_far(name) or f"I do not know where the {name} is"
+        name, silence = self.situation.request.object or "", self.situation.dialogue.no_help
+        say = self.context.say
+        so_far = self.situation.search.so_far(name, say) or f"I do not know where {say.are(name)}"
         return self.fail(f"{so_far}, and {silence}" if silence else so_far)

@@ -69,19 +69,17 @@ class EachThing(Step):
         command, found = self.situation.request.command, self.situation.survey.found
         assert command
         if self.situation.survey.seen:
-            why = not_seen(self.situation)
+            why = not_seen(self.context)
             if not found:
-                return self.fail("; ".join(filter(None, (nothing_there(self.situation), why))))
+                return self.fail("; ".join(filter(None, (nothing_there(self.context), why))))
             parts = [part_of(command, name, place) for name, place in found.items()]
         elif command.among:
             parts = [part_of(command, name, command.source) for name in command.among]
         else:
             parts = [part_of(command, n, "") for n in things_meant(self.context, command)]
         if not parts:
-            knowledge = self.context.knowledge
-            return self.fail(
-                unresolved(knowledge, command.target, nearest(knowledge, command.target))
-            )
+            near = nearest(self.context, command.target)
+            return self.fail(unresolved(self.context, command.target, near))
         wanted = len(parts) if command.number == ALL else max(command.number, 1)
         self.situation.agenda.split(command, parts, min(wanted, len(parts)))
         return self.succeed(", ".join(part.target for part in parts))

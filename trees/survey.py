@@ -6,14 +6,16 @@ import numpy as np
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.wording import Wording
 from executive.records import Activity
-from executive.situation import Situation, candidates_from, table
+from executive.situation import candidates_from
 from executive.types import Candidate, Detection, Result, Saw, Source
 from trees.context import MissionContext
 from trees.meant import listed, robot_at, things_meant
 from trees.nodes import EachOf, Optionally, Step, sequence
-from trees.person import is_place, places_in, tell, the
+from trees.person import is_place, places_in
 from trees.robot import LookAtCandidate, SeeTarget, Visit
+from trees.telling import tell
 from trees.unknown import nearest, unresolved
 
 
@@ -134,10 +136,8 @@ class KnowsWhatToLookFor(Step):
             return self.succeed("everything")
         about = things_meant(self.context, command)
         if not about:
-            knowledge = self.context.knowledge
-            return self.fail(
-                unresolved(knowledge, command.target, nearest(knowledge, command.target))
-            )
+            near = nearest(self.context, command.target)
+            return self.fail(unresolved(self.context, command.target, near))
         self.situation.survey.about = about
         return self.succeed(", ".join(about))
 
@@ -156,7 +156,7 @@ class KnowsWhereToLook(Step):
         assert command
         places = places_in(context, command.source) if command.source else ()
         if command.source and not (places and is_place(context, command.source)):
-            return self.fail(f"I know no '{command.source}'")
+            return self.fail(f"I know no '{context.as_said(command.source)}'")
         everywhere = tuple(place.name for place in context.knowledge.places())
         likely = [
             place
@@ -168,7 +168,7 @@ class KnowsWhereToLook(Step):
             places or everywhere, key=lambda p: (p not in likely, context.distance(here, p))
         )
         self.situation.search.candidates = candidates_from(order, Source.USER)
-        where = f"at {listed(tuple(map(table, order)))}" if places else "everywhere"
+        where = listed(context.say.at_each(order)) if places else "everywhere"
         tell(context, f"I look {where}.")
         return self.succeed(", ".join(order))
 
@@ -183,38 +183,38 @@ class SawSomething(Step):
         """Say why."""
         if self.situation.survey.seen:
             return Status.SUCCESS
-        return self.fail(not_seen(self.situation))
+        return self.fail(not_seen(self.context))
 
 
-def not_seen(situation: Situation) -> str:
+def not_seen(context: MissionContext) -> str:
     """Which places, or parts of them, were not seen, and why, as a clause; empty if all was."""
-    looks = situation.search.looks
-    reached = [place for place in situation.survey.seen if place not in looks.unreached]
-    clauses = [f"I could not get to {table(p)}: {why}" for p, why in looks.unreached.items()]
+    looks, say = context.situation.search.looks, context.say
+    reached = [p for p in context.situation.survey.seen if p not in looks.unreached]
+    clauses = [f"I could not get to {say.the(p)}: {why}" for p, why in looks.unreached.items()]
     for place in reached:
         if not looks.all_without(place):
             why = looks.unseen.get(place, "")
-            clauses.append(f"I did not see all of {table(place)}" + f": {why}" * bool(why))
+            clauses.append(f"I did not see all of {say.the(place)}" + f": {why}" * bool(why))
     return "; ".join(clauses)
 
 
-def found_where(found: Mapping[str, str]) -> str:
+def found_where(found: Mapping[str, str], say: Wording) -> str:
     """Things and where they are: "the apple and the pear on the desk, the mug on the sofa"."""
     places = dict.fromkeys(found.values())
     groups = (
-        f"{listed([the(name) for name, at in found.items() if at == place])} on {table(place)}"
+        f"{listed([say.the(name) for name, at in found.items() if at == place])} {say.at(place)}"
         for place in places
     )
     return listed(tuple(groups)) if len(places) < 3 else ", ".join(groups)
 
 
-def nothing_there(situation: Situation) -> str:
+def nothing_there(context: MissionContext) -> str:
     """That none of what was asked for is where the robot has looked, as a clause."""
-    command = situation.request.command
+    command = context.situation.request.command
     assert command
-    what = f"no {command.target}" if command.target else "nothing"
-    places = tuple(situation.survey.seen)
-    where = f"on {table(places[0])}" if len(places) == 1 else "there"
+    what = f"no {context.say.words(command.target)}" if command.target else "nothing"
+    places = tuple(context.situation.survey.seen)
+    where = context.say.at(places[0]) if len(places) == 1 else "there"
     return f"I see {what} {where if command.source else 'anywhere'}"
 
 

@@ -5,36 +5,80 @@ from collections.abc import Iterator
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.records import Activity
+from executive.situation import TAKEN_BACK
+from executive.types import MissionStatus
+from trees.attend import Attend
 from trees.context import MissionContext
-from trees.nodes import Selector
+from trees.nodes import Action, Check, Selector, sequence
 from trees.order import begin_next
+from trees.robot import ComeToRest
 
 
 class EachTask(Selector):
     """A fallback that is gone through once for each task, going on within the same tick.
 
-    Its children find out first what there is to do, if nothing is at hand. What is on the agenda
-    when a task has ended is done next, whoever put it there meanwhile; what is to be done `instead`
-    of the task at hand interrupts it, so that whatever it started is cancelled.
+    At each tick it is heard first what the person says. Then its children find out what there is to
+    do, if nothing is at hand. What is on the agenda when a task has ended is done next, whoever put
+    it there meanwhile; what is to be done `instead` of the task at hand, or what is taken back,
+    interrupts it, so that whatever it started is cancelled.
     """
 
     def __init__(self, name: str, context: MissionContext, *ways: Behaviour) -> None:
         """`ways` are what is tried for each task, until one succeeds; the last one always does."""
-        super().__init__(name, memory=True, children=list(ways))
+        self._attend = Attend("hear", context)
+        super().__init__(name, memory=True, children=[self._attend, stand_still(context), *ways])
         self._context = context
 
     def tick(self) -> Iterator[Behaviour]:
         """Tick the task at hand, and the next ones as long as they are decided."""
-        situation = self._context.situation
-        if (instead := situation.agenda.instead) and self.status == Status.RUNNING:
-            self.stop(Status.INVALID)
-            situation.agenda.instead = None
-            situation.begin(instead)
+        agenda = self._context.situation.agenda
+        if self.status == Status.RUNNING:
+            yield from self._attend.tick()
         while True:
+            if agenda.interrupts and not self._goes_on():
+                self.status = Status.SUCCESS
+                yield self
+                return
             yield from super().tick()
+            if agenda.interrupts:  # by an answer
+                continue
             if self.status == Status.RUNNING:
                 return
-            situation.end_task()
+            self._context.situation.end_task()
             if not begin_next(self._context):
-                situation.conclude()
+                self._context.situation.conclude()
                 return
+
+    def _goes_on(self) -> bool:
+        """Give up the task at hand; whether there is another."""
+        situation = self._context.situation
+        agenda = situation.agenda
+        agenda.unsettled |= any(map(_handles, self.iterate()))
+        self.stop(Status.INVALID)
+        if instead := agenda.instead:
+            agenda.instead, agenda.taken_back = None, False
+            situation.begin(instead)
+            return True
+        agenda.taken_back = False
+        situation.ending.status = MissionStatus.NOT_DONE
+        situation.ending.tell(TAKEN_BACK)
+        situation.end_task()
+        if begin_next(self._context):
+            return True
+        situation.conclude()
+        return False
+
+
+def stand_still(context: MissionContext) -> Behaviour:
+    """Of what was given up in the middle of a grasp, the fingers know more at rest."""
+    agenda = context.situation.agenda
+    return sequence(
+        "stand still",
+        Check("it was handling something", context, lambda: agenda.unsettled),
+        ComeToRest("come to rest", context),
+    )
+
+
+def _handles(node: Behaviour) -> bool:
+    return isinstance(node, Action) and node.is_under_way and node.activity == Activity.HANDLING

@@ -6,10 +6,12 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import BlackBoxLevel, Status
 from py_trees.composites import Selector, Sequence
 from py_trees.decorators import Decorator
-from py_trees.trees import BehaviourTree
 
 from executive.records import NodeShape, NodeState, TreeShape
 from trees.nodes import Action
+
+_INVALID = Status.INVALID
+"""At hand, because each tick asks each behaviour for its status."""
 
 
 class MissionTree:
@@ -21,9 +23,12 @@ class MissionTree:
 
     def __init__(self, root: Behaviour) -> None:
         """Wrap a tree that was not ticked yet."""
-        self._tree = BehaviourTree(root)
+        self._root = root
         self._nodes = dict(_walk(root, root.name))
         self._paths = {node.id: path for path, node in self._nodes.items()}
+        self._statuses = [_INVALID for _ in self._nodes]
+        self._states = [NodeState(path, _INVALID.name) for path in self._nodes]
+        """As `states` last found them: most are the same again, and then the same object."""
 
     def shape(self) -> TreeShape:
         """All behaviours, parents before children."""
@@ -44,30 +49,30 @@ class MissionTree:
         )
 
     def tick(self) -> None:
-        """Let the tree decide once."""
-        self._tree.tick()
+        """Let the tree decide once; no visitor of py_trees looks on, which would be a walk."""
+        self._root.tick_once()
 
     @property
     def status(self) -> str:
         """Status of the root."""
-        return self._tree.root.status.name
+        return self._root.status.name
 
     @property
     def tip(self) -> str:
         """Path of the behaviour that decided the last tick; empty before the first."""
-        tip = self._tree.tip()
+        tip = self._root.tip()
         return self._paths[tip.id] if tip else ""
 
     def states(self) -> tuple[NodeState, ...]:
         """Every behaviour as the last tick left it; its message only where it was active."""
-        return tuple(
-            NodeState(
-                path,
-                node.status.name,
-                "" if node.status == Status.INVALID else node.feedback_message,
-            )
-            for path, node in self._nodes.items()
-        )
+        states, statuses = self._states, self._statuses
+        for index, (path, node) in enumerate(self._nodes.items()):
+            status = node.status
+            message = "" if status is _INVALID else node.feedback_message
+            if status is not statuses[index] or message != states[index].message:
+                statuses[index] = status
+                states[index] = NodeState(path, status.name, message)
+        return tuple(states)
 
     def stop(self) -> None:
         """Interrupt what is running: every behaviour that started something cancels it.

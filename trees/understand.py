@@ -13,6 +13,7 @@ from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
 from trees.person import AskYesNo
+from trees.telling import in_one_sentence
 
 
 def understand(context: MissionContext) -> Behaviour:
@@ -74,11 +75,12 @@ class ReadCommand(Step):
 
     def update(self) -> Status:
         """Read the words."""
-        words = self.situation.request.words
+        words, spoken = self.situation.request.words, self.situation.dialogue.spoken
         self.context.recorder.record(Utterance("person", words))
-        commands = self.context.interpreter.commands(words)
+        holds = self.situation.hand.in_hand is not None
+        commands = self.context.interpreter.commands(words, spoken, holds=holds)
         if not commands:
-            self.situation.request.remark = self.context.interpreter.remark(words)
+            self.situation.request.remark = self.context.interpreter.remark(words, spoken)
             return self.fail("this is no command that the grammar knows")
         self.situation.agenda.add(commands)
         begin_next(self.context)
@@ -144,14 +146,12 @@ class ConfirmCommand(AskYesNo):
     def question(self) -> Question:
         """Say what would be done, all of it."""
         assert self.situation.request.command
-        first = self.situation.request.command
-        knowledge = self.context.knowledge
-        objects = [
-            o for name in knowledge.names_in(first.target) for o in knowledge.objects_named(name)
-        ]
-        others = [task.command for task in self.situation.agenda.tasks]
-        text = f"Do you mean: {', then '.join(named(c) for c in (first, *others))}?"
-        return Question(QuestionKind.CONFIRM, first.target, text, tuple(objects))
+        first, knowledge = self.situation.request.command, self.context.knowledge
+        names = knowledge.names_in(first.target)
+        objects = tuple(one for name in names for one in knowledge.objects_named(name))
+        commands = (first, *(task.command for task in self.situation.agenda.tasks))
+        wanted = ", then ".join(in_one_sentence(self.context, command) for command in commands)
+        return Question(QuestionKind.CONFIRM, first.target, f"Do you mean: {wanted}?", objects)
 
     def agreed(self) -> None:
         """The command stands."""
@@ -162,7 +162,7 @@ class ConfirmCommand(AskYesNo):
 
 
 def named(command: Command) -> str:
-    """A command in a few words: "bring mug from desk", "put mug to sofa"."""
+    """A command in the log: "bring mug from desk", "put mug to sofa"."""
     kind = command.kind.replace("_", " ")
     source = f"from {command.source}" if command.source else ""
     goal = f"to {command.goal}" if command.goal else ""

@@ -2,44 +2,39 @@
 
 from collections.abc import Sequence
 
-from executive.interfaces import Knowledge
+from executive.language.wording import either
 from executive.types import OtherColor
+from trees.context import MissionContext
 
 
-def unknown(knowledge: Knowledge, words: str) -> str:
+def unknown(context: MissionContext, words: str) -> str:
     """That nothing is what was asked for, as a sentence without its full stop."""
-    other = knowledge.other_color(words)
-    said = _not_so(other) if other else f"I know no '{words}'"
+    said = unresolved(context, words, ())
     return said[:1].upper() + said[1:]
 
 
-def unresolved(knowledge: Knowledge, words: str, offered: Sequence[str]) -> str:
+def unresolved(context: MissionContext, words: str, offered: Sequence[str]) -> str:
     """The same as a reason why nothing was done, with what is nearest to it."""
-    if other := knowledge.other_color(words):
-        return _not_so(other)
-    return f"I know no '{words}'" + (
-        f"; the nearest that I know is {either(offered)}" * bool(offered)
-    )
+    if other := context.knowledge.other_color(words):
+        return _not_so(context, other)
+    near = f"; the nearest that I know is {context.say.any_of(offered)}" if offered else ""
+    return f"I know no '{context.as_said(words)}'{near}"
 
 
-def nearest(knowledge: Knowledge, words: str) -> tuple[str, ...]:
+def nearest(context: MissionContext, words: str) -> tuple[str, ...]:
     """What is most like what was asked for: of another colour, or called nearly so."""
-    if other := knowledge.other_color(words):
+    if other := context.knowledge.other_color(words):
         return tuple(name for name, _ in other.actual)
-    return knowledge.nearest_names(words)
+    return context.knowledge.nearest_names(words)
 
 
-def either(names: Sequence[str]) -> str:
-    """One of the names: "apple, pear or mug"."""
-    return " or ".join((", ".join(names[:-1]), names[-1])) if len(names) > 1 else "".join(names)
-
-
-def _not_so(other: OtherColor) -> str:
-    wanted = " and ".join(other.wanted)
+def _not_so(context: MissionContext, other: OtherColor) -> str:
+    say, wanted = context.say, " and ".join(other.wanted)
     match other.actual:
         case [(name, colors)]:
-            return f"the {name} is {' and '.join(colors)}, not {wanted}"
+            return f"{say.are(name)} {' and '.join(colors)}, not {wanted}"
         case [(one, _), (another, _)]:
-            return f"neither {one} nor {another} is {wanted}"
+            return f"neither {say.the(one)} nor {say.the(another)} is {wanted}"
         case several:
-            return f"none of {either([name for name, _ in several])} is {wanted}"
+            names = either([say.words(name) for name, _ in several])
+            return f"none of {names} is {wanted}"

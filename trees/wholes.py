@@ -7,7 +7,7 @@ from executive.types import Command, CommandKind, MissionStatus, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds import deed_of
 from trees.meant import listed
-from trees.person import tell, the
+from trees.telling import tell
 
 NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
@@ -70,7 +70,7 @@ def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
         reason = last.reason if done else sentences(whole.parts)
     else:
         done = len(whole.done) >= whole.wanted and whole.wanted >= command.number
-        reason = how_many(whole)
+        reason = how_many(context, whole)
         tell(context, reason)
     return TaskOutcome(
         kind=command.kind,
@@ -90,10 +90,10 @@ def sentences(parts: list[TaskOutcome]) -> str:
     return "; ".join(dict.fromkeys(part.reason.rstrip(".") for part in parts))
 
 
-def how_many(whole: Whole) -> str:
+def how_many(context: MissionContext, whole: Whole) -> str:
     """Of how many it was done, of which, and why not of the others."""
     did, wanted = deed_of(whole.command.kind).did, max(whole.wanted, whole.command.number)
-    names = [the(part.object or part.target) for part in whole.done]
+    names = [context.say.the(part.object or part.target) for part in whole.done]
     why = sentences([part for part in whole.parts if part.status != MissionStatus.DONE])
     if len(names) == wanted:
         count, why = {1: "", 2: "both: "}.get(wanted, f"all {number(wanted)}: "), ""

@@ -58,6 +58,7 @@ class Recording:
             **before,
             "seed": str(self.parts.settings.seed),
             "model": self._model(),
+            "speaks": "in words",
             "thinks": str(self.parts.model is not None),
             "policy": self.policy,
             **{name: version(name) for name in PACKAGES},

@@ -3,6 +3,7 @@
 import logging
 import sys
 import time
+from collections import deque
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import replace
@@ -18,13 +19,15 @@ from executive.app.run_folder import new_folder, to_json, write
 from executive.app.sources import checked
 from executive.config import Settings
 from executive.errors import ExecutiveError
-from executive.events import THE_PERSON, Broke, Ended, Inbox, Started, StopRequested
+from executive.events import THE_PERSON, Broke, Ended, Heard, Inbox, Started, StopRequested
 from executive.guards import GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
 from executive.language.phrases import spoken
+from executive.language.spoken import NOTHING, after, resolved
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
+from executive.replies import Standing, about, reply
 from executive.situation import Ending, Situation
 from executive.text import one_line, too_long, writable
 from executive.types import Answered, Halt, MissionStatus, Outcome
@@ -101,8 +104,12 @@ class Session:
         self._sinks = tuple(sinks)
         self._build = build
         self._in_hand: str | None = None
+        self._spoken = NOTHING
+        self._last: Outcome | None = None
         self._restless = False
         self._closed = False
+        self.heard: deque[str] = deque()
+        """What the person has said too late for the mission in which it was said, oldest first."""
         self.ticks = 0
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
@@ -147,9 +154,10 @@ class Session:
     def run(self, words: str) -> Outcome:
         """One mission, from words to its outcome, with its own run folder if it is recorded.
 
-        Words that are too long are refused at once; words that say stop are a mission that is over.
-        Whatever fails, there is an outcome, and the robot is told to halt. What came in before the
-        mission counts only if it was a stop; what comes after it does not count for the next one.
+        What needs no mission (`talk`) is answered, and leaves no folder. Words that are too long
+        are refused at once; words that say stop are a mission that is over. Whatever fails, there
+        is an outcome, and the robot is told to halt. What came in before the mission counts only
+        if it was a stop; what comes after it does not count for the next one.
 
         Raises:
             ExecutiveError: if the session is closed.
@@ -165,25 +173,32 @@ class Session:
             self.stopped_by = next(stops, "")  # there is nothing to stop
             return refused(why)
         words = one_line(writable(words))
+        if not control(words) and (answer := self.talk(words)):
+            return answered(answer)
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recording else None
         self.folder = folder
-        situation = Situation.at_start(words, in_hand=self._in_hand, restless=self._restless)
+        situation = Situation.at_start(
+            words, in_hand=self._in_hand, restless=self._restless, spoken=self._spoken
+        )
         try:
             self._carry_out_safely(situation, folder, started)
         finally:
             self._in_hand, self._restless = situation.hand.in_hand, situation.ending.restless
-            outcome = situation.outcome(
+            self._last = outcome = situation.outcome(
                 mission_time_s=self._mission_time(),
                 wall_time_s=time.monotonic() - began,
                 run_dir=str(folder) if folder else None,
             )
+            if outcome.status != MissionStatus.STOPPED:
+                self.heard.extend(situation.dialogue.heard)
             try:
                 GuardedRecorder(self.recorder).record(Finished(outcome))
                 if folder:
                     write(folder / "outcome.json", to_json(outcome) + "\n")
             finally:
                 self._close_logs()
+        self._remember(words, outcome)
         return outcome
 
     def _close_logs(self) -> None:
@@ -234,7 +249,11 @@ class Session:
         logs: list[Sink] = []
         try:
             if folder and self._recording:
-                before = {"in_hand": self._in_hand or "", "restless": str(self._restless)}
+                before = {
+                    "in_hand": self._in_hand or "",
+                    "restless": str(self._restless),
+                    "spoken": self._spoken.to_json(),
+                }
                 logs = self._recording.sinks(folder, started, before)
         except Exception as error:
             log.warning("the mission goes on without logs: %s", in_words(error))
@@ -260,12 +279,36 @@ class Session:
             self.stopped_by = next(iter(others or executive.stops), "")
 
     def talk(self, words: str) -> str:
-        """Answer small talk, and who asks what can be said: no mission; empty if it is neither."""
-        things = [spoken(name) for name in self.parts.knowledge.objects()]
-        said = self.parts.interpreter.talk(words, things)
+        """Answer what needs no mission; empty if it does.
+
+        That is small talk, a question to the robot about itself or about what it knows, and where
+        something is, which it remembers.
+        """
+        said = self._reply(words)
         if said:
             self.parts.user.tell(said)
         return said
+
+    def _reply(self, words: str) -> str:
+        parts = self.parts
+        things = [spoken(name) for name in parts.knowledge.objects()]
+        if courtesy := parts.interpreter.talk(words, things):
+            return courtesy
+        said = resolved(parts.interpreter.read(words), self._spoken)
+        last = self._last
+        visits = [one for one in last.candidates if one.place in last.visited] if last else ()
+        standing = Standing(self._in_hand, visits=visits, reason=last.reason if last else "")
+        answer = reply(said, standing, parts.knowledge, parts.facts)
+        if answer:
+            self._spoken = after(said, self._spoken, things=about(said, parts.knowledge))
+        return answer
+
+    def _remember(self, words: str, outcome: Outcome) -> None:
+        """Of what was spoken, for what is said next."""
+        said = resolved(self.parts.interpreter.read(words), self._spoken)
+        things = (outcome.object,) if outcome.object else ()
+        place = outcome.goals[0] if outcome.goals else outcome.location or ""
+        self._spoken = after(said, self._spoken, things=things, place=place)
 
     def next_command(self, console: Console, prompt: str = "") -> str | None:
         """Prompt, and wait for the person to type a command; None if the input or session ends.
@@ -273,6 +316,8 @@ class Session:
         Raises:
             KeyboardInterrupt: if a signal says stop.
         """
+        if self.heard:
+            return self.heard.popleft()
         request = console.listen(prompt)
         while True:
             self.parts.clock.wait(None)
@@ -283,14 +328,26 @@ class Session:
                     if event.by != THE_PERSON:
                         raise KeyboardInterrupt
                     command = None  # it was taken back at once
+                    self.heard.clear()
+                elif isinstance(event, Heard):  # between two missions
+                    self.heard.append(event.words)
                 elif isinstance(event, Ended) and event.request == request:
                     if not isinstance(event.result, Answered):
                         return None
                     command = event.result.text
             if command is not None:
-                return command
+                self.heard.append(command)
+            if self.heard:
+                console.cancel(request)
+                return self.heard.popleft()
             if not self.inbox.is_open(request):
                 request = console.listen(prompt)
+
+
+def answered(answer: str) -> Outcome:
+    """The outcome of words that asked for no more than an answer."""
+    situation = Situation(ending=Ending(MissionStatus.DONE, answer))
+    return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
 
 
 def refused(why: str) -> Outcome:

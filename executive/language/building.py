@@ -9,6 +9,7 @@ from executive.language.meaning import (
     ALL,
     ME,
     About,
+    Again,
     Answer,
     Choice,
     Correction,
@@ -240,9 +241,10 @@ class Builder(Transformer[Token, Said]):
         return replace(task, verb=Verb.PUT) if task.goal else task
 
     def go(self, parts: list[Part]) -> Task:
-        """As in "go to the kitchen"."""
+        """As in "go to the kitchen"; "go back" is to the person."""
         task = _task(Verb.GO, parts, goes=True)
-        return task if task.goal else replace(task, goal=ME)
+        back = any(_is(p, "BACK") for p in parts)
+        return replace(task, goal=ME) if back and not task.goal else task
 
     def come(self, parts: list[Part]) -> Task:
         """As in "come here"."""
@@ -305,7 +307,7 @@ class Builder(Transformer[Token, Said]):
         return Request(
             tasks,
             in_order,
-            too=any(_is(p, "TOO") for p in parts),
+            too=any(_is(p, "TOO", "LATER") for p in parts),
             agrees=any(_is(p, "YES") for p in parts),
         )
 
@@ -317,21 +319,44 @@ class Builder(Transformer[Token, Said]):
         """As in "do not touch the hammer"."""
         return Refusal(_rest(parts))
 
-    def not_this(self, parts: list[Part]) -> Refusal:
-        """As in "not the hammer"."""
-        return Refusal(parts[-1].said)
+    def not_this(self, parts: list[Part]) -> Refusal | Correction:
+        """As in "not the hammer", "not the hammer but the drill"."""
+        wrong = parts[-1]
+        if wrong.exceptions:
+            meant = Things(wrong.exceptions)
+            return Correction(meant, Things((replace(wrong, exceptions=()),)), denies=True)
+        return Refusal(wrong.said)
 
     def unable(self, parts: list[Part]) -> Unable:
         """As in "throw the ball"."""
         verb = next(p for p in parts if _is(p, "UNABLE"))
         return Unable(str(verb), _rest(parts))
 
+    def again(self, parts: list[Part]) -> Again:
+        """As in "do that again"."""
+        return Again()
+
     def correction(self, parts: list[Part]) -> Correction:
-        """As in "no, the banana"."""
-        meant = next(p for p in parts if not isinstance(p, Token))
-        if not isinstance(meant, Request | Things):
-            raise Unfit(str(parts[0]))
-        return Correction(meant, denies=any(_is(p, "NO") for p in parts))
+        """As in "no, the banana", "no, to the kitchen", "no, the mug from the desk"."""
+        said = [p for p in parts if not isinstance(p, Token)]
+        found: dict[str, Any] = {"denies": any(_is(p, "NO", "NO_BUT") for p in parts)}
+        new: dict[str, Any]
+        for part in said:
+            match part:
+                case From(place):
+                    new = {"source": place}
+                case To(place):
+                    new = {"goal": place}
+                case Where():
+                    new = {"place": part}
+                case Request() | Things():
+                    new = {"meant": part}
+                case _:
+                    raise Unfit(str(parts[0]))
+            if new.keys() & found.keys():
+                raise Unfit(str(parts[0]))
+            found |= new
+        return Correction(**found)
 
     def not_that(self, parts: list[Part]) -> Correction:
         """As in "not the apple, the banana"."""
@@ -397,8 +422,9 @@ class Builder(Transformer[Token, Said]):
         return Courtesy(parts[0].type.lower())
 
     def _number(self, token: Token) -> int:
-        if token.isdecimal():
-            return int(token)
+        digits = token.removeprefix("number ").removesuffix(" one")
+        if digits.isdecimal():
+            return int(digits)
         return self._numbers.get(token) or self._numbers[token.removesuffix(" one")]
 
 

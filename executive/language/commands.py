@@ -6,6 +6,7 @@ from dataclasses import replace
 from executive.language.meaning import (
     ME,
     About,
+    Again,
     Choice,
     Correction,
     Courtesy,
@@ -55,6 +56,8 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
             return _commands(_resolved(_folded(said.tasks)), words)
         case Refusal():
             return "Then I will not."
+        case Again():
+            return "There is nothing yet that I could do again."
         case Unable():
             return f"I cannot {said.verb}."
         case Question():
@@ -62,7 +65,7 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
         case Courtesy():
             return talk(said)
         case Statement():
-            return "I cannot take note of that so far; I ask when I need to know it."
+            return "I take note of where things are when I am at nothing else."
         case Correction():
             return "I am doing nothing that this could change; say all that I am to do."
     return None
@@ -177,8 +180,8 @@ def _command(task: Task, things: Things | None, words: str) -> Command:
         CommandKind.BRING if brings else CommandKind(task.verb),
         _held(things) if task.verb == Verb.PUT_DOWN else _names(things, task.verb),
         words,
-        source=_in_words(task.source) if task.source else "",
-        goal=_in_words(task.goal) if task.goal and not brings else "",
+        source=in_words(task.source) if task.source else "",
+        goal=in_words(task.goal) if task.goal and not brings else "",
         purpose=" and ".join(thing.purpose for thing in members if thing.purpose),
         exceptions=tuple(but.words for thing in members for but in thing.exceptions),
         number=_number(task, members),
@@ -263,8 +266,8 @@ def _name(thing: Thing) -> str:
     return thing.said if named else THING
 
 
-def _in_words(where: Where) -> str:
+def in_words(where: Where) -> str:
     """A place as words that its name can be looked for in."""
     near = {Relation.NEXT_TO: "next to ", Relation.UNDER: "under "}.get(where.relation, "")
-    within = f" in {_in_words(where.within)}" if where.within else ""
-    return " or ".join([f"{near}{where.words}{within}", *map(_in_words, where.others)])
+    within = f" in {in_words(where.within)}" if where.within else ""
+    return " or ".join([f"{near}{where.words}{within}", *map(in_words, where.others)])

@@ -5,9 +5,10 @@ from functools import cache
 from itertools import chain
 
 from executive.language.commands import agrees, commands_in, talk
-from executive.language.meaning import Answer, Choice, Request, Task, Unread, Verb
+from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread, Verb
 from executive.language.reader import english
 from executive.language.slips import without_slips
+from executive.language.spoken import NOTHING, Spoken, resolved
 from executive.types import Command, Commands
 
 
@@ -24,9 +25,13 @@ class EnglishInterpreter:
         odd = tuple(sorted({name for name in names if not _is_read(name)}))
         self._reader = english(odd) if odd else english()
 
-    def commands(self, words: str) -> Commands:
+    def read(self, words: str) -> Said:
+        """What the words mean, as far as the grammar reads them."""
+        return self._reader.read(words)
+
+    def commands(self, words: str, spoken: Spoken = NOTHING, *, holds: bool = False) -> Commands:
         """The tasks in the words; none if there are none that can be done."""
-        read = self._read(words)
+        read = self._read(words, spoken, holds)
         return read if isinstance(read, tuple) else ()
 
     def command(self, words: str) -> Command | None:
@@ -34,17 +39,17 @@ class EnglishInterpreter:
         commands = self.commands(words)
         return commands[0][0] if commands else None
 
-    def remark(self, words: str) -> str:
+    def remark(self, words: str, spoken: Spoken = NOTHING) -> str:
         """What to say of words that were read and are no command to carry out; empty if they are.
 
         It is empty, too, if they were not read: then somebody else may.
         """
-        read = self._read(words)
+        read = self._read(words, spoken, False)
         return read if isinstance(read, str) else ""
 
-    def _read(self, words: str) -> Commands | str | None:
+    def _read(self, words: str, spoken: Spoken, holds: bool) -> Commands | str | None:
         """The tasks; or what to say; nothing to say if somebody else may read it."""
-        read = commands_in(self._reader.read(words), words)
+        read = commands_in(resolved(self._reader.read(words), spoken, holds=holds), words)
         denial = ""
         if read is None:
             denial = self._reader.denial(words)
@@ -68,13 +73,15 @@ class EnglishInterpreter:
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
-        said = self._reader.read(answer)
-        if said in (Answer(Choice.NO), Answer(Choice.UNKNOWN)):
+        if self._reader.declines(answer) or not self._reader.plain(answer).strip("?"):
             return True
-        return self._reader.declines(answer) or not self._reader.plain(answer).strip("?")
+        declining = (Answer(Choice.NO), Answer(Choice.UNKNOWN))
+        return self._reader.knows(answer) and self._reader.read(answer) in declining
 
     def agrees(self, answer: str) -> bool | None:
         """Whether an answer says yes or no; None if it says neither."""
+        if not self._reader.knows(answer):
+            return None
         said = self._reader.read(answer)
         if (agreed := agrees(said)) is not None or not isinstance(said, Unread | Request):
             return agreed
@@ -91,12 +98,10 @@ def named_in(command: Command) -> tuple[str, ...]:
 @cache
 def _is_read(name: str) -> bool:
     """Whether the grammar reads a name as one, without being told."""
-    plain = english().plain(name)
-    parts = plain.split()
-    if all(word.isalpha() and word not in english().vocabulary for word in parts):
+    if not english().knows(name):
         return True
     match english().read(f"find {name}"):
         case Request(tasks=(Task(verb=Verb.FIND, things=things, source=None, goal=None),)):
             assert things
-            return [thing.said for thing in things.members] == [plain]
+            return [thing.said for thing in things.members] == [english().plain(name)]
     return False

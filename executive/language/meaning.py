@@ -149,18 +149,29 @@ class Unable:
 
 
 @dataclass(frozen=True, slots=True)
+class Again:
+    """The same once more: "do that again"."""
+
+
+@dataclass(frozen=True, slots=True)
 class Correction:
     """Not that, but this: "no, the banana"; or that and this: "and the pear".
 
     Attributes:
-        meant: what is meant; things only: the deed is that of before.
+        meant: what is meant; things only: the deed is that of before. None if only a place is.
         wrong: what is not meant, if it was said.
+        source: where it is instead: "no, from the desk".
+        goal: where it is to go instead: "no, to the kitchen".
+        place: one of these two: "no, in the kitchen".
         adds: whether what was meant before still is.
         denies: whether it begins with a no.
     """
 
-    meant: "Request | Things"
+    meant: "Request | Things | None" = None
     wrong: Things | None = None
+    source: Where | None = None
+    goal: Where | None = None
+    place: Where | None = None
     adds: bool = False
     denies: bool = False
 
@@ -231,4 +242,15 @@ class Unread:
     at: str = ""
 
 
-Said = Request | Refusal | Unable | Correction | Question | Statement | Answer | Courtesy | Unread
+Said = (
+    Request
+    | Refusal
+    | Unable
+    | Again
+    | Correction
+    | Question
+    | Statement
+    | Answer
+    | Courtesy
+    | Unread
+)

@@ -67,6 +67,11 @@ class Reader:
                 raise
             return Unread(words, str(error.orig_exc))
 
+    def knows(self, words: str) -> bool:
+        """Whether there is a word among them that may be more than a part of a name."""
+        vocabulary = self.vocabulary
+        return not all(w.isalpha() and w not in vocabulary for w in self.plain(words).split())
+
     def plain(self, words: str) -> str:
         """Lower case, one space between words, no punctuation but the comma, no short forms.
 

@@ -15,6 +15,7 @@ from time import perf_counter
 from executive.app.parts import Build, Change, build_mission, mission_tree
 from executive.errors import InputError
 from executive.events import Inbox
+from executive.language.spoken import Spoken
 from executive.records import Record, Tick, TreeShape
 from executive.replay.recorded import kept, recorded_parts
 from executive.replay.stand_ins import Absent, RecordedTime
@@ -77,7 +78,7 @@ def replay(folder: Path, build: Build = mission_tree, change: Change | None = No
     run = Run(folder)
     inbox, situation = Inbox(), _situation(run)
     clock = RecordedTime(tuple(run.turns()), inbox, _requests_before(run))
-    judge = Judge(clock, ends_early=run.outcome() is None)
+    judge = Judge(clock, ends_early=run.outcome() is None, exact=_is_worded(run))
     absent = Absent(inbox, situation)
     absent.rests = "policy" not in run.metadata
     parts = recorded_parts(run, inbox, absent, clock, judge, change)
@@ -94,9 +95,13 @@ def replay(folder: Path, build: Build = mission_tree, change: Change | None = No
 class Judge:
     """The Recorder of a replay: holds every tick against the recorded one."""
 
-    def __init__(self, clock: RecordedTime, *, ends_early: bool) -> None:
-        """Judge by the turn that the clock plays; the last may be cut off if it `ends_early`."""
+    def __init__(self, clock: RecordedTime, *, ends_early: bool, exact: bool) -> None:
+        """Judge by the turn that the clock plays; the last may be cut off if it `ends_early`.
+
+        Unless `exact`, what is said in words does not count.
+        """
         self._clock = clock
+        self._exact = exact
         self.ends_early = ends_early
         self._shape = TreeShape(())
         self.same = 0
@@ -130,7 +135,7 @@ class Judge:
             self._clock.stop("the end of the recording")
             return
         aspects = (
-            tuple(tick_aspects(recorded, tick, exact=True))
+            tuple(tick_aspects(recorded, tick, exact=self._exact))
             if recorded
             else (Aspect("mission", ENDED, f"{tick.cause}, then {tick.tip}"),)
         )
@@ -142,10 +147,23 @@ class Judge:
         self.time_s = self._clock.now()
 
 
+def _is_worded(run: Run) -> bool:
+    """Whether the robot spoke in words; before, it said `sugar_box`, and decided alike."""
+    return "speaks" in run.metadata
+
+
 def _situation(run: Run) -> Situation:
     """What was known of the robot before the recorded mission."""
-    restless = run.metadata.get("restless") == str(True)
-    return Situation.at_start(in_hand=run.metadata.get("in_hand") or None, restless=restless)
+    try:
+        spoken = Spoken.from_json(run.metadata.get("spoken", "{}"))
+    except ValueError as error:
+        what = "its metadata do not say of what was spoken before it"
+        raise InputError(str(run.path), what) from error
+    return Situation.at_start(
+        in_hand=run.metadata.get("in_hand") or None,
+        restless=run.metadata.get("restless") == str(True),
+        spoken=spoken,
+    )
 
 
 def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]:
@@ -176,7 +194,7 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
         outcome = replace(outcome, model_failure=recorded.model_failure)
     if not recorded.tasks:  # recorded when there was but one
         outcome = replace(outcome, tasks=())
-    aspects = tuple(outcome_aspects(recorded, outcome, exact=True))
+    aspects = tuple(outcome_aspects(recorded, outcome, exact=_is_worded(run)))
     return Parting(None, recorded.mission_time_s, aspects) if aspects else None
 
 

@@ -1,12 +1,13 @@
 """What a mission knows so far, in parts: what behaviours read and write, and the log keeps."""
 
 from executive.situation.agenda import Agenda, Task, Whole
-from executive.situation.ending import Ending
-from executive.situation.hand import Hand, table
+from executive.situation.ending import TAKEN_BACK, Ending
+from executive.situation.hand import Hand
 from executive.situation.search import Consultation, candidates_from
 from executive.situation.situation import Situation
 
 __all__ = [
+    "TAKEN_BACK",
     "Agenda",
     "Consultation",
     "Ending",
@@ -15,5 +16,4 @@ __all__ = [
     "Task",
     "Whole",
     "candidates_from",
-    "table",
 ]

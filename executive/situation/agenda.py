@@ -50,8 +50,8 @@ def _wholes(wholes: list[Whole]) -> list[dict[str, Any] | None]:
 class Agenda:
     """The tasks of a mission; the one at hand is `Request.command`, and in none of these lists.
 
-    A wish may be added at any time. `instead` replaces the task at hand: the tree sees it at its
-    next tick, interrupts what it does, and begins with that.
+    A wish may be added at any time. `instead` replaces the task at hand, and what is `taken_back`
+    is not done: the tree sees it, interrupts what it does, and goes on with the next.
     """
 
     tasks: list[Task] = field(default_factory=list, metadata=logged_as(plain=_tasks))
@@ -62,9 +62,13 @@ class Agenda:
     """The task that is being done in parts; behind it a part of it that is done so, too."""
     instead: Command | None = field(default=None, metadata=logged_as(plain=command_as_logged))
     """What is to be done at once in place of the task at hand; None for nothing."""
+    taken_back: bool = False
+    """Whether the task at hand is not to be done after all."""
+    unsettled: bool = False
+    """Whether the robot was handling something when the task was given up."""
     _groups: int = field(default=0, metadata=NOT_LOGGED)
 
-    def add(self, commands: Commands) -> None:
+    def add(self, commands: Iterable[tuple[Command, ...]]) -> None:
         """Do these, too, after all others."""
         self.tasks += self._in_groups(commands, 0)
 
@@ -86,6 +90,26 @@ class Agenda:
         """Whether there are any such."""
         return any(task.depth == len(self.wholes) for task in self.tasks)
 
+    def replace(self, first: Command, others: Sequence[Command] = ()) -> None:
+        """Do these at once in place of the task at hand, in this order."""
+        self._leave_parts()
+        self.instead = first
+        self.tasks[:0] = self._in_groups([(command,) for command in others], 0)
+
+    def take_back(self) -> None:
+        """Do not do the task at hand after all."""
+        self._leave_parts()
+        self.taken_back = True
+
+    def whole_of(self, at_hand: Command | None) -> Command | None:
+        """What the task at hand is a part of, or itself."""
+        return self.wholes[0].command if self.wholes else at_hand
+
+    @property
+    def interrupts(self) -> bool:
+        """Whether the task at hand is to be given up."""
+        return self.taken_back or self.instead is not None
+
     def next_ones(self) -> tuple[Task, ...]:
         """Those that may be done next."""
         return tuple(task for task in self.tasks if task.group == self.tasks[0].group)
@@ -103,6 +127,10 @@ class Agenda:
         """Where the robot got to in the tasks that have ended."""
         for task in (*self.ended, *(part for whole in self.wholes for part in whole.parts)):
             yield from task.visited
+
+    def _leave_parts(self) -> None:
+        self.tasks = [task for task in self.tasks if not task.depth]
+        self.wholes.clear()
 
     def _in_groups(self, commands: Iterable[tuple[Command, ...]], depth: int) -> list[Task]:
         tasks: list[Task] = []

@@ -1,6 +1,15 @@
 """How it stands between the robot and the person."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
+
+from executive.language.spoken import NOTHING, Spoken
+from executive.situation.snapshot import logged_as
+
+
+def _spoken(spoken: Spoken) -> dict[str, Any]:
+    """What words for what was spoken of stand for; what they may be is in the metadata."""
+    return {"things": list(spoken.things), "called": spoken.called, "place": spoken.place}
 
 
 @dataclass
@@ -12,3 +21,7 @@ class Dialogue:
     inquiries: int = 0
     no_help: str = ""
     """Why the person cannot or will not help, as a clause; empty if they may."""
+    spoken: Spoken = field(default=NOTHING, metadata=logged_as(plain=_spoken))
+    """What was spoken of before this mission: what "it" and "there" stand for."""
+    heard: list[str] = field(default_factory=list)
+    """What the person has said unasked, and nobody has attended to yet, oldest first."""

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from executive.types import DELIVERY, SOMETHING
+from executive.language.wording import Wording, either
+from executive.types import SOMETHING
 
 
 @dataclass
@@ -42,16 +43,11 @@ class Hand:
         elif holding and self.in_hand is None:
             self.in_hand = self.reached_for or SOMETHING
 
-    @property
-    def not_put_down(self) -> str:
+    def not_put_down(self, say: Wording) -> str:
         """Where what is in the hand could not be put down, and why, as a clause; empty if so."""
         (place, why), *others = self.unplaced.items() or [("", "")]
         if not others:
             return why
-        also = ", ".join(table(other) for other, _ in others)
-        return f"I could not put it on {table(place)}: {why}; nor on {also}"
-
-
-def table(place: str) -> str:
-    """A piece of furniture as it is called in a sentence."""
-    return "the delivery table" if place == DELIVERY else f"the {place}"
+        also = either(say.at_each(other for other, _ in others))
+        it = say.it(self.in_hand or SOMETHING)
+        return f"I could not put {it} {say.at(place)}: {why}; nor {also}"

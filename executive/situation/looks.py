@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from executive.language.wording import Wording, either
 from executive.situation.snapshot import NOT_LOGGED
 
 
@@ -51,17 +52,23 @@ class Looks:
         """Whether every part of a place was seen, and the thing is in none of them."""
         return 0 < self._parts.get(place, 0) == len(self._without.get(place, ()))
 
-    def why_not_all(self, thing: str, place: str) -> str:
+    def why_not_all(self, thing: str, place: str, say: Wording) -> str:
         """Why it is not known whether the thing is at a place that was reached, as a clause."""
         if place not in self.unseen:
-            return f"I am not sure whether the {thing} is at {place}"
+            return f"I am not sure whether {say.are(thing)} {say.at(place)}"
         some = "saw only a part of" if self._without.get(place) else "could not look at"
-        return f"I {some} {place}: {self.unseen[place]}"
+        return f"I {some} {say.the(place)}: {self.unseen[place]}"
 
-    def clauses(self, thing: str) -> Iterator[str]:
+    def why_not(self, thing: str, place: str, say: Wording) -> str:
+        """Why it is not known whether the thing is at a place, as a clause."""
+        if why := self.unreached.get(place):
+            return f"I could not get to {say.the(place)}: {why}"
+        return self.why_not_all(thing, place, say)
+
+    def clauses(self, thing: str, say: Wording) -> Iterator[str]:
         """What the search came to, at most a clause for each place."""
         there = [p for p in dict.fromkeys(self.visited) if p not in self.unreached]
         if seen := [place for place in there if self.all_without(place)]:
-            yield f"I did not find the {thing} at {', '.join(seen)}"
-        yield from (self.why_not_all(thing, p) for p in there if not self.all_without(p))
-        yield from (f"I could not get to {p}: {why}" for p, why in self.unreached.items())
+            yield f"I did not find {say.the(thing)} {either(say.at_each(seen))}"
+        others = (p for p in there if not self.all_without(p))
+        yield from (self.why_not(thing, place, say) for place in (*others, *self.unreached))

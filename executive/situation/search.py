@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from executive.language.wording import Wording
 from executive.situation.looks import Looks
 from executive.situation.snapshot import PART, logged_as
 from executive.types import DELIVERY, Candidate, Detection
@@ -69,9 +70,9 @@ class Search:
         """The candidates less the places where the robot has looked already."""
         return tuple(c for c in candidates if c.place not in self.looks.visited)
 
-    def so_far(self, thing: str | None) -> str:
+    def so_far(self, thing: str | None, say: Wording) -> str:
         """Where the thing was looked for in vain, as a clause; empty if nowhere."""
-        return "; ".join(self.looks.clauses(thing or "thing"))
+        return "; ".join(self.looks.clauses(thing or "thing", say))
 
 
 def candidates_from(places: Iterable[str], source: str) -> tuple[Candidate, ...]:

@@ -11,9 +11,11 @@ from executive.events import (
     Ended,
     Event,
     HandFelt,
+    Heard,
     Started,
     StopRequested,
 )
+from executive.language.spoken import NOTHING, Spoken
 from executive.situation.agenda import Agenda
 from executive.situation.dialogue import Dialogue
 from executive.situation.ending import Ending
@@ -47,11 +49,19 @@ class Situation:
 
     @classmethod
     def at_start(
-        cls, words: str = "", *, in_hand: str | None = None, restless: bool = False
+        cls,
+        words: str = "",
+        *,
+        in_hand: str | None = None,
+        restless: bool = False,
+        spoken: Spoken = NOTHING,
     ) -> Self:
-        """What is known before the first tick: the words, and in what state the robot was left."""
+        """What is known before the first tick: the words, and how things stood before them."""
         return cls(
-            request=Request(words), hand=Hand(in_hand=in_hand), ending=Ending(restless=restless)
+            request=Request(words),
+            hand=Hand(in_hand=in_hand),
+            dialogue=Dialogue(spoken=spoken),
+            ending=Ending(restless=restless),
         )
 
     def fold(self, event: Event) -> None:
@@ -65,6 +75,8 @@ class Situation:
                 self.ending.stop(by)
             case Broke(reason):
                 self.ending.break_off(reason)
+            case Heard(words):
+                self.dialogue.heard.append(words)
             case HandFelt(holding):
                 self.hand.feel(holding)
             case Ended() | DeadlinePassed():

@@ -1,4 +1,7 @@
-"""Which language model `--llm` names, and the only place where one is made of settings."""
+"""Which language model `--llm` names, and the only place where one is made of settings.
+
+The libraries of a model are imported when it is opened, because a mission may do without it.
+"""
 
 from pathlib import Path
 
@@ -7,8 +10,6 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import LanguageModel
 from kb.llm.key import Key
-from kb.llm.llama import LlamaCpp, embedded_model
-from kb.llm.server.server import Server
 
 
 def model_for_missions(settings: Settings, inbox: Inbox) -> LanguageModel | None:
@@ -37,6 +38,8 @@ def open_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
     if settings.llm == "none":
         return None
     if settings.llm.startswith("http"):
+        from kb.llm.server.server import Server
+
         return Server(
             settings.llm,
             inbox,
@@ -50,6 +53,8 @@ def open_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
             seed=settings.seed,
             grammar=settings.grammar,
         )
+    from kb.llm.llama import LlamaCpp, embedded_model
+
     return LlamaCpp(
         embedded_model() if settings.llm == "embedded" else Path(settings.llm),
         inbox,

@@ -8,7 +8,7 @@ from rdflib.term import Identifier
 from executive.text import printable
 from kb.ontology.graph import Graph, one_line, unusable
 from kb.ontology.owl import ending
-from kb.ontology.properties import PRONOUN, PROPERTIES, SAID, USE
+from kb.ontology.properties import NUMBER, PLURAL, PRONOUN, PROPERTIES, SAID, USE
 from kb.ontology.uses import PURPOSE_WORDS
 
 MOST_SHOWN = 40
@@ -38,6 +38,8 @@ def _fault(name: str, value: Identifier, *, of_root: bool) -> str | None:
     shown = f"has the {name} {printable(text)[:MOST_SHOWN]!r}, which"
     if why := unusable(text):
         return f"{shown} {why}"
+    if name == NUMBER and text not in (PLURAL, "singular"):
+        return f"{shown} is no number: write {PLURAL}, or leave it out"
     begins = text.casefold().startswith(tuple(f"{word} " for word in PURPOSE_WORDS))
     if name == USE and value.language in SAID and not begins:
         return f"{shown} does not say a purpose: write to ... or for ..."

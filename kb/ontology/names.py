@@ -149,10 +149,18 @@ class PlaceNames:
 
 
 def _orders(place: Place) -> tuple[Words, ...]:
-    """A name and, where it says the room, the same with the room first: "kitchen cabinet"."""
+    """A name; where it says the room, with the room first; and as the robot says it, in full.
+
+    As in "kitchen cabinet" and in "desk in the bedroom".
+    """
     name, base = place_words(place.name), place_words(base_name(place))
     room = tuple(w for w in name if w not in base)
-    return name, (*room, *base)
+    return (
+        name,
+        (*room, *base),
+        (*name, *place_words(place.room)),
+        (*base, *place_words(place.room)),
+    )
 
 
 def base_name(place: Place) -> str:

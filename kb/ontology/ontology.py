@@ -10,14 +10,25 @@ from rdflib.term import Identifier
 from executive.errors import InputError
 from executive.language.phrases import MOST_WORDS, spoken, words_of
 from executive.text import printable
-from executive.types import OtherColor, Place, Thing
+from executive.types import Called, OtherColor, Place, Thing
 from kb.ontology.descriptions import Descriptions, Look
 from kb.ontology.graph import Graph
 from kb.ontology.home_file import home_file
 from kb.ontology.library import Library
 from kb.ontology.names import PlaceNames, index_by_words, unique
 from kb.ontology.owl import OwlFile, ending, read
-from kb.ontology.properties import COLOR, PRONOUN, SHAPE, USE, Properties, said, texts
+from kb.ontology.properties import (
+    COLOR,
+    NUMBER,
+    PLURAL,
+    PRONOUN,
+    SHAPE,
+    USE,
+    Properties,
+    said,
+    texts,
+)
+from kb.ontology.speaking import places_called, thing_called
 from kb.ontology.table import Table
 from kb.ontology.things import put_thing
 from kb.ontology.unused import unused
@@ -119,6 +130,8 @@ class Ontology:
         self._person = self._person_named(person) if person else None
         self.place_names = PlaceNames(self.places(), self._called())
         """What the furniture and the rooms of the home are called."""
+        prepositions = {place.kind: self.preposition(place) for place in self.places()}
+        self._places_called = places_called(self.places(), prepositions)
 
     def names(self) -> tuple[str, ...]:
         """Everything that somebody may call a thing or a place."""
@@ -136,6 +149,16 @@ class Ontology:
     def has_place(self, name: str) -> bool:
         """Whether a piece of furniture of this name is in the home."""
         return name in self._places
+
+    def called(self, name: str) -> Called | None:
+        """How one speaks of an object, a class or a piece of furniture; None if it is unknown."""
+        if name in self._places_called:
+            return self._places_called[name]
+        thing = self._things_by_name.get(name)
+        if thing is None:
+            return None
+        plural = PLURAL in texts(self._properties.nearest(thing, NUMBER))
+        return thing_called(name, plural=plural, is_class=thing not in self._objects)
 
     def objects_named(self, words: str) -> tuple[str, ...]:
         """The objects that the words may mean: none, one, or several ("fruit", "the red one").

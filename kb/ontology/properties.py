@@ -1,4 +1,4 @@
-"""What things look like and are for: the colours, shapes and uses that the files give them."""
+"""What things look like and are for, and how one speaks of them, as far as the files say."""
 
 from collections.abc import Iterable
 
@@ -8,8 +8,10 @@ from rdflib.term import Identifier
 from kb.ontology.graph import Graph, one_line, unusable
 from kb.ontology.names import unique
 
-COLOR, SHAPE, USE, PRONOUN = PROPERTIES = ("color", "shape", "use", "pronoun")
+COLOR, SHAPE, USE, PRONOUN, NUMBER = PROPERTIES = ("color", "shape", "use", "pronoun", "number")
 """The ends of their IRIs."""
+PLURAL = "plural"
+"""As a number: one says "the scissors are"."""
 SAID = (None, "en")
 """Languages of what is also said; "en-US" is one that is only understood."""
 

@@ -6,11 +6,24 @@ was taken, those before it failed and said why, those after it were not needed.
 
 import re
 from collections import defaultdict
-from collections.abc import Callable, Container, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from heapq import merge
+from typing import Any
 
-from executive.records import Activity, LlmCall, NodeShape, NodeState, Tick, TreeShape, Verified
+from executive.events import Heard
+from executive.records import (
+    Activity,
+    EventTaken,
+    LlmCall,
+    NodeShape,
+    NodeState,
+    Tick,
+    TreeShape,
+    Utterance,
+    Verified,
+)
+from executive.situation import TAKEN_BACK
 from executive.text import printable
 from executive.types import Scored
 from logs.recording.reader import At, Run
@@ -57,12 +70,25 @@ def why(run: Run) -> list[Decision]:
         Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
         for at in run.mishaps()
     )
-    decisions = list(merge(_Chain(run).decisions(), ordered, key=lambda d: d.time_s))
+    chain = merge(_heard(run), _Chain(run).decisions(), ordered, key=lambda d: d.time_s)
+    decisions = list(chain)
     outcome = run.outcome()
     if outcome is not None:
         ending = outcome.reason or outcome.status
         decisions.append(Decision(outcome.mission_time_s, "outcome", ending, "", outcome.status))
     return decisions
+
+
+def _heard(run: Run) -> Iterator[Decision]:
+    """What the person said unasked, and what the robot answered."""
+    waiting: list[At[Heard]] = []
+    for at in run.records(EventTaken, Utterance):
+        match at.value:
+            case EventTaken(Heard() as heard):
+                waiting.append(At(at.time_s, heard))
+            case Utterance(speaker="robot", text=answer) if waiting:
+                before = waiting.pop(0)
+                yield Decision(before.time_s, f"heard '{before.value.words}'", answer, "person", "")
 
 
 class _Chain:
@@ -233,9 +259,19 @@ def _visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> 
         if not was.get("found"):
             yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
     elif _runs(searches, before) and place in (was.get("visited") or ()) and is_left:
+        if _is_given_up(was, now):
+            yield Decision(at.time_s, f"look at {place}", "given up", "person", tip)
+            return
         why_not = (now.get("unseen") or {}).get(place)
         seen = f"not all of it seen: {why_not}" if why_not else "not seen there"
         yield Decision(at.time_s, f"look at {place}", seen, "eyes", tip)
+
+
+def _is_given_up(was: Mapping[str, Any], now: Mapping[str, Any]) -> bool:
+    """Whether the task was, for what the person said meanwhile."""
+    if len(now.get("ended") or ()) > len(was.get("ended") or ()):
+        return bool(now["ended"][-1]["reason"] == TAKEN_BACK)
+    return now.get("command") != was.get("command") or not now.get("visited")
 
 
 def _tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:

@@ -12,6 +12,7 @@ from executive.events import (
     Ended,
     Event,
     HandFelt,
+    Heard,
     Started,
     StopRequested,
 )
@@ -50,7 +51,7 @@ def _beside_its_gist(event: Event) -> dict[str, Any]:
             return {"holding": bool(holding), "numb": holding is None}
         case Ended(request, result):
             return {"request": request, "result": type(result).__name__, **_result_fields(result)}
-        case Started() | StopRequested() | Broke():
+        case Started() | StopRequested() | Heard() | Broke():
             return {}
         case _:
             assert_never(event)
@@ -75,6 +76,7 @@ _EVENTS: dict[type, Callable[[Any], Event]] = {
     Ended: lambda message: Ended(whole(message.request), _result(message)),
     DeadlinePassed: lambda message: DeadlinePassed(finite(message.deadline_s)),
     StopRequested: lambda message: StopRequested(message.text),
+    Heard: lambda message: Heard(message.text),
     HandFelt: lambda message: HandFelt(None if message.numb else message.holding),
     Broke: lambda message: Broke(message.text),
 }
@@ -152,7 +154,7 @@ def in_words(event: Event) -> str:
 def gist(event: Event) -> str:
     """What is worth reading of an event, beside its name."""
     match event:
-        case Started(words):
+        case Started(words) | Heard(words):
             return words
         case Ended(_, result):
             return _gist_of_result(result)

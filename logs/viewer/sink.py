@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import assert_never
 
 import rerun as rr
+from rerun_bindings import flush_and_cleanup_orphaned_recordings
 
 from executive.records import (
     EventTaken,
@@ -147,12 +148,19 @@ class RerunSink:
             OSError: if that does not end: rerun may wait for ever for a disk that is full.
         """
         self._send_kept()
-        closing = threading.Thread(target=self._stream.disconnect, name="rerun", daemon=True)
+        closing = threading.Thread(target=self._let_go, name="rerun", daemon=True)
         closing.start()
         closing.join(FLUSH_S)
         if closing.is_alive():
             atexit.unregister(rr.rerun_shutdown)  # it would wait, too
             raise OSError(f"rerun does not finish its file within {FLUSH_S:g} s")
+
+    def _let_go(self) -> None:
+        """Disconnect, and end the threads that rerun keeps for a stream until it is asked to."""
+        self._stream.disconnect()
+        self._tree = None
+        del self._stream, self._candidates
+        flush_and_cleanup_orphaned_recordings()
 
     def _write_tick(self, tick: Tick) -> None:
         self._tick = tick.number

@@ -28,6 +28,14 @@ def test_the_smallest_program_brings_the_thing(tmp_path: Path) -> None:
     assert Path(outcome.run_dir).parent == tmp_path
 
 
+@pytest.mark.physics
+def test_the_person_changes_their_mind_and_gets_the_other_thing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    example("changing_ones_mind")["main"](str(tmp_path))
+    assert "All right: I bring the scissors instead." in capsys.readouterr().err
+
+
 def test_the_added_behaviour_takes_the_robot_home(tmp_path: Path) -> None:
     own = example("own_behaviour")
     outcome = own["bring"]("Bring the mug", tmp_path)
@@ -108,7 +116,7 @@ def test_without_a_name_the_newest_recording_is_told(
     for words in ("Find an apple", "Find the mug"):
         example("bring")["bring"](words, Path("runs"))
     reads()
-    assert "done: The mug is at " in capsys.readouterr().out
+    assert "done: The mug is on " in capsys.readouterr().out
 
 
 def test_without_any_recording_it_is_said_in_a_sentence(reads: Callable[[], object]) -> None:
@@ -120,7 +128,7 @@ def test_a_recording_tells_its_story(tmp_path: Path) -> None:
     outcome = example("bring")["bring"]("Find an apple", tmp_path)
     first, *_, last = example("read_a_recording")["story"](Path(outcome.run_dir))
     assert first.startswith("run ")
-    assert last == "done: The apple is at dining_table."
+    assert last == "done: The apple is on the dining table in the living room."
 
 
 @pytest.mark.parametrize("file", FILES)

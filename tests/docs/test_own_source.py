@@ -16,7 +16,7 @@ def test_the_robot_looks_where_the_calendar_says(
     calendar = example["Calendar"](EXAMPLE.with_name("calendar.csv"), date(2026, 11, 25))
     outcome = example["bring"]("Bring the hammer", calendar, tmp_path)
     assert (outcome.status, outcome.source, outcome.visited) == ("done", "calendar", ("sofa",))
-    assert "I look for the hammer at sofa: your calendar says so." in capsys.readouterr().err
+    assert "I look for the hammer on the sofa: your calendar says so." in capsys.readouterr().err
 
 
 def test_an_entry_counts_on_its_days_only() -> None:

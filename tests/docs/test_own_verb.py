@@ -27,7 +27,7 @@ def test_the_robot_stays_where_it_found_the_thing(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(trees.act, "DEEDS", (show, *others))
     run = run_mission("Find a power_drill", llm=False)
     assert run.outcome.status == MissionStatus.DONE
-    assert run.outcome.reason == "Look, here is the power_drill, at shelf_lobby."
+    assert run.outcome.reason == "Look, here is the power drill, on the shelf in the lobby."
     assert run.world.at == "shelf_lobby"
     assert show.is_true(run.outcome, "shelf_lobby")
     assert not show.is_true(run.outcome, "bed")

@@ -88,7 +88,7 @@ def test_a_signal_that_comes_as_all_is_done_ends_the_conversation(
     by: str, left: list[str], house: House
 ) -> None:
     def tell(text: str) -> None:
-        if text.startswith("The mug is at"):
+        if text.startswith("The mug is on"):
             house.inbox.post(StopRequested(by))
 
     house.session.parts.user.tell = tell  # type: ignore[method-assign]
@@ -196,7 +196,7 @@ def test_a_pick_that_takes_too_long_with_the_thing_in_the_hand_got_hold_of_it(
     house: House,
 ) -> None:
     stands_in(house, Pick, grips=True)
-    assert house.run("Take the mug").reason == "I took the mug from coffee_table and hold it."
+    assert house.run("Take the mug").reason == "I took the mug from the coffee table and hold it."
     assert hand_is_known(house)
     assert isinstance(house.goals[-1], Halt)
 

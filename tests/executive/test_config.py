@@ -58,7 +58,8 @@ def test_a_fault_is_named_with_what_would_be_right(
 @pytest.mark.parametrize("maker", ["LlamaCpp", "Server"])
 def test_the_settings_reach_the_model(maker: str, monkeypatch: pytest.MonkeyPatch) -> None:
     given: dict[str, Any] = {}
-    monkeypatch.setattr(opening, maker, lambda *_, **settings: given.update(settings))
+    home = {"LlamaCpp": "kb.llm.llama", "Server": "kb.llm.server.server"}[maker]
+    monkeypatch.setattr(f"{home}.{maker}", lambda *_, **settings: given.update(settings))
     llm = {"LlamaCpp": "my.gguf", "Server": "http://127.0.0.1:1/v1"}[maker]
     opening.model_for_missions(
         load_settings(llm=llm, grammar=True, threads=3, gpu_layers=-1, temperature=0.5), Inbox()

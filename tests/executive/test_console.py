@@ -10,10 +10,10 @@ from collections.abc import Iterator
 import pytest
 
 from executive.config import Settings
-from executive.events import THE_PERSON, Ended, Event, Inbox, StopRequested
+from executive.events import THE_PERSON, Ended, Event, Heard, Inbox, StopRequested
 from executive.text import LONGEST
 from executive.types import Answered, Failed, MissionStatus, Outcome, Question, QuestionKind
-from executive.user import BUSY, FORGOTTEN, MOST_LINES, NOTHING_TO_STOP, STOPPING, Console
+from executive.user import FORGOTTEN, MOST_LINES, NOTHING_TO_STOP, STOPPING, Console
 
 WHERE = Question(QuestionKind.WHERE_IS, "mug", "Where is the mug?")
 TOO_LONG = "Sorry: what you said is too long, I read at most 1,000 characters."
@@ -95,10 +95,13 @@ def test_a_stop_instead_of_an_answer_stops(person: Person) -> None:
     assert person.events() == (StopRequested(THE_PERSON),)
 
 
-def test_what_is_typed_while_nobody_asks_is_no_answer_to_a_later_question(person: Person) -> None:
+def test_what_is_typed_while_nobody_asks_is_heard_and_answers_no_later_question(
+    person: Person,
+) -> None:
     person.console.tell("I look for the mug.")
     person.screen.next()
-    person.hears("the banana", BUSY)
+    person.keys.type("the banana")
+    assert person.events() == (Heard("the banana"),)
     person.is_asked()
     person.keys.type("on the desk")
     assert person.result() == Answered("on the desk")

@@ -48,6 +48,25 @@ def test_a_signal_during_imports_ends_a_program_without_a_traceback(
     assert (ended.returncode, ended.stderr) == (130, "")
 
 
+def test_a_program_looks_for_garbage_once_it_has_begun() -> None:
+    code = """if True:
+        import gc, sys
+        from executive.start import begin
+        begin()
+        from executive.shell import all_is_kept, entry_point
+
+        @entry_point
+        def main(arguments):
+            before = gc.isenabled()
+            with all_is_kept():
+                meanwhile = gc.isenabled()
+            return 10 * before + 5 * meanwhile + gc.isenabled()
+
+        sys.exit(main())
+    """
+    assert subprocess.run([sys.executable, "-c", code], timeout=30).returncode == 11
+
+
 def test_a_program_under_nohup_outlives_its_terminal() -> None:
     code = "import os, signal; from executive.start import begin; begin(); os.kill(os.getpid(), 1)"
     ended = subprocess.run(
@@ -178,7 +197,7 @@ def test_a_terminal_that_knows_ascii_only_is_told_everything(
         timeout=30,
     )
     assert ended.returncode == 1
-    assert "k\\xe4sekuchen \\u2603" in ended.stdout
+    assert "K\\xe4sekuchen \\u2603" in ended.stdout
     assert "Traceback" not in ended.stderr
 
 

@@ -53,6 +53,14 @@ def test_protocols_and_errors_come_without_simulator_or_model():
     assert loaded(f"from executive import {names}", heavy) == "[]"
 
 
+def test_what_help_needs_comes_without_numpy():
+    assert loaded("import executive.__main__", ("numpy", "cv2", "pybullet")) == "[]"
+
+
+def test_a_session_without_a_model_imports_no_library_of_one():
+    assert loaded("import executive.app.session", ("llama_cpp", "httpx2", "jinja2")) == "[]"
+
+
 def test_replay_is_a_function_of_its_own_package():
     from executive.replay import replay
 

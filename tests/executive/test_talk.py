@@ -43,5 +43,5 @@ def test_is_answered_without_a_run_folder(
 def test_who_reads_outcomes_gets_one_for_whatever_is_said(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    assert main([*QUICK, "--json", "Hello!"]) == 1
+    assert main([*QUICK, "--json", "Hello!"]) == 0
     assert json.loads(capsys.readouterr().out)["reason"] == "Hello!"

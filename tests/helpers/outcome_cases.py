@@ -286,6 +286,12 @@ CASES = [
         object="hammer",
     ),
     Case(
+        "of several things each is found",
+        "Find a power drill and the hammer.",
+        OKB,
+        object="hammer",
+    ),
+    Case(
         "a wish is a command",
         "I'd like a hammer, please.",
         OKB,

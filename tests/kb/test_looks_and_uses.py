@@ -205,6 +205,10 @@ def test_an_ontology_without_properties_knows_names_only(tmp_path: Path) -> None
             "Mug has the shape Ball, which is no text: write it in words",
         ),
         (
+            "<household:number>many</household:number>",
+            "Mug has the number 'many', which is no number: write plural, or leave it out",
+        ),
+        (
             "<household:pronoun>it</household:pronoun>",
             "Mug has a pronoun, which stands for any object: say it of Object, or make it a name",
         ),

@@ -324,4 +324,4 @@ def test_a_mission_says_what_is_not_loaded_and_goes_on(guest, capsys, caplog):
     file = rdf(guest, ABOUT.format('<owl:imports rdf:resource="http://far.example/x.owl"/>'))
     assert mission([*QUICK, "--kb", str(file), "Find a sugar_box"]) == 1
     assert "guest.owl imports http://far.example/x.owl, which is not loaded" in caplog.text
-    assert "sugar_box" in capsys.readouterr().out
+    assert "sugar box" in capsys.readouterr().out

@@ -106,7 +106,8 @@ FAILURES = [
         status=MissionStatus.NOT_DONE,
         inquiries=1,
         strikes=2,
-        reason="I could not get to shelf_lobby: the way to the shelf_lobby is blocked",
+        reason="I could not get to the shelf in the lobby: the way to the shelf in the lobby is "
+        "blocked",
     ),
     Case(
         "the fingers always slip",
@@ -139,7 +140,7 @@ FAILURES = [
         {"answers": ["shelf_lobby"]},
         status=MissionStatus.NOT_DONE,
         inquiries=1,
-        reason="I could not look at shelf_lobby: my camera shows nothing",
+        reason="I could not look at the shelf in the lobby: my camera shows nothing",
     ),
 ]
 

@@ -16,7 +16,7 @@ from executive.types import DriveTo, MissionStatus
         ("Go to the desk", "desk", "I am at the desk."),
         ("Drive to the desk", "desk", "I am at the desk."),
         ("Go next to the desk", "desk", "I am at the desk."),
-        ("Go to the kitchen", "cabinet_kitchen", "I am at the cabinet_kitchen."),
+        ("Go to the kitchen", "cabinet_kitchen", "I am at the cabinet in the kitchen."),
         ("Go to me", "person", "Here I am."),
     ],
 )
@@ -50,7 +50,7 @@ def test_in_physics_it_gets_there(tmp_path: Path) -> None:
 def test_a_place_that_is_not_known_is_asked_for(tmp_path: Path) -> None:
     session, world = session_in(tmp_path, ["to the bed"])
     assert session.run("Go to Anna").status == MissionStatus.DONE
-    assert "I do not know where 'anna' is. Where shall I go?" in told(session)
+    assert "I do not know where 'Anna' is. Where shall I go?" in told(session)
     assert world.at == "bed"
     session.close()
     assert session.folder

@@ -23,7 +23,7 @@ def test_who_asked_is_the_source_of_the_place(tmp_path: Path) -> None:
     outcome = session.run("Bring the mug from the coffee table")
     assert (outcome.status, outcome.inquiries) == (MissionStatus.DONE, 0)
     assert (outcome.source, outcome.location) == (Source.USER, "coffee_table")
-    assert told(session)[0] == "I look for the mug at coffee_table: as you said."
+    assert told(session)[0] == "I look for the mug on the coffee table: as you said."
     session.close()
 
 
@@ -45,7 +45,7 @@ def test_what_is_not_there_is_said_not_to_be_and_searched_for_as_ever(tmp_path: 
     outcome = session.run("Bring the power_drill from the dining table")
     assert outcome.visited == ("dining_table", "shelf_lobby")
     assert (outcome.status, outcome.source) == (MissionStatus.DONE, Source.ONTOLOGY)
-    assert "The power_drill is not at dining_table. I look further." in told(session)
+    assert "The power drill is not on the dining table. I look further." in told(session)
     session.close()
     assert session.folder
     assert replay(session.folder).parting is None
@@ -57,7 +57,7 @@ def test_where_the_robot_could_not_look_it_does_not_say_that_nothing_is_there(
     session, world = session_in(tmp_path)
     world.fault = lambda goal: "the way is blocked" if goal == DriveTo("desk") else None
     outcome = session.run("Bring the power_drill from the desk")
-    assert "I could not get to desk: the way is blocked. I look further." in told(session)
+    assert "I could not get to the desk: the way is blocked. I look further." in told(session)
     assert outcome.status == MissionStatus.DONE
     session.close()
 
@@ -66,7 +66,7 @@ def test_where_the_robot_could_not_look_it_does_not_say_that_nothing_is_there(
 def test_a_place_that_is_not_known_is_asked_for(tmp_path: Path, place: str) -> None:
     session, _ = session_in(tmp_path, ["on the coffee table"])
     outcome = session.run(f"Bring the mug from the {place}")
-    assert f"I know no '{place.lower()}'. Where is the mug?" in told(session)
+    assert f"I know no '{place}'. Where is the mug?" in told(session)
     assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ("coffee_table",))
     session.close()
     assert session.folder

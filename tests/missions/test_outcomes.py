@@ -61,7 +61,7 @@ FAILURES = [
         {"answers": ["I don't know"]},
         status=MissionStatus.NOT_DONE,
         inquiries=1,
-        reason="the nearest that I know is sugar_box",
+        reason="the nearest that I know is the sugar box",
     ),
     Case(
         "an unknown thing like no other",
@@ -110,7 +110,7 @@ FAILURES = [
         status=MissionStatus.NOT_DONE,
         visited=("shelf_lobby", "desk"),
         inquiries=1,
-        reason="I did not find the power_drill at shelf_lobby, desk",
+        reason="I did not find the power drill on the shelf in the lobby or the desk",
     ),
 ]
 
@@ -143,7 +143,7 @@ def test_fails_in_words_when(case: Case) -> None:
 def test_find_comes_back_to_the_person() -> None:
     run = run_mission("Find a power_drill.")
     assert run.world.at == "person"
-    assert run.outcome.reason == "The power_drill is at shelf_lobby."
+    assert run.outcome.reason == "The power drill is on the shelf in the lobby."
 
 
 def test_take_holds_the_thing() -> None:
@@ -169,7 +169,7 @@ def test_a_blocked_place_is_passed_over_and_said() -> None:
         answers=["I don't know"],
     )
     assert run.outcome.visited == ()
-    assert "I could not get to shelf_lobby: the way is blocked" in run.outcome.reason
+    assert "I could not get to the shelf in the lobby: the way is blocked" in run.outcome.reason
 
 
 def test_a_missed_grasp_is_tried_once_more_after_another_look() -> None:
@@ -195,8 +195,8 @@ def test_a_thing_that_cannot_be_put_down_is_reported() -> None:
     run = run_mission("Bring a hammer.", fault=fault)
     assert run.outcome.status == MissionStatus.NOT_DONE
     assert run.outcome.reason == (
-        "I could not put it on the delivery table: the table is full; nor on the coffee_table, "
-        "the sofa, the dining_table, and you could not tell me; I still hold the hammer"
+        "I could not put it on the delivery table: the table is full; nor on the coffee table, "
+        "the sofa or the dining table, and you could not tell me; I still hold the hammer"
     )
 
 

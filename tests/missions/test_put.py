@@ -85,7 +85,7 @@ def test_what_is_brought_to_the_person_is_put_on_the_delivery_table() -> None:
 def test_what_is_there_already_stays_there() -> None:
     run = put("Put the hammer on the shelf_lobby")
     assert end_of(run) == (MissionStatus.DONE, "shelf_lobby")
-    assert run.outcome.reason == "The hammer is at shelf_lobby already."
+    assert run.outcome.reason == "The hammer is on the shelf in the lobby already."
     assert not any(isinstance(goal, Pick) for goal in run.goals)
 
 
@@ -140,8 +140,7 @@ def test_who_or_what_is_not_known_is_asked_for_before_anything_is_done(
 ) -> None:
     session, world = serve("put it on the desk")
     outcome = session.run(f"Bring the hammer to {place}")
-    heard = place.lower().replace("the ", "")
-    asked = f"I do not know where '{heard}' is. Where shall I put the hammer?"
+    asked = f"I do not know where '{place}' is. Where shall I put the hammer?"
     assert asked in told(session)
     assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "desk")
 
@@ -150,11 +149,25 @@ def test_who_or_what_is_not_known_is_asked_for_before_anything_is_done(
 def test_what_cannot_be_put_so_is_not_put_otherwise(serve: Serve, place: str) -> None:
     session, world = serve("I don't know")
     outcome = session.run(f"Put the hammer {place}")
-    heard = place.replace("the ", "")
     assert (outcome.status, world.resting_place("hammer")) == ("not_done", "shelf_lobby")
     assert outcome.reason == (
-        f"I can put things on furniture, or in it, but not '{heard}', and you could not tell me"
+        f"I can put things on furniture, or in it, but not '{place}', and you could not tell me"
     )
+
+
+def test_beside_a_thing_is_where_that_is_believed_to_be(serve: Serve) -> None:
+    session, world = serve()
+    session.run("The mug is on the sofa")
+    outcome = session.run("Put the hammer next to the mug")
+    assert "As far as I know, the mug is on the sofa." in told(session)
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "sofa")
+
+
+def test_beside_what_nobody_knows_it_is_asked_where_to(serve: Serve) -> None:
+    session, world = serve("on the desk", defaults=False)
+    outcome = session.run("Take the hammer from the shelf in the lobby and put it next to the mug")
+    assert "I do not know where the mug is. Where shall I put the hammer?" in told(session)
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "desk")
 
 
 def test_of_places_to_choose_from_any_will_do() -> None:
@@ -166,14 +179,14 @@ def test_nothing_is_done_if_nobody_knows_where_to_put_it(serve: Serve) -> None:
     session, world = serve("I don't know")
     outcome = session.run("Bring the hammer to Anna")
     assert (outcome.status, outcome.visited) == (MissionStatus.NOT_DONE, ())
-    assert outcome.reason == "I do not know where 'anna' is, and you could not tell me"
+    assert outcome.reason == "I do not know where 'Anna' is, and you could not tell me"
     assert world.resting_place("hammer") == "shelf_lobby"
 
 
 def test_a_word_for_several_places_is_asked_about(serve: Serve) -> None:
     session, world = serve("the high one", "the high table")
     outcome = session.run("Put the hammer on the table")
-    asked = "Which table do you mean: high_table, dining_table or coffee_table?"
+    asked = "Which table do you mean: the high table, the dining table or the coffee table?"
     assert asked in told(session)
     assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "high_table")
 
@@ -200,7 +213,7 @@ def test_what_was_brought_is_put_back_where_it_was_taken(serve: Serve) -> None:
     assert world.resting_place("mug") == DELIVERY
     outcome = session.run("Put the mug back")
     assert (outcome.status, outcome.goals) == (MissionStatus.DONE, ("coffee_table",))
-    assert outcome.reason == "I put the mug back on the coffee_table."
+    assert outcome.reason == "I put the mug back on the coffee table."
     assert world.resting_place("mug") == "coffee_table"
 
 
@@ -230,7 +243,9 @@ def test_what_was_not_taken_from_anywhere_goes_where_it_belongs_and_that_is_said
 ) -> None:
     session, world = serve(place={"hammer": "sofa"})
     outcome = session.run("Put back the hammer from the sofa")
-    assert "I do not know where the hammer was; it belongs on the shelf_lobby." in told(session)
+    assert "I do not know where the hammer was; it belongs on the shelf in the lobby." in told(
+        session
+    )
     assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "shelf_lobby")
 
 

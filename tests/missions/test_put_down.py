@@ -28,7 +28,7 @@ from executive.types import (
 from executive.user import Scripted
 from sim.fake import FakeWorld
 
-FULL = "there is no free spot on the delivery"
+FULL = "there is no free spot on the delivery table"
 HAMMERS_PLACE = four_rooms().placement["hammer"]
 NEAR = ("coffee_table", "sofa", "dining_table")
 
@@ -67,7 +67,7 @@ def test_a_full_delivery_table_is_no_dead_end(serve: Serve) -> None:
     outcome = session.run("Bring the hammer")
     assert outcome.status == MissionStatus.DONE
     assert outcome.reason == (
-        f"I put the hammer on the coffee_table; I could not put it on the delivery table: {FULL}."
+        f"I put the hammer on the coffee table; I could not put it on the delivery table: {FULL}."
     )
     assert (world.held, world.resting_place("hammer")) == (None, "coffee_table")
     assert session.run("Take the power_drill").status == MissionStatus.DONE
@@ -91,7 +91,7 @@ def test_the_person_is_asked_where_to_put_it_if_all_that_is_near_is_full(serve: 
     first, second = session.parts.user.asked
     assert first.text == (
         f"I could not put it on the delivery table: {FULL}; "
-        "nor on the coffee_table, the sofa, the dining_table. Where shall I put the hammer?"
+        "nor on the coffee table, the sofa or the dining table. Where shall I put the hammer?"
     )
     assert second.text.startswith("I know no such place. Where shall I put the hammer? I know: ")
 

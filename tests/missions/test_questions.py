@@ -19,12 +19,12 @@ def truly_done(run: Run) -> bool:
     [
         (
             "How many fruits are on the dining table?",
-            "I count 3: the apple, the banana and the strawberry on the dining_table.",
+            "I count 3: the apple, the banana and the strawberry on the dining table.",
         ),
-        ("How many tools are there on the dining table?", "I see no tools on the dining_table."),
-        ("What is on the coffee table?", "I see the mug and the pudding_box on the coffee_table."),
+        ("How many tools are there on the dining table?", "I see no tools on the dining table."),
+        ("What is on the coffee table?", "I see the mug and the pudding box on the coffee table."),
         ("What is on the bed?", "I see nothing on the bed."),
-        ("Is the mug on the coffee table?", "Yes: the mug on the coffee_table."),
+        ("Is the mug on the coffee table?", "Yes: the mug on the coffee table."),
         ("Is there any fruit on the sofa?", "No, I see no fruit on the sofa."),
         ("Tell me what is the biggest object on the desk", "The scissors: I see no other there."),
     ],

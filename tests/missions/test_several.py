@@ -101,7 +101,7 @@ def test_on_a_condition_it_is_this_or_that(words: str, brought: str) -> None:
 def test_if_there_is_none_and_nothing_else_is_asked_for_nothing_is_done() -> None:
     none = run("If there is a tool on the dining table, bring it")
     assert none.outcome.status == DONE
-    assert none.outcome.reason == "No, I see no tool on the dining_table."
+    assert none.outcome.reason == "No, I see no tool on the dining table."
     assert none.world.things == none.world.home.placement
 
 
@@ -120,7 +120,7 @@ def test_of_several_that_are_there_a_certain_one_is_asked_for() -> None:
 def test_furniture_is_cleared_of_all_that_is_seen_on_it() -> None:
     table = run("Clear the coffee table")
     assert (table.outcome.status, on(table, "coffee_table")) == (DONE, set())
-    assert table.outcome.reason == "I cleared away both: the mug and the pudding_box."
+    assert table.outcome.reason == "I cleared away both: the mug and the pudding box."
     assert truly_done(table)
 
 

@@ -45,7 +45,7 @@ def test_its_word_goes_before_the_ontology_and_is_told_as_its_own() -> None:
     run = run_mission("Find the hammer", sources=[Note()], place={"hammer": "sofa"})
     assert (run.outcome.source, run.outcome.visited) == ("note", ("sofa",))
     said = [utterance.text for utterance in run.notebook.all(Utterance)]
-    assert "I look for the hammer at sofa: it is on your note." in said
+    assert "I look for the hammer on the sofa: it is on your note." in said
 
 
 def test_where_it_names_no_real_place_the_others_are_asked() -> None:

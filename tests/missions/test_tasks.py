@@ -31,7 +31,8 @@ def test_each_task_is_done_in_the_order_said_and_the_whole_tells_of_each() -> No
     assert ends(run) == [("find", "mug", DONE), ("bring", "apple", DONE)]
     assert run.outcome.status == DONE
     assert run.outcome.reason == (
-        "1. The mug is at coffee_table. 2. Here is the apple from dining_table."
+        "1. The mug is on the coffee table in the living room. "
+        "2. Here is the apple from the dining table."
     )
     assert run.outcome.visited == ("coffee_table", "dining_table")
 
@@ -44,13 +45,13 @@ def test_a_part_that_fails_loses_none_of_the_others(words: str) -> None:
     assert sorted(ends(run)) == [("find", "mug", DONE), ("find", "unicorn", NOT_DONE)]
     assert run.outcome.status == NOT_DONE
     assert "Not done: I know no 'unicorn'" in run.outcome.reason
-    assert "The mug is at coffee_table." in run.user.told
+    assert "The mug is on the coffee table in the living room." in run.user.told
 
 
 def test_a_single_task_is_told_as_ever() -> None:
     run = run_mission("Find the mug", llm=False)
     assert ends(run) == [("find", "mug", DONE)]
-    assert run.outcome.reason == "The mug is at coffee_table."
+    assert run.outcome.reason == "The mug is on the coffee table in the living room."
 
 
 def test_of_things_named_in_one_breath_the_nearest_comes_first() -> None:
@@ -72,7 +73,7 @@ def test_what_is_it_and_there_was_said_in_the_task_before() -> None:
 def test_what_is_held_is_put_back_before_the_next_thing_is_fetched() -> None:
     run = run_mission("Take the mug. Then bring the apple.", llm=False, facts=FactStore())
     assert run.outcome.status == DONE
-    assert "I put the mug back on the coffee_table first." in run.user.told
+    assert "I put the mug back on the coffee table first." in run.user.told
     assert run.world.resting_place("mug") == "coffee_table"
 
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from executive.app.session import Session
 from executive.config import load_settings
+from executive.language.wording import Wording
 from executive.records import Utterance
 from executive.situation import Situation
 from executive.situation.looks import Looks
@@ -23,6 +24,7 @@ from sim.fake import FakeRobot
 
 Fault = Callable[[Goal], str | None]
 PLACE = "shelf_lobby"
+THERE = "the shelf in the lobby"
 
 
 def always(kind: type, why: str) -> Fault:
@@ -47,7 +49,7 @@ def test_a_place_that_was_not_looked_at_is_not_said_to_be_without_the_thing() ->
     fault = always(LookAt, "my neck is stiff")
     run = run_mission("Find a power_drill", answers=[], llm=False, fault=fault, facts=facts)
     assert run.outcome.reason == (
-        f"I could not look at {PLACE}: my neck is stiff, and the script has no more answers"
+        f"I could not look at {THERE}: my neck is stiff, and the script has no more answers"
     )
     assert "missed" not in {fact.kind for fact in facts.all()}
 
@@ -63,7 +65,7 @@ def test_a_place_of_which_a_part_was_seen_is_said_to_be_seen_in_part(three_views
         facts=facts,
         place={"power_drill": "bed"},
     )
-    assert run.outcome.reason.startswith(f"I saw only a part of {PLACE}: my neck is stiff")
+    assert run.outcome.reason.startswith(f"I saw only a part of {THERE}: my neck is stiff")
     assert "missed" not in {fact.kind for fact in facts.all()}
 
 
@@ -76,7 +78,7 @@ def test_a_place_that_was_seen_wholly_at_the_second_visit_is_known(three_views: 
         fault=lambda g: "my neck is stiff" if g == LookAt(PLACE, 1) and next(stiff, 0) else None,
         place={"power_drill": "bed"},
     )
-    assert run.outcome.reason.startswith(f"I did not find the power_drill at {PLACE}")
+    assert run.outcome.reason.startswith(f"I did not find the power drill on {THERE}")
 
 
 def test_a_grasp_is_tried_again_if_it_could_not_look_whether_the_thing_is_gone() -> None:
@@ -95,8 +97,8 @@ def test_a_grasp_is_tried_again_if_it_could_not_look_whether_the_thing_is_gone()
 @pytest.mark.parametrize(
     ("patience_s", "reason"),
     [
-        (3.0, f"I could not get to {PLACE}: it took longer than 3 s"),
-        (0.4, f"I could not get to {PLACE}: it took longer than 0.4 s"),
+        (3.0, f"I could not get to {THERE}: it took longer than 3 s"),
+        (0.4, f"I could not get to {THERE}: it took longer than 0.4 s"),
     ],
 )
 def test_what_takes_too_long_is_told_with_its_time(patience_s: float, reason: str) -> None:
@@ -111,7 +113,7 @@ def test_a_look_that_takes_too_long_leaves_the_place_unseen(monkeypatch) -> None
     monkeypatch.setattr("sim.fake.LOOK_S", 9.0)
     monkeypatch.setattr("sim.fake.SPEED_M_S", 100.0)
     run = run_mission("Find a power_drill", answers=[], llm=False, parameters={"action_s": 8.0})
-    assert run.outcome.reason.startswith(f"I could not look at {PLACE}: it took longer than 8 s")
+    assert run.outcome.reason.startswith(f"I could not look at {THERE}: it took longer than 8 s")
 
 
 PLACES = st.sampled_from(["desk", "sofa", "bed"])
@@ -136,7 +138,7 @@ def test_it_is_said_not_to_be_where_every_part_was_seen_without_it_and_nowhere_e
                 continue
             seen[place].add(rest[0])
         getattr(looks, name)(place, *rest)
-    clauses = list(looks.clauses("mug"))
+    clauses = list(looks.clauses("mug", Wording(lambda name: None)))
     found = next((c for c in clauses if c.startswith("I did not find")), "")
     known = {place for place in PARTS if place in found}
     whole = {place for place, parts in seen.items() if len(parts) == PARTS[place]}
@@ -169,7 +171,7 @@ def test_a_way_back_that_is_blocked_is_not_the_reason_why_it_was_not_found() -> 
         fault=lambda goal: "the way is blocked" if goal == DriveTo("person") else None,
     )
     assert run.outcome.reason == (
-        f"I did not find the power_drill at {PLACE}, and you could not tell me"
+        f"I did not find the power drill on {THERE}, and you could not tell me"
     )
 
 
@@ -177,7 +179,7 @@ def test_what_was_found_is_told_even_if_the_robot_cannot_come_back() -> None:
     blocked = lambda goal: "the way is blocked" if goal == DriveTo("person") else None  # noqa: E731
     run = run_mission("Find a power_drill", llm=False, fault=blocked)
     assert run.outcome.status == MissionStatus.NOT_DONE
-    assert run.outcome.reason == f"the power_drill is at {PLACE}, but the way is blocked"
+    assert run.outcome.reason == f"the power drill is on {THERE}, but the way is blocked"
 
 
 @pytest.mark.parametrize("kind", [DriveTo, LookAt, Pick, PutDown])

@@ -37,7 +37,6 @@ def test_nothing_is_done_whoever_answers_whatever_is_asked(
     ("words", "cannot"),
     [
         ("Where did you put the mug?", "I cannot tell you that so far"),
-        ("The mug is on the sofa", "I cannot take note of that so far"),
     ],
 )
 def test_what_cannot_be_done_yet_is_told(words: str, cannot: str) -> None:
@@ -54,7 +53,7 @@ def test_what_is_said_not_to_be_meant_is_neither_offered_nor_taken() -> None:
 
 def test_a_slip_in_the_verb_is_asked_about_with_all_that_would_be_done() -> None:
     run = run_mission("Bing me an aple", llm=False, answers=["yes"])
-    assert said(run)[0] == "Do you mean: bring apple?"
+    assert said(run)[0] == "Do you mean: bring the apple?"
     assert (run.outcome.kind, run.outcome.object) == (CommandKind.BRING, "apple")
 
 

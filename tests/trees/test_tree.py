@@ -6,6 +6,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.composites import Sequence
 
+from executive.records import NodeState
 from trees.nodes import EachOf, FirstOf
 from trees.tree import MissionTree
 
@@ -71,6 +72,33 @@ def test_stopping_a_running_loop_stops_its_child() -> None:
     tree.tick()
     tree.stop()
     assert [state.status for state in tree.states()] == ["INVALID", "INVALID"]
+
+
+def test_states_tell_a_new_message_of_what_goes_on_running() -> None:
+    leaf = Leaf("leaf", lambda: Status.RUNNING)
+    tree = MissionTree(leaf)
+    for message in ("near", "nearer"):
+        leaf.feedback_message = message
+        tree.tick()
+        assert tree.states() == (NodeState("leaf", "RUNNING", message),)
+
+
+def test_states_of_one_tick_stay_as_they_are_in_the_next() -> None:
+    tree = MissionTree(Leaf("leaf", iter((Status.RUNNING, Status.FAILURE)).__next__))
+    tree.tick()
+    before = tree.states()
+    tree.tick()
+    assert [state.status for state in (*before, *tree.states())] == ["RUNNING", "FAILURE"]
+
+
+def test_a_behaviour_that_was_interrupted_has_no_message() -> None:
+    leaf = Leaf("leaf", lambda: Status.RUNNING)
+    tree = MissionTree(leaf)
+    leaf.feedback_message = "on my way"
+    tree.tick()
+    tree.states()
+    tree.stop()
+    assert tree.states() == (NodeState("leaf", "INVALID"),)
 
 
 def test_paths_are_unique_even_where_names_are_not() -> None:

@@ -11,9 +11,9 @@ from executive.types import PERSON, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Step, sequence
-from trees.person import tell
 from trees.robot import DriveBack
 from trees.survey import survey
+from trees.telling import tell
 
 
 class Answer(Deed):
@@ -51,7 +51,7 @@ class Answer(Deed):
         return not there - named
 
     @abstractmethod
-    def answer(self, situation: Situation) -> tuple[str, str]:
+    def answer(self, context: MissionContext) -> tuple[str, str]:
         """A sentence that answers, and why it is no answer to what was asked; empty if it is."""
 
 
@@ -65,7 +65,7 @@ class Tell(Step):
         self,
         name: str,
         context: MissionContext,
-        answer: Callable[[Situation], tuple[str, str]],
+        answer: Callable[[MissionContext], tuple[str, str]],
     ) -> None:
         """`answer` makes it of what was seen."""
         super().__init__(name, context)
@@ -73,7 +73,7 @@ class Tell(Step):
 
     def update(self) -> Status:
         """What was seen is told in either case."""
-        said, why_not = self._answer(self.situation)
+        said, why_not = self._answer(self.context)
         if why_not:
             return self.fail(f"{said.rstrip('.')}; {why_not}")
         self.situation.ending.tell(said)

@@ -27,7 +27,7 @@ class Bring(Deed):
             "is there already",
             asked_to(context, self.kind),
             Check("at the delivery place", context, lambda: situation.search.is_delivered),
-            Report("report", context, "The {object} is here already, on the delivery table."),
+            Report("report", context, "{The_object} {is_} here already, on the delivery table."),
         )
         yield sequence("bring", asked_to(context, self.kind), deliver(context), say_where(context))
 
@@ -46,15 +46,15 @@ def say_where(context: MissionContext) -> Behaviour:
             Report(
                 "report",
                 context,
-                "I put the {object} on {surface}; I could not put it on the delivery table: {why}.",
+                "I put {the_object} {put}; I could not put {it} on the delivery table: {why}.",
             ),
         ),
         sequence(
             "from there",
             found_at_a_place(context),
-            Report("report", context, "Here is the {object} from {place}."),
+            Report("report", context, "Here {is_} {the_object} from {place}."),
         ),
-        Report("report", context, "Here is the {object}."),
+        Report("report", context, "Here {is_} {the_object}."),
     )
 
 

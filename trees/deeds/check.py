@@ -2,6 +2,7 @@
 
 from executive.situation import Situation
 from executive.types import CommandKind
+from trees.context import MissionContext
 from trees.deeds.answer import Answer
 from trees.survey import found_where, not_seen, nothing_there
 
@@ -19,8 +20,8 @@ class CheckWhether(Answer):
         """One is enough."""
         return bool(named) == bool(there)
 
-    def answer(self, situation: Situation) -> tuple[str, str]:
+    def answer(self, context: MissionContext) -> tuple[str, str]:
         """That there is none is known only if all was seen."""
-        if found := situation.survey.found:
-            return f"Yes: {found_where(found)}.", ""
-        return f"No, {nothing_there(situation)}.", not_seen(situation)
+        if found := context.situation.survey.found:
+            return f"Yes: {found_where(found, context.say)}.", ""
+        return f"No, {nothing_there(context)}.", not_seen(context)

@@ -10,8 +10,8 @@ from executive.types import CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Step, fallback, sequence
-from trees.person import tell
 from trees.survey import not_seen, nothing_there, survey
+from trees.telling import tell
 
 
 class Clear(Deed):
@@ -51,7 +51,7 @@ class PutEachAway(Step):
         command, found = self.situation.request.command, self.situation.survey.found
         assert command
         if not found:
-            return self.fail(nothing_there(self.situation))
+            return self.fail(nothing_there(self.context))
         parts = []
         for name, here in found.items():
             usual = self.context.knowledge.usual_places(name)
@@ -70,9 +70,9 @@ class NothingThere(Step):
 
     def update(self) -> Status:
         """Say so."""
-        if why := not_seen(self.situation):
-            return self.fail(f"{nothing_there(self.situation)}; {why}")
-        said = f"{nothing_there(self.situation)}; it is clear."
+        if why := not_seen(self.context):
+            return self.fail(f"{nothing_there(self.context)}; {why}")
+        said = f"{nothing_there(self.context)}; it is clear."
         self.situation.ending.tell(said)
         tell(self.context, said)
         return self.succeed(said)

@@ -41,7 +41,7 @@ class Deed(ABC):
         """The same, for deeds about more than one thing: `where` tells the `whereabouts` of any."""
         return self.is_true(outcome, where(outcome.object or ""))
 
-    def how_far(self, situation: Situation, why: str) -> str:
+    def how_far(self, context: MissionContext, why: str) -> str:
         """What came of it although not all was done, which `why` tells; as a clause, too."""
         return why
 

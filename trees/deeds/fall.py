@@ -7,7 +7,6 @@ from py_trees.common import Status
 
 from trees.context import MissionContext
 from trees.nodes import Check, FirstOf, Step, sequence
-from trees.person import the
 from trees.robot import LookForLost, PickUp, SeeLost
 
 
@@ -48,6 +47,8 @@ class SayItFell(Step):
         if lost and lost != why:
             return self.fail(f"{lost}, and {why}")
         if held:
-            return self.fail(f"{why}; I still hold {the(held)}")
-        gone = f"the {self.situation.request.object} is not in my hand any more"
+            return self.fail(f"{why}; I still hold {self.context.say.the(held)}")
+        gone = (
+            f"{self.context.say.are(self.situation.request.object or '')} not in my hand any more"
+        )
         return self.fail(why if lost else f"{why}; {gone}")

@@ -4,7 +4,6 @@ from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
 
-from executive.situation import Situation
 from executive.types import PERSON, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
@@ -26,15 +25,17 @@ class Find(Deed):
             asked_to(context, self.kind),
             found_at_a_place(context),
             DriveBack("come back", context, PERSON),
-            Report("report", context, "The {object} is at {place}."),
+            Report("report", context, "{The_object} {is_} {at}."),
         )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """The robot went to the furniture that it names, and the thing is there."""
         return whereabouts == outcome.location and whereabouts in outcome.visited
 
-    def how_far(self, situation: Situation, why: str) -> str:
+    def how_far(self, context: MissionContext, why: str) -> str:
         """Who asks where a thing is wants to know it, even if the robot cannot come back."""
-        if not situation.search.found:
+        found, say = context.situation.search.found, context.say
+        if not found:
             return why
-        return f"the {situation.request.object} is at {situation.search.found.place}, but {why}"
+        where = f"{say.are(context.situation.request.object or '')} {say.at_in_full(found.place)}"
+        return f"{where}, but {why}"

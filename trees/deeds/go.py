@@ -6,7 +6,6 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.situation import table
 from executive.types import PERSON, CommandKind, Outcome, Result, Succeeded, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
@@ -71,4 +70,5 @@ class GoThere(DriveToGoal):
     def failed(self, result: Result) -> Status:
         """Say where to."""
         super().failed(result)
-        return self.fail(f"I could not get to {table(self.situation.request.goal)}: {self.reason}")
+        there = self.context.say.the(self.situation.request.goal)
+        return self.fail(f"I could not get to {there}: {self.reason}")

@@ -5,14 +5,13 @@ from collections.abc import Iterable
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.situation import Situation, table
 from executive.types import FLOOR, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to
 from trees.deeds.fall import pick_up_again
 from trees.deeds.put_down import go_and_put
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import AskWhereToPut, Report, the
+from trees.person import AskWhereToPut, Report
 from trees.robot import DriveToGoal, PutDownAtGoal
 
 
@@ -21,8 +20,8 @@ class Put(Deed):
 
     kind = CommandKind.PUT
     did = "put"
-    already = "The {object} is at {place} already."
-    report = "I put {the_object} on {surface}."
+    already = "{The_object} {is_} {at} already."
+    report = "I put {the_object} {put}."
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
         """It may be there already."""
@@ -115,9 +114,10 @@ class PutElsewhere(Step):
 
     def update(self) -> Status:
         """That was not what was asked for."""
-        hand = self.situation.hand
+        hand, say = self.situation.hand, self.context.say
         hand.elsewhere = hand.put_at
-        return self.fail(f"I put it on {table(hand.put_at)}")
+        it = say.it(self.situation.request.object or "")
+        return self.fail(f"I put {it} {say.at(hand.put_at)}")
 
 
 class NotAtGoal(Step):
@@ -125,24 +125,26 @@ class NotAtGoal(Step):
 
     def update(self) -> Status:
         """Put the clauses together."""
-        hand, why = self.situation.hand, why_not(self.situation) or self.why_before()
+        hand, say = self.situation.hand, self.context.say
+        name, why = self.situation.request.object or "", why_not(self.context) or self.why_before()
         if hand.elsewhere:
-            return self.fail(f"{why}; I put it on {table(hand.elsewhere)} instead, as you said")
+            instead = f"I put {say.it(name)} {say.at(hand.elsewhere)} instead, as you said"
+            return self.fail(f"{why}; {instead}")
         if hand.in_hand:
             silence = self.situation.dialogue.no_help
             why = f"{why}, and {silence}" if silence and silence not in why else why
-            return self.fail(f"{why}; I still hold {the(hand.in_hand)}")
+            return self.fail(f"{why}; I still hold {say.the(hand.in_hand)}")
         if hand.lost:
             return self.fail(why if hand.lost == why else f"{hand.lost}, and {why}")
-        return self.fail(
-            f"{why}; {the(self.situation.request.object or '')} is not in my hand any more"
-        )
+        return self.fail(f"{why}; {say.are(name)} not in my hand any more")
 
 
-def why_not(situation: Situation) -> str:
+def why_not(context: MissionContext) -> str:
     """Where it could not be put of all the places where it was to go, and why; empty if nowhere."""
+    situation, say = context.situation, context.say
+    it = say.it(situation.request.object or "")
     tried = [
-        why if place in why else f"I could not put it on {table(place)}: {why}"
+        why if say.the(place) in why else f"I could not put {it} {say.at(place)}: {why}"
         for place, why in situation.hand.unplaced.items()
         if place in situation.request.goals
     ]

@@ -9,4 +9,4 @@ class PutBack(Put):
 
     kind = CommandKind.PUT_BACK
     did = "put back"
-    report = "I put {the_object} back on {surface}."
+    report = "I put {the_object} back {put}."

@@ -9,7 +9,7 @@ from executive.types import DELIVERY, HAND, HELD, SOMETHING, CommandKind, Outcom
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import AskWhereToPut, Report, the
+from trees.person import AskWhereToPut, Report
 from trees.robot import DriveToSurface, PutDownThere
 
 NEAR = 3
@@ -45,7 +45,7 @@ def empty_hand(context: MissionContext) -> Behaviour:
             put_down_somewhere(context, "by the person", DELIVERY),
             StillHolds("still in my hand", context),
         ),
-        Report("report", context, "I put {the_object} on {surface}."),
+        Report("report", context, "I put {the_object} {put}."),
     )
 
 
@@ -89,7 +89,10 @@ class NotPutDown(Step):
 
     def update(self) -> Status:
         """What is in the hand no more has its own reason."""
-        tried, silence = self.situation.hand.not_put_down, self.situation.dialogue.no_help
+        tried, silence = (
+            self.situation.hand.not_put_down(self.context.say),
+            self.situation.dialogue.no_help,
+        )
         if self.situation.hand.in_hand is None or not tried:
             return self.fail(self.why_before())
         return self.fail(f"{tried}, and {silence}" if silence else tried)
@@ -106,7 +109,8 @@ class HoldsWhatIsMeant(Step):
             return self.fail("my hand is empty")
         named = self.context.knowledge.objects_named(target)
         if target != HELD and held not in (SOMETHING, *named):
-            return self.fail(f"my hand holds {the(held)}, not the {target}")
+            holds = f"my hand holds {self.context.say.the(held)}"
+            return self.fail(f"{holds}, not the {self.context.as_said(target)}")
         self.situation.request.object = held
         return self.succeed(held)
 
@@ -118,9 +122,8 @@ class StillHolds(Step):
         """What fell is no longer held; nor is what was let go of before it went wrong."""
         held, why = self.situation.hand.in_hand, self.why_before()
         if held:
-            return self.fail(f"{why}; I still hold {the(held)}")
+            return self.fail(f"{why}; I still hold {self.context.say.the(held)}")
         if self.situation.hand.lost:
             return self.fail(why)
-        return self.fail(
-            f"{why}; {the(self.situation.request.object or SOMETHING)} is not in my hand any more"
-        )
+        name = self.situation.request.object or SOMETHING
+        return self.fail(f"{why}; {self.context.say.are(name)} not in my hand any more")

@@ -4,7 +4,6 @@ from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
 
-from executive.situation import Situation
 from executive.types import HAND, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
@@ -25,15 +24,16 @@ class Take(Deed):
             asked_to(context, self.kind),
             found_at_a_place(context),
             Check("in my hand", context, lambda: context.situation.has_it),
-            Report("report", context, "I took the {object} from {place} and hold it."),
+            Report("report", context, "I took {the_object} from {place} and hold {it}."),
         )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It is in the hand."""
         return whereabouts == HAND
 
-    def how_far(self, situation: Situation, why: str) -> str:
+    def how_far(self, context: MissionContext, why: str) -> str:
         """It may have fallen since."""
-        if situation.has_it:
+        if context.situation.has_it:
             return why
-        return f"the {situation.request.object} is not in my hand any more"
+        name = context.situation.request.object or ""
+        return f"{context.say.are(name)} not in my hand any more"

@@ -2,10 +2,9 @@
 
 from collections.abc import Callable, Mapping
 
-from executive.situation import Situation
 from executive.types import CommandKind
+from trees.context import MissionContext
 from trees.deeds.answer import Answer
-from trees.person import the
 from trees.survey import found_where, not_seen, nothing_there
 
 Lengths = tuple[float, ...]
@@ -36,23 +35,23 @@ class TellWhatIsThere(Answer):
 
     kind = CommandKind.TELL
 
-    def answer(self, situation: Situation) -> tuple[str, str]:
+    def answer(self, context: MissionContext) -> tuple[str, str]:
         """Of one thing, it is the biggest and the smallest."""
-        found, command = situation.survey.found, situation.request.command
+        found, command = context.situation.survey.found, context.situation.request.command
         assert command
-        why_not = not_seen(situation)
+        why_not = not_seen(context)
         if not found:
-            return f"{nothing_there(situation)}.", why_not
-        seen = f"I see {found_where(found)}."
+            return f"{nothing_there(context)}.", why_not
+        seen = f"I see {found_where(found, context.say)}."
         if not command.superlative:
             return seen, why_not
         if len(found) == 1:
             [only] = found
-            return f"{the(only).capitalize()}: I see no other there.", why_not
-        most = utmost(command.superlative, list(found), situation.survey.lengths)
+            return f"{context.say.the(only).capitalize()}: I see no other there.", why_not
+        most = utmost(command.superlative, list(found), context.situation.survey.lengths)
         if not most:
             return seen, why_not or f"I cannot tell by looking which is the {command.superlative}"
-        return f"{the(most).capitalize()} is the {command.superlative}; {seen}", why_not
+        return f"{context.say.are(most).capitalize()} the {command.superlative}; {seen}", why_not
 
 
 def utmost(superlative: str, names: list[str], lengths: Mapping[str, Lengths]) -> str:

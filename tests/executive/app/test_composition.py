@@ -15,8 +15,10 @@ from executive.campaign import blocks
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.errors import ExecutiveError, InputError
 from executive.events import Inbox
+from executive.language.spoken import Spoken
 from executive.replay import replay
 from executive.testing.bench import run_mission
+from executive.types import Commands
 from kb.facts import FactStore
 from kb.llm.scripted import Scripted
 from trees.__main__ import build
@@ -75,11 +77,12 @@ def test_a_part_that_is_put_in_reaches_the_behaviours_of_session_and_bench() -> 
     asked: list[str] = []
 
     class Attentive:
-        def command(self, words: str) -> None:
+        def commands(self, words: str, spoken: Spoken, *, holds: bool) -> Commands:
             asked.append(words)
+            return ()
 
         def __getattr__(self, name: str) -> Any:
-            return lambda answer: None
+            return lambda *answer: None
 
     def change(before: Parts) -> Parts:
         return replace(before, interpreter=Attentive())

@@ -23,6 +23,7 @@ from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
 from executive.interfaces import SimulatedHome
+from executive.language.wording import Wording
 from executive.replay.replaying import replay, replay_text
 from executive.text import printable
 from executive.types import FLOOR, CommandKind, MissionStatus, Outcome
@@ -32,7 +33,7 @@ from sim.home.floorplan import doors_between
 from sim.home.home import Home, load_home
 from sim.tools.generation import generate_home
 from soaking.chaos import Chaos, ChaosEyes, ChaosModel, ChaosRobot, ChaosSink
-from soaking.claims import Notes, Witness, false_searches, looked_at, ticked_after_stop
+from soaking.claims import Names, Notes, Witness, false_searches, looked_at, ticked_after_stop
 from soaking.people import Person, words
 
 LONGEST_S = 60.0
@@ -162,7 +163,10 @@ class Soak:
             change=self._disturb,
         )
         chaos.rate = rate
-        self._witness = Witness(self._world, self._home.objects)
+        say = Wording(self._session.parts.knowledge.called)
+        places = [place.name for place in self._home.places()]
+        words = Names(say, self._home.objects, places)
+        self._witness = Witness(self._world, self._home.objects, words)
 
     def _disturb(self, parts: Parts) -> Parts:
         """The parts, each of which may go wrong."""
@@ -234,7 +238,7 @@ class Soak:
         if ticked_after_stop(records):
             yield "ticked after a stop"
         seen = looked_at(records, dict(self._robot.goals), self._robot.inner.views)
-        yield from false_searches((*self._witness.said, reason), seen)
+        yield from false_searches(map(self._witness.in_names, (*self._witness.said, reason)), seen)
         if outcome.status == MissionStatus.DONE:
             yield from self._not_done(outcome)
         stopped = outcome.status == MissionStatus.STOPPED
@@ -248,7 +252,7 @@ class Soak:
         world, name = self._world, outcome.object or ""
         match outcome.kind:
             case CommandKind.BRING if (place := world.resting_place(name)) != "delivery":
-                if f"on {place}" not in outcome.reason.replace("on the ", "on "):
+                if f"at {place}" not in self._witness.in_names(outcome.reason):
                     yield f"brought, but it is at {place}: {outcome.reason}"
             case CommandKind.TAKE if world.held != name:
                 yield f"taken, but it holds {world.held}"

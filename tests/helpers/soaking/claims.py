@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from executive.events import Ended, StopRequested
 from executive.interfaces import SimulatedHome
+from executive.language.wording import Wording
 from executive.records import EventTaken, Record, Tick
 from executive.text import printable
 from executive.types import FLOOR, Goal, LookAt, Saw, Succeeded
@@ -14,7 +15,7 @@ from logs.recorder import Stamp
 
 NAME = r"(?P<thing>[a-z][a-z0-9_]*)"
 PLACE = r"(?P<place>[a-z][a-z0-9_]*)"
-NOT_FOUND = re.compile(r"I did not find the (?P<thing>\w+) at (?P<places>\w+(?:, (?!and\b)\w+)*)")
+NOT_FOUND = re.compile(r"I did not find the \w+(?P<places>(?:(?:,| or)? (?:at|the) \w+)+)")
 BY_THE_PERSON = "delivery"
 
 
@@ -37,12 +38,30 @@ class Notes:
         pass
 
 
+class Names:
+    """Knows what the words stand for that the robot says: "on the high table" is at high_table."""
+
+    def __init__(self, say: Wording, things: Iterable[str], places: Iterable[str]) -> None:
+        names = {say.the(thing): f"the {thing}" for thing in things}
+        for place in (*places, BY_THE_PERSON, FLOOR):
+            names |= {say.the(place): f"the {place}"}
+            names |= {at: f"at {place}" for at in (say.at(place), say.at_in_full(place))}
+        self._names = names
+        found = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
+        self._pattern = re.compile(rf"\b(?:{found})\b", re.IGNORECASE)
+
+    def in_names(self, text: str) -> str:
+        """What was said, with the names that things and places have in the world."""
+        return self._pattern.sub(lambda found: self._names[found[0].lower()], text)
+
+
 class Witness:
     """Hears what the robot says, and knows the truth at that moment."""
 
-    def __init__(self, world: SimulatedHome, names: Iterable[str]) -> None:
+    def __init__(self, world: SimulatedHome, names: Iterable[str], words: Names) -> None:
         self._world = world
         self._names = tuple(names)
+        self.in_names = words.in_names
         self.said: list[str] = []
         self.wrong: list[str] = []
         self.was_at: defaultdict[str, set[str]] = defaultdict(set)
@@ -71,7 +90,7 @@ class Witness:
 
     def _untrue(self, text: str) -> Iterator[str]:
         """What of a sentence is not so now."""
-        held = self._world.held
+        held, text = self._world.held, self.in_names(text)
         if re.search(r"\bNone\b|: \.|: *$|\(\)", text):
             yield "that is no sentence"
         for pattern in (rf"I took the {NAME} from", rf"[Ii] hold the {NAME}"):
@@ -83,15 +102,15 @@ class Witness:
                 yield f"it holds {held}"
         if "my hand is empty" in text and held:
             yield f"it holds {held}"
-        if match := re.match(rf"Here is the {NAME}", text):
+        if match := re.match(rf"Here (?:is|are) the {NAME}", text):
             place = self._world.resting_place(match["thing"])
             if place != BY_THE_PERSON:
                 yield f"it is at {place}"
-        if match := re.match(rf"The {NAME} is here already", text):
+        if match := re.match(rf"the {NAME} (?:is|are) here already", text):
             place = self._world.resting_place(match["thing"])
             if place != BY_THE_PERSON:
                 yield f"it is at {place}"
-        if match := re.match(rf"The {NAME} is at {PLACE}\.", text):
+        if match := re.match(rf"the {NAME} (?:is|are) at {PLACE}\.", text):
             been = self.was_at[match["thing"]]
             if match["place"] not in been:
                 yield f"it was only at {sorted(been)}"
@@ -117,10 +136,15 @@ def looked_at(
 
 
 def false_searches(texts: Iterable[str], seen: frozenset[str]) -> Iterator[str]:
-    """Places at which the robot says that it did not find a thing, though it did not look there."""
+    """Places at which the robot says that it did not find a thing, though it did not look there.
+
+    Args:
+        texts: what it says, with names instead of words.
+        seen: the places that it saw wholly.
+    """
     for text in texts:
         for match in NOT_FOUND.finditer(text):
-            for place in match["places"].split(", "):
+            for place in re.findall(r"(?:at|the) (\w+)", match["places"]):
                 if place not in seen:
                     yield f"said {match[0]!r}, but did not see all of {place}"
 

@@ -1,0 +1,47 @@
+"""Which of the things that were offered does an answer mean?"""
+
+from collections.abc import Sequence
+
+from executive.language.meaning import Answer, Choice, Correction, Request, Said, Thing, Things
+
+
+def picked(said: Said, options: Sequence[str]) -> tuple[str, ...]:
+    """Those of the options that are meant without their names: "the second one", "any", "both".
+
+    None are if it names something, or picks what is not there.
+    """
+    if not isinstance(said, Answer):
+        return ()
+    if said.place_in_list is not None:
+        number = said.place_in_list or len(options) + 1
+        number -= number > 0
+        return (options[number],) if -len(options) <= number < len(options) else ()
+    match said.choice:
+        case Choice.ANY:
+            return tuple(options[:1])
+        case Choice.ALL:
+            return tuple(options)
+        case Choice.YES if said.things is None and len(options) == 1:
+            return tuple(options)
+    return tuple(options[:1]) if said.things and _is_any(said.things) else ()
+
+
+def named(said: Said) -> str:
+    """The words for the things that an answer names: "no, the pear" -> "pear"; empty if none."""
+    match said:
+        case Answer(things=Things() as things) | Correction(meant=Things() as things):
+            pass
+        case Request(tasks=[task]) | Correction(meant=Request(tasks=[task])) if task.things:
+            things = task.things
+        case _:
+            return ""
+    return " or ".join(_words(thing) for thing in things.members if not thing.pronoun)
+
+
+def _words(thing: Thing) -> str:
+    return thing.words or thing.said
+
+
+def _is_any(things: Things) -> bool:
+    """Whether it is "one of them"."""
+    return [thing.words for thing in things.members] == ["one of them"]

@@ -1,0 +1,53 @@
+"""What is to be done when somebody corrects what they asked for: "no, the banana"."""
+
+from dataclasses import replace
+
+from executive.language.commands import commands_in, in_words
+from executive.language.meaning import Answer, Correction, Request, Said, Task, Thing, Things, Verb
+from executive.types import Command, Commands
+
+
+def corrected(said: Correction, at_hand: Command, words: str) -> Commands | str:
+    """The tasks in place of the one at hand, or beside it; or why one of them cannot be done."""
+    match said.meant:
+        case Request() as request:
+            read = commands_in(request, words)
+        case Things() as things:
+            task = Task(Verb(at_hand.kind), things, said=at_hand.kind)
+            read = commands_in(Request((task,)), words)
+        case _:
+            return ((_elsewhere(said, at_hand, words),),)
+    if not isinstance(read, tuple):
+        return read or f"I do not understand '{words}'."
+    if isinstance(said.meant, Request):
+        return read
+    placed = _elsewhere(said, at_hand, words)
+    return tuple(
+        tuple(replace(one, source=placed.source, goal=placed.goal) for one in group)
+        for group in read
+    )
+
+
+def as_correction(said: Said) -> Correction | None:
+    """An answer that says what is not meant, too: "the banana, not the apple"."""
+    match said:
+        case Answer(things=Things(members=[Thing(words=str(words), exceptions=[_, *_]) as thing])):
+            if words and thing.definite:
+                meant = Things((replace(thing, exceptions=()),))
+                return Correction(meant, Things(thing.exceptions))
+    return said if isinstance(said, Correction) else None
+
+
+def _elsewhere(said: Correction, at_hand: Command, words: str) -> Command:
+    """The same in another place; one without "from" and "to" is where the verb has use for one."""
+    source, goal = said.source, said.goal
+    if said.place and at_hand.kind.means.at_goal:
+        goal = said.place
+    elif said.place:
+        source = said.place
+    return replace(
+        at_hand,
+        words=words,
+        source=in_words(source) if source else at_hand.source,
+        goal=in_words(goal) if goal else at_hand.goal,
+    )

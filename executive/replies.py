@@ -1,0 +1,134 @@
+"""What the robot says to what asks for no deed: questions about itself, and what it is told."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from executive.interfaces import Facts, Knowledge
+from executive.language.commands import in_words
+from executive.language.meaning import About, Question, Relation, Said, Statement, Things, Where
+from executive.language.wording import Wording
+from executive.types import Candidate, Source
+
+SAYS: Mapping[str, str] = {
+    Source.ONTOLOGY: "that is its place",
+    Source.LLM: "the language model's guess",
+    Source.USER: "as you said",
+    Source.MEMORY: "I remember it there",
+}
+"""How the person is told who names a place to look at; other sources say it themselves."""
+IDLE = "Nothing: I wait for what you say."
+SAYS_OF_SEVERAL: Mapping[str, str] = {
+    **SAYS,
+    Source.ONTOLOGY: "that is their place",
+    Source.MEMORY: "I remember them there",
+}
+_WAYS = ("go", "drive", "look", "move", "search", "there")
+"""Words of a question about where the robot went."""
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How it stands with the robot, when it is asked.
+
+    Attributes:
+        holds: what the hand holds; None: nothing.
+        doing: what the robot is doing, as a sentence; empty if nothing.
+        visits: where it went to look, and who had named the place, the last one at the end.
+        reason: how the last mission ended, in words; empty if there was none.
+    """
+
+    holds: str | None = None
+    doing: str = ""
+    visits: Sequence[Candidate] = ()
+    reason: str = ""
+
+
+def reply(said: Said, standing: Standing, knowledge: Knowledge, facts: Facts) -> str:
+    """The answer to a question, or the thanks for what is told; empty if it is neither.
+
+    What is told is remembered, if it is about a thing and a place that there are.
+    """
+    say = Wording(knowledge.called)
+    match said:
+        case Statement():
+            return _told(said, knowledge, facts)
+        case Question(about=About.HAND):
+            held = standing.holds
+            return f"I hold {say.the(held)}." if held else "My hand is empty."
+        case Question(about=About.DOING):
+            return standing.doing or IDLE
+        case Question(about=About.WHERE_PUT, things=Things() as things):
+            return _where_is(things, standing, knowledge, facts)
+        case Question(about=About.WHY):
+            return _why(said.words, standing, knowledge)
+    return ""
+
+
+def about(said: Said, knowledge: Knowledge) -> tuple[str, ...]:
+    """The one object that a question or statement is about; none if it is not clear."""
+    match said:
+        case Statement(things=things) | Question(things=Things() as things):
+            name, _ = _one(things, knowledge)
+            return (name,) if name else ()
+    return ()
+
+
+def _told(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
+    name, unknown = _one(said.things, knowledge)
+    if not name:
+        return unknown
+    where, words = said.where, in_words(said.where)
+    if where.relation in (Relation.UNDER, Relation.NEXT_TO):
+        return f"I can remember what is on furniture, or in it, but not '{words}'."
+    places = knowledge.places_named(words) if knowledge.is_place(words) else ()
+    if not places:
+        return f"I know no place '{words}', so I cannot remember that."
+    facts.heard(name, places)
+    if name not in facts.beliefs():
+        return "Thank you; but I may learn nothing, and shall not remember it."
+    say = Wording(knowledge.called)
+    there = say.at(places[0]) if len(places) == 1 else _at(where)
+    return f"Thank you: I remember that {say.are(name)} {there}."
+
+
+def _where_is(things: Things, standing: Standing, knowledge: Knowledge, facts: Facts) -> str:
+    say = Wording(knowledge.called)
+    name, unknown = _one(things, knowledge)
+    if not name:
+        return unknown
+    if name == standing.holds:
+        return f"I hold {say.the(name)}."
+    places = facts.places_of(name)
+    if not places:
+        return f"I do not know where {say.are(name)}."
+    return f"As far as I know, {say.are(name)} {say.at(places[0])}."
+
+
+def _why(words: str, standing: Standing, knowledge: Knowledge) -> str:
+    named = knowledge.places_named(words)
+    visits = [visit for visit in standing.visits if not named or visit.place in named]
+    if named or any(word in _WAYS for word in words.split()):
+        if not visits:
+            return "I was not there." if named else "I did not go anywhere."
+        visit = visits[-1]
+        says = SAYS.get(visit.source, f"so says the {visit.source}")
+        return f"I went to {Wording(knowledge.called).the(visit.place)} to look there: {says}."
+    return standing.reason or "I did nothing yet."
+
+
+def _one(things: Things, knowledge: Knowledge) -> tuple[str, str]:
+    """The one object that is meant, or what to say if it is none, or several."""
+    words = " or ".join(thing.said or thing.words for thing in things.members)
+    if any(thing.pronoun for thing in things.members):
+        return "", f"I do not know what '{words}' is."
+    names = knowledge.objects_named(words)
+    if len(names) == 1:
+        return names[0], ""
+    if not names:
+        return "", f"I know no '{words}'."
+    return "", f"'{words}' may be {Wording(knowledge.called).any_of(names)}: say which."
+
+
+def _at(where: Where) -> str:
+    """As it was said: "on the sofa"."""
+    return f"{where.relation.replace('_', ' ')} the {in_words(where)}"

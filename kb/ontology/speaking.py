@@ -1,0 +1,50 @@
+"""How one speaks of the furniture and the things that an ontology and a home have names for."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+from executive.language.phrases import spoken, stem, words_of
+from executive.types import Called, Place
+
+
+def places_called(
+    places: Sequence[Place], prepositions: Mapping[str, str] | None = None
+) -> dict[str, Called]:
+    """What each piece of furniture is called.
+
+    A name that ends in its room is said less the room, and with the room behind it:
+    `cabinet_kitchen` is "the cabinet in the kitchen". So are names that two rooms share.
+
+    Args:
+        places: the furniture of a home.
+        prepositions: how things are with furniture of each kind.
+    """
+    less_room = {place.name: _less_room(place) for place in places}
+    count = Counter(words for words, _ in less_room.values())
+    return {
+        place.name: Called(
+            words,
+            preposition=(prepositions or {}).get(place.kind, "on"),
+            room="" if words.startswith(f"{spoken(place.room)} ") else spoken(place.room),
+            says_room=said or count[words] > 1,
+        )
+        for place in places
+        for words, said in [less_room[place.name]]
+    }
+
+
+def thing_called(label: str, *, plural: bool = False, is_class: bool = False) -> Called:
+    """What a thing is called, by its label: `sugar_box`, "TV remote", "Tennis Ball"."""
+    words = label.split() if " " in label else spoken(label).split()
+    plain = " ".join(word.lower() if word.istitle() else word for word in words)
+    return Called(plain or label, plural=plural, bare=is_class)
+
+
+def _less_room(place: Place) -> tuple[str, bool]:
+    """The words of its name, less those of its room behind them, and whether there were any."""
+    room = {*words_of(place.room), *words_of(spoken(place.room_kind))}
+    words = spoken(place.name).split()
+    if stem(words[0]) in room:
+        return " ".join(words), False
+    kept = [word for word in words if stem(word) not in room]
+    return " ".join(kept), len(kept) < len(words)

@@ -1,0 +1,216 @@
+"""What is said while the robot is at something is answered at once, and the tree goes by it."""
+
+import io
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from interrupting import Interrupting
+from talking import session_in, told
+
+from executive.app.parts import Parts
+from executive.app.session import Session
+from executive.config import load_settings
+from executive.events import Heard, Inbox
+from executive.replay.replaying import replay
+from executive.testing.bench import Run, run_mission
+from executive.types import DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
+from executive.user import Oracle
+from kb.facts import FactStore
+from logs.questions.why import why, why_text
+from logs.recording.reader import Run as Recorded
+
+DONE, NOT_DONE = MissionStatus.DONE, MissionStatus.NOT_DONE
+
+
+def saying(words: str, at: int) -> Callable[[Goal, Inbox], None]:
+    """Says it as the robot begins with this goal, counted from 1."""
+    begun: list[Goal] = []
+
+    def during(goal: Goal, inbox: Inbox) -> None:
+        begun.append(goal)
+        if len(begun) == at:
+            inbox.hear(words)
+
+    return during
+
+
+def run(words: str, heard: str, at: int = 1) -> Run:
+    facts = FactStore.believing({})
+    return run_mission(words, llm=False, during=saying(heard, at), facts=facts)
+
+
+def answers(mission: Run) -> list[str]:
+    assert isinstance(mission.user, Oracle)
+    return mission.user.told
+
+
+def tasks(mission: Run) -> list[tuple[str, str | None, str]]:
+    return [(task.kind, task.object, task.status) for task in mission.outcome.tasks]
+
+
+@pytest.mark.parametrize("at", [1, 2, 3, 4])
+def test_a_correction_takes_the_place_of_the_task_at_any_moment(at: int) -> None:
+    mission = run("Bring the hammer", "No, the power drill", at)
+    assert tasks(mission) == [("bring", "power_drill", DONE)]
+    assert "All right: I bring the power drill instead." in answers(mission)
+    assert mission.world.resting_place("power_drill") == "delivery"
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+
+
+@pytest.mark.physics
+def test_what_was_half_taken_in_physics_is_put_away_first(tmp_path: Path) -> None:
+    inbox, clocks = Inbox(), []
+
+    def change(parts: Parts) -> Parts:
+        clocks.append(Interrupting(parts.clock, inbox, 24.1, Heard("No, the power drill")))
+        return replace(parts, clock=clocks[0])
+
+    settings = load_settings(
+        world="physics", llm="none", user="none", camera_hz=0.0, detector="simulated", runs=tmp_path
+    )
+    with Session(settings, inbox=inbox, change=change, out=io.StringIO()) as session:
+        outcome = session.run("Bring the hammer")
+        held = session.world.resting_place("hammer") if session.world else None
+    assert clocks[0].interrupted
+    assert (outcome.status, outcome.object) == (DONE, "power_drill"), outcome.reason
+    assert held is not None
+
+
+def test_a_correction_counts_from_where_the_robot_is() -> None:
+    mission = run("Find the hammer", "no, the power drill", at=2)
+    drives = [goal for goal in mission.goals if isinstance(goal, DriveTo)]
+    assert drives == [DriveTo("shelf_lobby"), DriveTo("shelf_lobby"), DriveTo("person")]
+
+
+@pytest.mark.parametrize(
+    ("words", "heard", "place"),
+    [
+        ("Put the hammer on the sofa", "No, on the desk", "desk"),
+        ("Put the hammer on the sofa", "to the bed instead", "bed"),
+        ("Put the hammer on the sofa", "no, bring it to me", "delivery"),
+        ("Bring the hammer", "put it on the sofa instead", "sofa"),
+        ("Bring the mug", "not the mug but the hammer", "delivery"),
+        ("Bring the mug", "the hammer, not the mug", "delivery"),
+    ],
+)
+def test_a_place_or_the_deed_may_be_corrected(words: str, heard: str, place: str) -> None:
+    mission = run(words, heard)
+    assert (mission.outcome.status, mission.world.resting_place("hammer")) == (DONE, place)
+
+
+@pytest.mark.parametrize("heard", ["Bring the power drill", "And the power drill, too"])
+def test_a_further_wish_is_done_afterwards_and_told_so(heard: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert tasks(mission) == [("bring", "hammer", DONE), ("bring", "power_drill", DONE)]
+    assert "All right: I bring the power drill afterwards." in answers(mission)
+
+
+@pytest.mark.parametrize(
+    ("heard", "answer"),
+    [
+        ("What are you doing?", "I drive to the shelf in the lobby, to bring the hammer."),
+        ("What do you hold?", "My hand is empty."),
+        ("Thank you", "You are welcome."),
+        ("The mug is on the desk", "Thank you: I remember that the mug is on the desk."),
+        ("Jump over it", "I cannot jump."),
+        ("Do not touch the mug", "Then I will not."),
+        (
+            "blue skies",
+            "I do not understand 'blue skies'. "
+            "I drive to the shelf in the lobby, to bring the hammer.",
+        ),
+    ],
+)
+def test_anything_else_is_answered_and_the_robot_goes_on(heard: str, answer: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert answer in answers(mission)
+    assert tasks(mission) == [("bring", "hammer", DONE)]
+    plain = run_mission("Bring the hammer", llm=False)
+    assert list(map(type, mission.goals)) == list(map(type, plain.goals))
+
+
+@pytest.mark.parametrize("heard", ["Do not bring it", "don't bring the hammer"])
+def test_what_is_taken_back_is_not_done(heard: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert tasks(mission) == [("bring", "hammer", NOT_DONE)]
+    assert mission.outcome.reason == "you took it back"
+    assert not any(isinstance(goal, Pick | PutDown) for goal in mission.goals)
+
+
+@pytest.mark.parametrize(
+    ("heard", "kinds", "told"),
+    [
+        ("No, the hammer", [("bring", "hammer", DONE)], "I bring the hammer instead."),
+        ("Do not bring them", [("bring", None, NOT_DONE)], "Then I do not bring"),
+    ],
+)
+def test_what_is_done_in_parts_is_corrected_as_a_whole(
+    heard: str, kinds: list[tuple[str, str | None, str]], told: str
+) -> None:
+    mission = run("Bring two fruits", heard)
+    assert [(kind, status) for kind, _, status in tasks(mission)] == [
+        (kind, status) for kind, _, status in kinds
+    ]
+    assert any(told in answer for answer in answers(mission))
+    assert mission.world.held is None
+
+
+def test_the_others_are_done_if_one_is_taken_back() -> None:
+    mission = run("Bring the hammer. Then find the power drill.", "Do not bring it")
+    assert tasks(mission) == [("bring", "hammer", NOT_DONE), ("find", "power_drill", DONE)]
+
+
+def test_where_the_thing_is_sends_the_robot_there(tmp_path: Path) -> None:
+    session, world = session_in(tmp_path, place={"hammer": "sofa"})
+    start, began = session.robot.start, []
+
+    def start_and_say(goal: Goal) -> int:
+        began.append(goal)
+        if len(began) == 1:
+            session.inbox.hear("It is on the sofa")
+        return start(goal)
+
+    session.robot.start = start_and_say  # type: ignore[method-assign]
+    outcome = session.run("Bring the hammer")
+    assert (outcome.status, outcome.visited) == (DONE, ("sofa",))
+    assert "Thank you: I remember that the hammer is on the sofa." in told(session)
+    session.close()
+    assert session.folder
+    assert replay(session.folder).parting is None
+
+
+def test_why_tells_what_was_heard_and_what_was_given_up_for_it(tmp_path: Path) -> None:
+    session, _ = session_in(tmp_path)
+    start = session.robot.start
+
+    def start_and_say(goal: Goal) -> int:
+        if goal == LookAt("shelf_lobby"):
+            session.inbox.hear("No, the scissors from the desk")
+        return start(goal)
+
+    session.robot.start = start_and_say  # type: ignore[method-assign]
+    session.run("Bring the hammer")
+    session.close()
+    assert session.folder
+    text = why_text(why(Recorded(session.folder)))
+    heard = "heard 'No, the scissors from the desk': All right: I bring the scissors"
+    assert heard in text, text
+    assert "look at shelf_lobby: given up  [person]" in text, text
+    assert "look at desk: seen there  [eyes]" in text, text
+
+
+def test_what_comes_too_late_is_kept_for_the_next(tmp_path: Path) -> None:
+    session, _ = session_in(tmp_path)
+    tell = session.parts.user.tell
+
+    def tell_and_hear(text: str) -> None:
+        tell(text)
+        if text.startswith("Here is"):
+            session.inbox.hear("And the power drill")
+
+    session.parts.user.tell = tell_and_hear  # type: ignore[method-assign]
+    session.run("Bring the hammer")
+    assert list(session.heard) == ["And the power drill"]
+    session.close()

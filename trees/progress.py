@@ -1,0 +1,35 @@
+"""What the robot says while it acts: where it drives, with what, and why it goes on."""
+
+from executive.types import DELIVERY, PERSON, CommandKind
+from trees.context import MissionContext
+
+
+def on_to_the_next(context: MissionContext) -> str:
+    """That the thing was not at the last place, or why that is not known; empty at the first."""
+    search, say = context.situation.search, context.say
+    assert search.candidate
+    places = [candidate.place for candidate in search.candidates]
+    at = places.index(search.candidate.place) if search.candidate.place in places else 0
+    if at == 0:
+        return ""
+    there, before = say.the(places[at]), places[at - 1]
+    if search.looks.all_without(before) and before not in search.looks.unreached:
+        return f"Not here; on to {there}."
+    name = context.situation.request.object or ""
+    why = search.looks.why_not(name, before, say)
+    return f"{why[:1].upper()}{why[1:]}; on to {there}."
+
+
+def on_the_way(context: MissionContext, place: str) -> str:
+    """Where the robot is going, and what it has with it."""
+    situation, say = context.situation, context.say
+    held = situation.hand.in_hand
+    if held and place == DELIVERY:
+        return f"I have {say.the(held)}, and bring {say.it(held)}."
+    if held and place != PERSON:
+        return f"I take {say.the(held)} to {say.the(place)}."
+    if place != PERSON:
+        return f"I drive to {say.the(place)}."
+    if situation.request.asks_to(CommandKind.FIND) and situation.search.found:
+        return f"I have seen {say.it(situation.request.object or '')}, and come back."
+    return "I come back." if situation.dialogue.away else "I come to you."

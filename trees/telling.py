@@ -1,0 +1,76 @@
+"""How the person is told things: on one line, and in words."""
+
+from executive.language.wording import as_said, either
+from executive.records import Utterance
+from executive.text import printable
+from executive.types import HELD, PERSON, Command, CommandKind
+from trees.context import MissionContext
+
+TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
+"""Words for the goal that is the person who speaks."""
+
+
+def tell(context: MissionContext, text: str) -> None:
+    """Say something, on one line, to the person and to the log."""
+    said = printable(text)
+    context.recorder.record(Utterance("robot", said))
+    context.user.tell(said)
+
+
+def sentence(text: str) -> str:
+    """The text with a full stop, unless it has an end."""
+    return text if text.endswith((".", "!", "?", "…")) else f"{text}."
+
+
+def in_one_sentence(context: MissionContext, command: Command) -> str:
+    """All that a command asks for, in words: "bring the mug from the desk"."""
+    what, goal = _things(context, command), _goal(context, command)
+    source = f"from {_place(context, command, command.source)}" if command.source else ""
+    match command.kind:
+        case CommandKind.PUT_DOWN:
+            parts: tuple[str, ...] = ("put", what, "down")
+        case CommandKind.PUT_BACK:
+            parts = ("put", what, "back", source, goal)
+        case CommandKind.GO if command.goal in TO_THE_PERSON:
+            parts = ("come to you",)
+        case CommandKind.GO:
+            parts = ("go to", _place(context, command, command.goal or command.target))
+        case _:
+            parts = (command.kind.replace("_", " "), what, source, goal)
+    return " ".join(filter(None, parts))
+
+
+def _things(context: MissionContext, command: Command) -> str:
+    """What it is about, less what it is not."""
+    knowledge, target = context.knowledge, command.target
+    names = [name for name in target.split(" and ") if knowledge.called(name)]
+    named = knowledge.objects_named(target)
+    if target == HELD:
+        what = target
+    elif names and " and ".join(names) == target:
+        what = " and ".join(map(context.say.the, names))
+    elif len(named) == 1:
+        what = context.say.the(named[0])
+    else:
+        what = as_said(command.words, target)
+    but = f" but not {either(command.exceptions)}" if command.exceptions else ""
+    return what + but
+
+
+def _place(context: MissionContext, command: Command, words: str) -> str:
+    """A place that it names: furniture by its name, anything else as it was said."""
+    named = context.knowledge.places_named(words)
+    if len(named) == 1:
+        return context.say.the(named[0])
+    said = as_said(command.words, words)
+    return f"the {said}" if named and said.islower() else said
+
+
+def _goal(context: MissionContext, command: Command) -> str:
+    """Where it is to go, with a preposition."""
+    if not command.goal or command.goal in TO_THE_PERSON:
+        return "to you" if command.goal else ""
+    named = context.knowledge.places_named(command.goal)
+    if len(named) == 1:
+        return context.say.at(named[0])
+    return f"{'in' if named else 'to'} {_place(context, command, command.goal)}"
