@@ -10,8 +10,8 @@ import logging
 import os
 import signal
 import sys
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from importlib.metadata import version
 from pathlib import Path
 from select import select
@@ -22,6 +22,7 @@ from executive.config import Settings, load_settings
 from executive.errors import ExecutiveError, InputError
 from executive.events import THE_PERSON, Inbox, StopRequested
 from executive.options import add_settings
+from executive.page.address import Address, add_page, address_of
 from executive.shell import (
     BAD_INPUT,
     DONE,
@@ -43,6 +44,7 @@ from executive.user import STOPPING, Console
 
 if TYPE_CHECKING:
     from executive.app.session import Session
+    from executive.page.page import Page
 
 EXIT = {
     MissionStatus.DONE: DONE,
@@ -68,16 +70,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = " ".join(said) if said else None
     as_json, verbose = options.pop("json"), options.pop("verbose")
     view, gui = options.pop("view"), options.pop("gui")
+    address = address_of(options)
     with on_stop_signals(end_at_once):
         log_to_stderr(verbose)
         let_no_reader_hold_the_robot()
         try:
             settings = load_settings(**options)
+            if address and settings.user != "console":
+                right = "use --user console, or leave --page out"
+                raise InputError("--page", "it is the person, and the settings name another", right)
             if words is None and settings.user != "console":
                 raise InputError("command", "no words", 'say for example "Bring a sugar_box"')
             if why := too_long(words or ""):
                 raise InputError("command", why, "say it in fewer words")
-            return serve(settings, words, Inbox(), view=view, gui=gui, as_json=as_json)
+            inbox = Inbox()
+            with opened_page(address, inbox) as page:
+                return serve(settings, words, inbox, page, view=view, gui=gui, as_json=as_json)
         except ExecutiveError:
             raise
         except Exception as error:
@@ -87,20 +95,51 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return NOT_DONE
 
 
+@contextmanager
+def opened_page(address: Address | None, inbox: Inbox) -> "Iterator[Page | None]":
+    """The person's page, served meanwhile; its address is printed."""
+    if address is None:
+        yield None
+        return
+    from executive.page.page import Page  # heavy
+
+    with Page(inbox, address) as page:
+        print(f"Open {page.url}", file=sys.stderr, flush=True)
+        yield page
+
+
 def serve(
-    settings: Settings, words: str | None, inbox: Inbox, *, view: bool, gui: bool, as_json: bool
+    settings: Settings,
+    words: str | None,
+    inbox: Inbox,
+    page: "Page | None" = None,
+    *,
+    view: bool,
+    gui: bool,
+    as_json: bool,
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
-    console = Console(inbox) if settings.user == "console" else None  # hears a stop from now on
+    console: Console | None = None  # hears a stop from now on
+    if settings.user == "console":
+        console = page.person if page else Console(inbox)
     with all_is_kept():
         from executive.app.session import Session  # heavy: not for --help or a wrong option
 
-        session = Session(settings, inbox=inbox, user=console, view=view, gui=gui)
+        session = Session(
+            settings,
+            inbox=inbox,
+            user=console,
+            view=view,
+            gui=gui,
+            sinks=[page.sink] if page else (),
+        )
     with session:
+        if page:
+            page.follow(session)
         stop_on_signals(inbox)
         try:
-            if words is None and console:
-                code = converse(session, console, as_json)
+            if console and (words is None or page):
+                code = converse(session, console, as_json, words)
             else:
                 code = do(session, words or "", as_json)
                 while session.heard:
@@ -142,13 +181,16 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
     return EXIT[outcome.status]
 
 
-def converse(session: "Session", console: Console, as_json: bool) -> int:
+def converse(session: "Session", console: Console, as_json: bool, line: str | None = None) -> int:
     """Do what the person types, until they end the session; the exit code of the last command.
 
-    Who says stop otherwise than the person ends the session, and not only the mission.
+    Who says stop otherwise than the person ends the session, and not only the mission. A `line`
+    that is given is done first.
     """
     code = DONE
-    line = session.next_command(console, f"{PROMPT} (stop ends what I do, quit ends the session)")
+    if line is None:
+        help_ = f"{PROMPT} (stop ends what I do, quit ends the session)"
+        line = session.next_command(console, help_)
     while line is not None:
         code = do(session, line, as_json)
         if session.stopped_by not in ("", THE_PERSON):
@@ -223,6 +265,7 @@ def parser() -> argparse.ArgumentParser:
     add_settings(p)
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
     p.add_argument("--gui", action="store_true", help="show PyBullet's own window")
+    add_page(p)
     p.add_argument("--view", action="store_true", help="show the recording live in rerun's viewer")
     p.add_argument("--json", action="store_true", help="print the outcome as JSON")
     p.add_argument("-v", "--verbose", action="count", default=0, help="say more (-vv: all)")

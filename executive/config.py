@@ -89,6 +89,19 @@ class Settings(BaseSettings):
             after="llm_model",
         ),
     ] = Field(None, description="let the model write a list (paper) or score each known place")
+    search: Annotated[
+        Literal["plan", "paper"],
+        Option(
+            help="one belief and a plan that weighs looking against asking, "
+            "or the paper's stages (default: plan)"
+        ),
+    ] = Field("plan", description="one belief and a plan, or the paper's stages")
+    question_s: Annotated[
+        float,
+        Option(
+            "SECONDS", "what a question to the person costs, in seconds of searching (default: 60)"
+        ),
+    ] = Field(60.0, ge=0, description="what a question costs, in seconds of searching")
     user: Annotated[Literal["console", "oracle", "none"], Option()] = Field(
         "console", description="who answers: you, the paper's simulated user, or nobody"
     )

@@ -20,6 +20,8 @@ from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, 
 
 T = TypeVar("T")
 
+UNKNOWN_WAY_S = 10.0
+"""How long a way is taken to be of which the robot does not tell."""
 LONGEST = 120
 """What an exception says is cut to so many characters."""
 
@@ -163,6 +165,13 @@ class GuardedRobot(_Guard):
     def views(self, place: str) -> int:
         """How many head poses it takes to see all of a place; one, if the robot cannot tell."""
         return max(1, self._try(lambda: int(self._robot.views(place)), 1))
+
+    def seconds(self, start: str, place: str) -> float:
+        """How long the way takes; if the robot cannot tell, as long as any other."""
+        if not hasattr(self._robot, "seconds"):
+            return UNKNOWN_WAY_S
+        seconds = self._try(lambda: float(self._robot.seconds(start, place)), UNKNOWN_WAY_S)
+        return seconds if seconds >= 0 else UNKNOWN_WAY_S
 
     @property
     def holding(self) -> bool | None:

@@ -48,6 +48,15 @@ class Robot(Protocol):
         """How many head poses it takes to see all of a place or of the `floor` (at least 1)."""
         ...
 
+    def seconds(self, start: str, place: str) -> float:
+        """How long it takes to drive from one place to another one, `person` and `delivery` too.
+
+        As far as is known before it is tried, within 15 % (and half a second) of what the drive
+        then takes; infinite if there is no way, or no such place. It is asked on the ticking
+        thread, for all pairs of places: an answer takes microseconds, once it is known.
+        """
+        ...
+
     @property
     def holding(self) -> bool | None:
         """Whether both fingers touch a thing; None if the robot cannot tell.
@@ -331,8 +340,11 @@ class CommandReader(Protocol):
         """`command`: what do the words ask for?"""
         ...
 
-    def read(self, reply: str) -> tuple[CommandKind, str] | None:
-        """Kind and object of the reply, if it has the format and the object exists."""
+    def read(self, reply: str) -> str:
+        """What the reply asks for, as a plain sentence for the grammar.
+
+        It is empty if the reply has not the format, or names a thing or a place that is not there.
+        """
         ...
 
 

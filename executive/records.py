@@ -128,6 +128,58 @@ class SourceAnswer:
 
 
 @dataclass(frozen=True, slots=True)
+class Planned:
+    """What the robot is going to do in its search, and why: a decision between looking and asking.
+
+    Attributes:
+        thing: what is looked for.
+        decision: `look`, `ask`, or `give up`.
+        order: where it means to look, in this order; the first is next.
+        ask_after: after how many of these it means to ask; -1: never.
+        seconds: of ways and looks, expected.
+        visits: expected.
+        questions: expected.
+        cost: expected, in seconds, with the price of questions.
+        may_ask: whether asking at once is a choice.
+        asking_cost: what it costs then, expected.
+        may_look: whether there is anywhere to look.
+        looking_cost: what the best plan costs that begins with a look.
+        places: where the thing may be, the likeliest first.
+        probabilities: how likely, in the same order.
+        says: who says so, in the same order, each with what it gave: "memory 0.90, llm 0.01".
+        elsewhere: how likely it is at none of these.
+        text: the decision as a sentence.
+    """
+
+    thing: str
+    decision: str
+    order: tuple[str, ...]
+    ask_after: int
+    seconds: float
+    visits: float
+    questions: float
+    cost: float
+    may_ask: bool
+    asking_cost: float
+    may_look: bool
+    looking_cost: float
+    places: tuple[str, ...]
+    probabilities: tuple[float, ...]
+    says: tuple[str, ...]
+    elsewhere: float
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class WaysTold:
+    """How long the robot's ways from a place to others take (s), as it told; -1: there is none."""
+
+    start: str
+    places: tuple[str, ...]
+    seconds: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Utterance:
     """Something said: speaker is `person` or `robot`."""
 
@@ -242,6 +294,8 @@ Record = (
     | LlmCall
     | Verified
     | SourceAnswer
+    | Planned
+    | WaysTold
     | Utterance
     | Note
     | Picture

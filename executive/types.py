@@ -241,6 +241,10 @@ class Place:
     """Name of the room that it stands in."""
     room_kind: str
     """The room's class in the ontology: `Kitchen`, `Bedroom`, ..."""
+    label: str = ""
+    """What the robot calls it ("Anna's desk"); empty: what its name says."""
+    room_label: str = ""
+    """The same of the room."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -465,9 +469,10 @@ class RankRequest:
 
     What counts is log P(option | messages) - log P(option | neutral): `neutral` is the same chat
     with the thing left open, so that what is merely a common phrase does not win; empty, it counts
-    for nothing. `places` are the places that the options stand for, in the same order. A model that
-    can tell which questions are alike takes the `precedents` into account; so are, a little, those
-    about things of the same `kind`.
+    for nothing. `places` are the places that the options stand for, in the same order, and
+    `place_kinds` their classes and rooms (empty: not known). A model that can tell which questions
+    are alike takes the `precedents` into account; so are, a little, those about things of the same
+    `kind`.
     """
 
     label: str
@@ -477,6 +482,7 @@ class RankRequest:
     places: tuple[str, ...]
     precedents: tuple[Precedent, ...] = ()
     kind: str = ""
+    place_kinds: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

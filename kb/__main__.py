@@ -13,17 +13,19 @@ from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from executive.errors import InputError
 from executive.shell import DONE, NOT_DONE, entry_point
 from executive.text import counted, printable
 from executive.usage import Parser
-from kb.facts import FactStore
-from kb.ontology.ontology import Ontology
-from sim.home.home import load_home
+
+if TYPE_CHECKING:  # a command imports what it needs
+    from kb.facts import FactStore
+    from kb.ontology.ontology import Ontology
 
 
-def show(ontology: Ontology, words: str) -> int:
+def show(ontology: "Ontology", words: str) -> int:
     """Print what is known about each thing that the words name."""
     names = ontology.objects_named(words)
     if not names:
@@ -46,7 +48,7 @@ def show(ontology: Ontology, words: str) -> int:
     return DONE
 
 
-def check(ontology: Ontology) -> int:
+def check(ontology: "Ontology") -> int:
     """Print every fault, and what is not used; only a fault is one."""
     faults, notes = list(ontology.faults()), [*ontology.unmet_imports(), *ontology.unused()]
     for line in (*faults, *(f"note: {note}" for note in notes)):
@@ -56,7 +58,7 @@ def check(ontology: Ontology) -> int:
     return 1 if faults else 0
 
 
-def query(ontology: Ontology, sparql: str, as_json: bool) -> int:
+def query(ontology: "Ontology", sparql: str, as_json: bool) -> int:
     """Print the answer to a SELECT; 1 if it is empty."""
     table = ontology.query(sparql)
     if as_json:
@@ -87,6 +89,8 @@ def facts(file: Path, as_json: bool) -> int:
 
 def forget(file: Path, words: str) -> int:
     """Remove the facts about what the words name, or all."""
+    from kb.ontology.ontology import Ontology
+
     names = Ontology().objects_named(words) or (words,) if words else (None,)
     with closing(_memory(file)) as memory:
         print(f"{sum(memory.forget(name) for name in names)} facts forgotten", file=sys.stderr)
@@ -101,8 +105,11 @@ def age(seconds: float) -> str:
     return counted(round(max(0.0, seconds)), "second")
 
 
-def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> Ontology:
+def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> "Ontology":
     """What a mission with the same options would know."""
+    from kb.ontology.ontology import Ontology
+    from sim.home.home import load_home
+
     home, own = load_home(given.home), [*given.kb, *files]
     ontology = Ontology(
         home.places(),
@@ -117,7 +124,9 @@ def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> Ontology
     return ontology
 
 
-def _memory(file: Path, *, learns: bool = True) -> FactStore:
+def _memory(file: Path, *, learns: bool = True) -> "FactStore":
+    from kb.facts import FactStore
+
     if not file.exists():
         raise InputError(str(file), "there is no such file", "name the one of --memory")
     return FactStore(file, learns=learns)

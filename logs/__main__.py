@@ -18,12 +18,11 @@ from executive.errors import InputError
 from executive.shell import entry_point
 from executive.text import printable
 from executive.usage import Parser
-from logs.questions import comparison, gantt, pictures, report
+from logs.questions import comparison, gantt, report
 from logs.questions.why import why, why_text
 from logs.recording.choice import newest, runs_in
 from logs.recording.reader import FILE_NAME, At, Run, mcap_of
 from logs.recording.recovery import first_damage, recover, written
-from logs.viewer import program
 
 T = TypeVar("T")
 
@@ -166,6 +165,8 @@ def _dialog(options: argparse.Namespace) -> Answer:
 
 
 def _frames(options: argparse.Namespace) -> Answer:
+    from logs.questions import pictures
+
     run, out = Run(options.run), options.out
     where = printable(out)
     if out.suffix == ".mp4":
@@ -238,6 +239,8 @@ def _recover(options: argparse.Namespace) -> Answer:
 
 
 def _view(options: argparse.Namespace) -> Answer:
+    from logs.viewer import program
+
     recording = options.run / "mission.rrd" if options.run.is_dir() else options.run
     if not recording.is_file() or recording.suffix not in (".rrd", ".mcap"):
         raise InputError(str(options.run), "holds no mission.rrd", "name a run's folder")

@@ -26,7 +26,7 @@ FLUSH_S = 0.5
 each record costs the mission half as much again; and with the time that writing takes, on a busy
 machine too, no more than a second is lost."""
 LIVE_FLUSH_S = 0.1
-"""The same while someone watches."""
+"""The same of sinks that someone watches; the others are flushed as ever."""
 CLOSE_S = 30.0
 """How long `close` waits for what is queued to be written."""
 
@@ -46,7 +46,10 @@ class Sink(Protocol):
         ...
 
     def flush(self) -> None:
-        """Bring what was written to where it survives the death of this process."""
+        """Bring what was written to where it survives the death of this process.
+
+        Sooner, if someone watches: a sink with a true attribute `live` says so.
+        """
         ...
 
     def close(self) -> None:
@@ -96,7 +99,11 @@ class _Writer:
     def __init__(self, sinks: Sequence[Sink], rest_s: float) -> None:
         self._sinks = list(sinks)
         self._unwritten = {id(sink): Unwritten(type(sink).__name__) for sink in sinks}
-        self._rest_s = rest_s
+        self._rest_s = LIVE_FLUSH_S if any(map(_is_live, sinks)) else rest_s
+        self._flush_s = rest_s
+        self._flushed = -rest_s
+        """When all sinks were flushed last (s)."""
+        self._unflushed = False
         self._queue: queue.SimpleQueue[tuple[Stamp, Record | None]] = queue.SimpleQueue()
         self._hurry = threading.Event()
         """Ends the rest."""
@@ -135,16 +142,33 @@ class _Writer:
 
     def _run(self) -> None:
         while True:
-            batch = [self._queue.get()]
-            batch += [self._queue.get() for _ in range(self._queue.qsize())]
-            for stamp, record in batch:
+            for stamp, record in self._batch():
                 if record is None:
                     self._finish(stamp)
                     return
                 self._write(stamp, record)
-            self._each(stamp, lambda sink: sink.flush())
+                self._unflushed = True
+            self._flush(stamp)
             self._hurry.wait(self._rest_s)
             self._hurry.clear()
+
+    def _batch(self) -> list[tuple[Stamp, Record | None]]:
+        """All that waits to be written; none, if nothing comes before sinks have to be flushed."""
+        left = max(0.0, self._flushed + self._flush_s - time.monotonic())
+        try:
+            first = self._queue.get(timeout=left if self._unflushed else None)
+        except queue.Empty:
+            return []
+        return [first, *(self._queue.get() for _ in range(self._queue.qsize()))]
+
+    def _flush(self, stamp: Stamp) -> None:
+        """Flush those that someone watches, and if it is time, all."""
+        now = time.monotonic()
+        if now - self._flushed < self._flush_s and self._rest_s < self._flush_s:
+            self._each(stamp, lambda sink: sink.flush() if _is_live(sink) else None)
+            return
+        self._each(stamp, lambda sink: sink.flush())
+        self._flushed, self._unflushed = now, False
 
     def _write(self, stamp: Stamp, record: Record) -> None:
         self._each(stamp, lambda sink: self._write_to(sink, stamp, record))
@@ -182,3 +206,8 @@ class _Writer:
         text = printable(f"{type(sink).__name__} {what}: {type(error).__name__}: {error}")
         log.warning(text)
         self._write(stamp, Note("warning", text))
+
+
+def _is_live(sink: Sink) -> bool:
+    """Whether someone watches what it is told."""
+    return bool(getattr(sink, "live", False))

@@ -11,34 +11,29 @@ if __name__ == "__main__":
 import argparse
 import io
 import json
+import math
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-
-import numpy as np
-from numpy.typing import NDArray
-from PIL import Image
-from scipy.spatial.transform import Rotation
+from typing import TYPE_CHECKING
 
 from executive.errors import InputError
 from executive.shell import DONE, entry_point
 from executive.text import printable
-from executive.types import Intrinsics, Pose
 from executive.usage import Parser
-from sim.bullet.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
-from sim.bullet.camera import render
-from sim.bullet.client import connect
-from sim.home.home import Home, load_home
-from sim.objects.objects import ObjectModel, load_objects
-from sim.objects.ycb import with_scans
-from sim.tools.catalogue import contact_sheet
-from sim.tools.checking import check_home, notes_on
-from sim.tools.generation import generate_home
+
+if TYPE_CHECKING:  # a command imports what it needs
+    import numpy as np
+    from numpy.typing import NDArray
+    from PIL import Image
+
+    from sim.home.home import Home
+    from sim.objects.objects import ObjectModel
 
 WIDTH, HEIGHT = 1280, 1080
 DISTANCE = 4.35
 """From the home to the eye, in lengths of the home: so far that lines are nearly parallel."""
-STEEPNESS = np.radians(62.0)
+STEEPNESS = math.radians(62.0)
 MARGIN = 1.08
 """How much more than the home the picture shows."""
 
@@ -75,7 +70,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _view(options: argparse.Namespace) -> int:
-    def seen(models: dict[str, ObjectModel]) -> dict[str, ObjectModel]:
+    from PIL import Image
+
+    from sim.home.home import load_home
+    from sim.objects.objects import load_objects
+    from sim.objects.ycb import with_scans
+    from sim.tools.catalogue import contact_sheet
+
+    def seen(models: "dict[str, ObjectModel]") -> "dict[str, ObjectModel]":
         return with_scans(models, options.ycb) if options.ycb else models
 
     if options.home == "objects":
@@ -89,6 +91,8 @@ def _view(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
+    from sim.tools.checking import check_home, notes_on
+
     faults = [str(fault) for fault in check_home(options.home)]
     notes = [f"note: {note}" for note in notes_on(options.home)]
     if options.json:
@@ -99,6 +103,8 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _generate(options: argparse.Namespace) -> int:
+    from sim.tools.generation import generate_home
+
     text = generate_home(options.rooms, options.furniture, options.seed)
     if options.out is None:
         print(text, end="")
@@ -116,8 +122,16 @@ def _write(path: Path, content: bytes) -> None:
     print(printable(path))
 
 
-def draw(home: Home, models: Mapping[str, ObjectModel]) -> NDArray[np.uint8]:
+def draw(home: "Home", models: "Mapping[str, ObjectModel]") -> "NDArray[np.uint8]":
     """The home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
+    from executive.types import Intrinsics, Pose
+    from sim.bullet.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
+    from sim.bullet.camera import render
+    from sim.bullet.client import connect
+
     edges = np.array([room.rectangle for room in home.rooms])
     lower, upper = edges[:, :2].min(axis=0), edges[:, 2:].max(axis=0)
     across, along = (upper - lower) * MARGIN
@@ -127,7 +141,8 @@ def draw(home: Home, models: Mapping[str, ObjectModel]) -> NDArray[np.uint8]:
     turn = Rotation.from_euler("x", -np.pi / 2 - STEEPNESS)
     middle = np.array([*(lower + upper) / 2, 0.0])
     eye = middle - distance * turn.as_matrix()[:, 2]
-    pose = Pose(tuple(eye.tolist()), tuple(turn.as_quat().tolist()))
+    x, y, z, w = (float(value) for value in turn.as_quat())
+    pose = Pose(tuple(eye.tolist()), (x, y, z, w))
     client = connect()
     build_home(client, home.model_copy(update={"wall_height": VIEWED_WALL_HEIGHT_M}))
     place_objects(client, home, models)
@@ -136,7 +151,7 @@ def draw(home: Home, models: Mapping[str, ObjectModel]) -> NDArray[np.uint8]:
     return color
 
 
-def _png(picture: Image.Image) -> bytes:
+def _png(picture: "Image.Image") -> bytes:
     content = io.BytesIO()
     picture.save(content, "PNG", optimize=True)
     return content.getvalue()

@@ -183,6 +183,13 @@ class FakeRobot:
         """One look is enough here."""
         return 1
 
+    def seconds(self, start: str, place: str) -> float:
+        """By the straight line; infinite if one of the two is not in this home."""
+        if not (self._knows(start) and self._knows(place)):
+            return math.inf
+        ends = (self._world.home.stand(name)[:2] for name in (start, place))
+        return math.dist(*ends) / SPEED_M_S
+
     def start(self, goal: Goal) -> int:
         """Pursue a goal for its nominal time."""
         if self._request is not None and self._world.forget(self._request):

@@ -27,6 +27,7 @@ from sim.body.skill import CannotError, Skill, Thinker, pause, wait_until
 from sim.home.home import FLOOR_VIEWS, PERSON, Home
 from sim.manipulation.hand import LostError
 from sim.manipulation.manipulator import Manipulator
+from sim.navigation.durations import Durations
 from sim.navigation.grid import Unreachable
 from sim.navigation.navigator import Navigator
 
@@ -49,6 +50,7 @@ class SimulatedRobot:
         self,
         hardware: Hardware,
         navigator: Navigator,
+        durations: Durations,
         manipulator: Manipulator,
         home: Home,
         inbox: Inbox,
@@ -57,6 +59,7 @@ class SimulatedRobot:
         """Stand idle."""
         self._hardware = hardware
         self._navigator = navigator
+        self._durations = durations
         self._manipulator = manipulator
         self._home = home
         self._inbox = inbox
@@ -75,6 +78,10 @@ class SimulatedRobot:
     def views(self, place: str) -> int:
         """How many head poses it takes to see all of a place."""
         return FLOOR_VIEWS if place == FLOOR else len(self._home.view_targets(place))
+
+    def seconds(self, start: str, place: str) -> float:
+        """How long the way takes by the map, with an empty hand; infinite if there is none."""
+        return self._durations.seconds(start, place)
 
     def start(self, goal: Goal) -> int:
         """Pursue a goal; ends Succeeded, or Failed with a reason."""

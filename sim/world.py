@@ -26,6 +26,7 @@ from sim.faults.world import WorldFaults
 from sim.home.home import Home
 from sim.manipulation.manipulator import Manipulator
 from sim.manipulation.planning import PlanningWorld
+from sim.navigation.durations import durations_in
 from sim.navigation.grid import OccupancyGrid
 from sim.navigation.navigator import Navigator
 from sim.objects.objects import ObjectModel
@@ -98,7 +99,10 @@ class PhysicsWorld:
         thinker = Thinker(inbox)
         navigator = Navigator(self._hardware, laser, grid, recorder, self._time, thinker)
         manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan, thinker)
-        self.robot = SimulatedRobot(self._hardware, navigator, manipulator, home, inbox, thinker)
+        durations = durations_in(home, grid)
+        self.robot = SimulatedRobot(
+            self._hardware, navigator, durations, manipulator, home, inbox, thinker
+        )
         self._inbox = inbox
         self._waits = False
         self._periods = 0

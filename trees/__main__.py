@@ -8,20 +8,14 @@ if __name__ == "__main__":
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from py_trees.behaviour import Behaviour
-from py_trees.display import unicode_tree
-
-from executive.app.parts import Parts, build_context
 from executive.errors import InputError
 from executive.shell import DONE, entry_point
-from executive.situation import Situation
 from executive.usage import Parser
-from sim.home.home import load_home
-from trees.context import Parameters
-from trees.drawing import svg
-from trees.mission import mission
+
+if TYPE_CHECKING:  # a command imports what it needs
+    from py_trees.behaviour import Behaviour
 
 KNOWLEDGE = ("okb", "okb+llm", "okb+llm+mem")
 
@@ -38,17 +32,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     show.add_argument(
         "--elicit", choices=["generate", "rank"], default="rank", help="default: %(default)s"
     )
+    show.add_argument(
+        "--search", choices=["plan", "paper"], default="plan", help="default: %(default)s"
+    )
     show.add_argument("--svg", type=Path, metavar="FILE", help="draw it, too")
     options = parser.parse_args(arguments)
-    tree = build(options.knowledge, options.elicit)
+    from py_trees.display import unicode_tree
+
+    from trees.drawing import svg
+
+    tree = build(options.knowledge, options.elicit, options.search)
     print(unicode_tree(tree), end="")
     if options.svg:
         _write(options.svg, svg(tree))
     return DONE
 
 
-def build(knowledge: str, elicit: str) -> Behaviour:
+def build(knowledge: str, elicit: str, search: str = "plan") -> "Behaviour":
     """The tree of these settings, with nobody in the context: it is to be looked at, not ticked."""
+    from executive.app.parts import Parts, build_context
+    from executive.situation import Situation
+    from sim.home.home import load_home
+    from trees.context import Parameters
+    from trees.mission import mission
+
     nobody: Any = object()
     llm = None if knowledge == "okb" else nobody
     parts = Parts(
@@ -63,7 +70,7 @@ def build(knowledge: str, elicit: str) -> Behaviour:
         knowledge=nobody,
         model=llm,
         advice=llm,
-        parameters=Parameters(elicit=elicit),
+        parameters=Parameters(elicit=elicit, search=search),
     )
     return mission(build_context(parts, Situation()))
 

@@ -36,6 +36,10 @@ class Parameters:
             is less sure is looked at more closely.
         grasps: how often the robot tries to grasp a thing, each time after another look.
         questions: how often an answer that makes no sense is followed by the question again.
+        search: `plan` weighs looking against asking, `paper` has the paper's stages.
+        question_s: what a question to the person costs, and
+        visit_s: what a visit costs beside its time, both in seconds of searching.
+        look_s: how long a look at one view of a place takes (s).
     """
 
     elicit: str = "rank"
@@ -46,6 +50,10 @@ class Parameters:
     min_confidence: float = 0.5
     grasps: int = 3
     questions: int = 3
+    search: str = "plan"
+    question_s: float = 60.0
+    visit_s: float = 0.0
+    look_s: float = 0.5
 
 
 class NoFacts:

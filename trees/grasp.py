@@ -4,11 +4,12 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Activity
+from trees.by_plan import search
 from trees.context import MissionContext
 from trees.deeds.deed import meaning
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.robot import DriveToCandidate, PickUp
-from trees.search import look_over, search
+from trees.search import look_over
 
 
 def grasp(context: MissionContext) -> Behaviour:

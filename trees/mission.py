@@ -18,6 +18,7 @@ from py_trees.behaviour import Behaviour
 from executive.situation import Situation
 from executive.types import PERSON
 from trees.act import act, without_a_search
+from trees.by_plan import search
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, meaning
 from trees.grasp import grasp
@@ -27,7 +28,7 @@ from trees.object import resolve_object
 from trees.person import Apologise
 from trees.places import named_places
 from trees.robot import DriveBack
-from trees.search import eyes_for_it, search
+from trees.search import eyes_for_it
 from trees.several import several
 from trees.tasks import EachTask
 from trees.understand import understand

@@ -1,12 +1,14 @@
 """Leaves that talk to the language model."""
 
 from abc import abstractmethod
+from dataclasses import replace
 
 from py_trees.common import Status
 
 from executive.interfaces import Advice, LanguageModel
+from executive.language.placed import placed
 from executive.records import Activity
-from executive.types import ChatRequest, Command, Replied, Result, Scored, Source
+from executive.types import ChatRequest, Command, CommandKind, Replied, Result, Scored, Source
 from trees.context import MissionContext
 from trees.nodes import Action, why_of
 from trees.telling import sentence, tell
@@ -68,14 +70,16 @@ class ModelAction(Action):
 class RankPlaces(ModelAction):
     """Has every allowed place scored, and keeps the likeliest."""
 
+    @property
+    def among(self) -> tuple[str, ...]:
+        """The places that are allowed; all are, if there are none."""
+        return self.situation.search.default_locations
+
     def start(self) -> int:
         """Ask for the scores."""
         assert self.situation.request.object
-        return self.model.rank(
-            self.advice.ranker.ranking(
-                self.situation.request.object, self.situation.search.default_locations
-            )
-        )
+        ranking = self.advice.ranker.ranking(self.situation.request.object, self.among)
+        return self.model.rank(ranking)
 
     def ended(self, result: Result) -> Status:
         """Keep as many as are worth a visit; all of them if the ontology named them."""
@@ -152,7 +156,7 @@ class AskFurniture(Chat):
 
 
 class RankKinds(ModelAction):
-    """Has the kinds of command scored; what to do it with is what the words name."""
+    """Has the kinds of command scored; what to do it with, and where, is what the words name."""
 
     def start(self) -> int:
         """Ask for the scores."""
@@ -163,12 +167,20 @@ class RankKinds(ModelAction):
         if not isinstance(result, Scored):
             return self.failed(result)
         kind, words = self.advice.reader.ranked(result), self.situation.request.words
-        self.situation.request.command = Command(kind, self.situation.request.guess, words)
-        return self.succeed(f"{kind} {self.situation.request.guess}")
+        guess = self.situation.request.guess
+        source, goal = placed(words, self.context.knowledge.is_place)
+        if goal and kind.means.grasps:
+            kind = CommandKind.PUT
+        goal = goal if kind == CommandKind.PUT else ""
+        self.situation.request.command = Command(kind, guess, words, source=source, goal=goal)
+        return self.succeed(f"{kind} {guess}")
 
 
 class WriteCommand(ModelAction):
-    """Has the model write kind and object, of which only what exists is taken."""
+    """Has the model write what is to be done, with things and places that exist.
+
+    The grammar reads that, so that it means the same as if the person had said it so.
+    """
 
     def start(self) -> int:
         """Ask."""
@@ -178,9 +190,9 @@ class WriteCommand(ModelAction):
         """Read and verify the reply."""
         if not isinstance(result, Replied):
             return self.failed(result)
-        read = self.advice.reader.read(result.text)
-        if read is None:
-            return self.fail("the language model named no command with a known thing")
-        kind, name = read
-        self.situation.request.command = Command(kind, name, self.situation.request.words)
-        return self.succeed(f"{kind} {name}")
+        plain = self.advice.reader.read(result.text)
+        command = self.context.interpreter.command(plain) if plain else None
+        if command is None:
+            return self.fail("the language model named no command that can be carried out")
+        self.situation.request.command = replace(command, words=self.situation.request.words)
+        return self.succeed(plain)

@@ -249,7 +249,10 @@ class _Loop(Decorator):
         choose: Callable[[Any], None],
         child: Behaviour,
     ) -> None:
-        """`items` is called once at the start; `choose` puts each into the situation."""
+        """`items` is called once at the start, and each is taken when the one before is done.
+
+        `choose` puts each into the situation.
+        """
         super().__init__(name, child)
         self._items = items
         self._choose = choose
@@ -260,7 +263,7 @@ class _Loop(Decorator):
     def tick(self) -> Iterator[Behaviour]:
         """Tick the child for the item at hand, and for the next ones as long as it decides."""
         if self.status != Status.RUNNING:
-            self._rest, self.reason = iter(tuple(self._items())), ""
+            self._rest, self.reason = iter(self._items()), ""
             if not self._next():
                 self.stop(self.exhausted)
                 yield self

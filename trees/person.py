@@ -197,7 +197,8 @@ class AskWhichObject(Ask):
         if (options := self.situation.request.options) and self.situation.request.several:
             text = f"I can do one thing at a time. Which first: {any_of(options)}?"
         elif options:
-            text = f"Which {target} do you mean: {any_of(options)}?"
+            kind = "" if self.situation.request.command.purpose else f" {target}"
+            text = f"Which{kind} do you mean: {any_of(options)}?"
         elif self._all_left_out():
             text = f"I know no other {target}. Which thing do you mean?"
         else:

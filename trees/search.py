@@ -16,8 +16,11 @@ from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
 from trees.telling import tell
 
 
-def search(context: MissionContext) -> Behaviour:
-    """An object -> `situation.search.detection` and `situation.search.found`."""
+def search_by_stages(context: MissionContext) -> Behaviour:
+    """The paper's way: one source after the other, each with its list of places, then the person.
+
+    An object -> `situation.search.detection` and `situation.search.found`.
+    """
     situation = context.situation
 
     def look(name: str, *candidates: Behaviour) -> Behaviour:

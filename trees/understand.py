@@ -1,18 +1,20 @@
 """What is asked for? The grammar of commands says, else the language model and the person do."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.placed import placed
 from executive.records import Utterance
-from executive.types import HELD, Command, MissionStatus, Question, QuestionKind
+from executive.types import HELD, Command, CommandKind, MissionStatus, Question, QuestionKind
 from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
-from trees.person import AskYesNo
+from trees.person import AskYesNo, places_in
 from trees.telling import in_one_sentence
 
 
@@ -126,7 +128,8 @@ class ReadPastSlips(Step):
 class HasKnownName(Step):
     """Succeeds if a known thing is named, so that there is something to do it with.
 
-    What the grammar did read is not the model's to read otherwise: it may say what not to do.
+    What the grammar did read is not the model's to read otherwise: it may say what not to do. A
+    model that writes and cannot score, behind a server, may know other words for the things.
     """
 
     def update(self) -> Status:
@@ -134,7 +137,8 @@ class HasKnownName(Step):
         if self.situation.request.remark:
             return self.fail("it was read")
         names = self.context.knowledge.names_in(self.situation.request.words)
-        if not names:
+        model = self.context.model
+        if not names and (self.context.parameters.elicit == "rank" or not model or model.can_rank):
             return self.fail("no known thing is named")
         self.situation.request.guess = " and ".join(names)
         return self.succeed(self.situation.request.guess)
@@ -151,7 +155,10 @@ class ConfirmCommand(AskYesNo):
         objects = tuple(one for name in names for one in knowledge.objects_named(name))
         commands = (first, *(task.command for task in self.situation.agenda.tasks))
         wanted = ", then ".join(in_one_sentence(self.context, command) for command in commands)
-        return Question(QuestionKind.CONFIRM, first.target, f"Do you mean: {wanted}?", objects)
+        text = f"Do you mean: {wanted}?"
+        if others := passed_over(self.context, commands):
+            text += f" I make nothing of {' and '.join(map(repr, others))}."
+        return Question(QuestionKind.CONFIRM, first.target, text, objects)
 
     def agreed(self) -> None:
         """The command stands."""
@@ -169,6 +176,29 @@ def named(command: Command) -> str:
     return " ".join(filter(None, (kind, command.target, source, goal)))
 
 
+def passed_over(context: MissionContext, commands: Sequence[Command]) -> list[str]:
+    """Things and places in the words of which nothing was made, as they were said."""
+    knowledge, words = context.knowledge, context.situation.request.words
+    read = " and ".join(name for one in commands for name in (one.target, *one.exceptions))
+    things = [name for name in knowledge.names_in(words) if name not in knowledge.names_in(read)]
+    spoken_of = {place for one in commands for place in _places_of(context, one)}
+    places = [
+        place
+        for place in placed(words, knowledge.is_place)
+        if place and not {*places_in(context, place)} <= spoken_of
+    ]
+    return [*(context.as_said(context.say.words(name)) for name in things), *places]
+
+
+def _places_of(context: MissionContext, command: Command) -> set[str]:
+    """The furniture that a command speaks of."""
+    return {
+        *places_in(context, command.source),
+        *places_in(context, command.goal),
+        *(places_in(context, command.target) if command.kind == CommandKind.GO else ()),
+    }
+
+
 class NotUnderstood(Step):
     """What nobody can read is the person's to say again; always fails."""
 
@@ -183,5 +213,5 @@ class NotUnderstood(Step):
         said = f"'{words}'" if words.strip() else "what you said"
         return self.fail(
             f"I do not understand {said}; "
-            'say for example "Find an apple", "Take the mug" or "Bring a sugar_box"'
+            'say for example "Find an apple", "Take the mug" or "Bring a sugar box"'
         )

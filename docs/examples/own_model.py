@@ -81,7 +81,9 @@ class TableModel:
 
 def find(words: str, runs: Path = Path("runs")) -> Outcome:
     """One mission with this model, in a home of which nobody knows where things usually are."""
-    settings = load_settings(world="fake", user="none", llm="none", defaults=False, runs=runs)
+    settings = load_settings(
+        world="fake", search="paper", user="none", llm="none", defaults=False, runs=runs
+    )
     inbox = Inbox()
     with Session(settings, inbox=inbox, model=TableModel(inbox)) as robot:
         return robot.run(words)

@@ -52,7 +52,7 @@ near_the_person = Policy(
 def find(words: str, runs: Path | None = None) -> Outcome:
     """One mission in the instant world, in which the ontology knows no default locations."""
     given = {"world": "fake", "user": "none", "defaults": False, **near_the_person.settings}
-    settings = load_settings(**given, runs=runs)
+    settings = load_settings(**given, search="paper", runs=runs)
     with Session(settings, change=near_the_person, policy="near_the_person") as session:
         return session.run(words)
 

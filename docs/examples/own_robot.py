@@ -15,6 +15,7 @@ import threading
 from collections.abc import Collection
 from concurrent.futures import ThreadPoolExecutor
 from itertools import count
+from math import inf
 from typing import Protocol
 
 import numpy as np
@@ -51,6 +52,9 @@ class Driver(Protocol):
     def holding(self) -> bool:
         """Whether there is something in the hand."""
 
+    def seconds(self, start: str, place: str) -> float:
+        """How long that drive takes, as far as you can tell; infinite if there is no way."""
+
     def pursue(self, goal: Goal, called_off: threading.Event) -> str | None:
         """Returns when the goal is reached, or why not, and soon after `called_off` is set."""
 
@@ -74,6 +78,10 @@ class DriverRobot:
     def views(self, place: str) -> int:
         """One look is enough for any place."""
         return 1
+
+    def seconds(self, start: str, place: str) -> float:
+        """As the driver says."""
+        return self._driver.seconds(start, place)
 
     def start(self, goal: Goal) -> int:
         """Call off what is under way, and have the worker do this next."""
@@ -127,6 +135,10 @@ class ToyDriver:
     def in_view(self) -> list[str]:
         """What is where it stands."""
         return [name for name, place in self._things.items() if place == self._at]
+
+    def seconds(self, start: str, place: str) -> float:
+        """As long as anything."""
+        return TAKES_S if {start, place} <= self._places else inf
 
     def pursue(self, goal: Goal, called_off: threading.Event) -> str | None:
         """Everything takes as long, and goes well if it can be."""

@@ -185,6 +185,8 @@ def parameters_of(settings: Settings) -> Parameters:
         model_s=settings.llm_timeout_s,
         action_s=settings.action_timeout_s,
         min_confidence=settings.sure,
+        search=settings.search,
+        question_s=settings.question_s,
     )
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from pydantic import TypeAdapter, ValidationError
 
+from executive.belief import ANYWHERE, PLAN
 from executive.errors import InputError
 from executive.guards import in_words
 from executive.interfaces import PlaceSource
@@ -12,7 +13,7 @@ from executive.records import SourceAnswer
 from executive.text import printable
 from executive.types import Source
 
-TAKEN = frozenset({*Source, "person", "eyes"})
+TAKEN = frozenset({*Source, ANYWHERE, PLAN, "person", "eyes"})
 """Whose word something is in logs and outcomes besides."""
 RIGHT = "a source has a name, a clause that says who says so, and places_of (docs/knowledge.md)"
 

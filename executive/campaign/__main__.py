@@ -58,8 +58,14 @@ def parser() -> argparse.ArgumentParser:
         default=[str(s) for s in KnowledgeSystem],
         help="which of the paper's systems (default: all)",
     )
-    p.add_argument(
+    asked = p.add_mutually_exclusive_group()
+    asked.add_argument(
         "--commands", type=Path, metavar="FILE", help="one a line (default: the paper's)"
+    )
+    asked.add_argument(
+        "--draw",
+        action="store_true",
+        help="find every thing there is, each at a place that the seed draws from the survey",
     )
     p.add_argument("--out", type=Path, metavar="DIR", help="default: campaigns/ideal or /physics")
     p.add_argument("--runs", type=Path, metavar="DIR", help="record each mission there")
@@ -79,6 +85,7 @@ def parser() -> argparse.ArgumentParser:
     )
     add_setting(p, "home", action="append", help="may be repeated")
     add_setting(p, "llm", action="append", help="may be repeated")
+    add_setting(p, "question_s")
     add_setting(p, "elicit", help="default: rank for the embedded model, else generate")
     add_setting(
         p, "top", type=_count, metavar="N", help="places of a ranking worth a visit (default: 5)"

@@ -18,6 +18,7 @@ from typing import Any
 
 from executive.app.parts import Parts
 from executive.app.session import Session
+from executive.campaign.draws import drawn
 from executive.campaign.journal import CRASHED, Entry, Key, Row
 from executive.campaign.observer import Observed
 from executive.campaign.policies import policy_named
@@ -29,6 +30,7 @@ from executive.events import Inbox
 from executive.interfaces import SimulatedHome
 from executive.types import ChatRequest, Message, Outcome
 from kb.llm.open import model_for_missions
+from sim.home.home import load_home
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,8 @@ class Block:
     policy: str = "ours"
     recorded: bool = False
     """Whether each mission leaves a folder in `settings.runs`."""
+    draws: bool = False
+    """Whether the thing that is asked for is at a place that the seed draws from the survey."""
 
     @property
     def keys(self) -> tuple[Key, ...]:
@@ -94,6 +98,8 @@ class _Rest:
     def __init__(self, block: Block) -> None:
         self._recorded = block.recorded
         self._settings = block.settings_used
+        self._draws = block.draws
+        self._question_s = block.settings.question_s  # for all policies, whatever they set
         self._policy_name = block.policy
         self._policy = policy_named(block.policy)
         self._inbox = Inbox()
@@ -107,7 +113,7 @@ class _Rest:
     def mission(self, turn: int, key: Key) -> Entry:
         observed = Observed()
         with Session(
-            self._settings,
+            self._settings_of(key),
             inbox=self._inbox,
             model=self._model,
             out=io.StringIO(),
@@ -118,13 +124,23 @@ class _Rest:
         ) as session:
             world = truth_of(session)
             try:
-                row = _row(turn, key, session.run(key.command), session, world, observed)
+                row = _row(
+                    turn, key, session.run(key.command), session, world, observed, self._question_s
+                )
             except Exception as error:
                 row = crash(turn, key, error, str(session.folder or ""))
                 self._inbox.take_all()  # what the broken mission left
         entry = Entry(row, observed.exchanges())
         self.recall(entry)
         return entry
+
+    def _settings_of(self, key: Key) -> Settings:
+        """Those of a mission, in which the thing may be at a place that was drawn."""
+        if not self._draws:
+            return self._settings
+        thing = key.command.rpartition(" ")[2]
+        place = drawn(load_home(self._settings.home), thing, key.seed)
+        return self._settings.model_copy(update={"place": {**self._settings.place, **place}})
 
     def _choose(self, parts: Parts) -> Parts:
         """As the policy does; its advice is told the dialogue so far.
@@ -165,6 +181,7 @@ def _row(
     session: Session,
     world: SimulatedHome,
     observed: Observed,
+    question_s: float,
 ) -> Row:
     truth = whereabouts(outcome.object or "", world)
     routes = routes_in(session.settings.home)
@@ -199,6 +216,8 @@ def _row(
         handling_s=round(observed.seconds["handling"], 3),
         mission_time_s=outcome.mission_time_s,
         wall_time_s=outcome.wall_time_s,
+        search_s=round(observed.searching_s, 3),
+        cost_s=round(observed.searching_s + question_s * outcome.inquiries, 3),
         path_m=round(observed.path_m(leg_m), 3),
         shortest_m=round(shortest_m(outcome, parts.home, routes), 3),
         model=parts.model.name if parts.model else "",
@@ -224,6 +243,7 @@ def grid(
     commands: tuple[str, ...],
     seeds: int,
     runs: Path | None = None,
+    draws: bool = False,
 ) -> tuple[Block, ...]:
     """Every block of a campaign, seed by seed, so that early tables are already fair.
 
@@ -236,6 +256,7 @@ def grid(
         commands: each once.
         seeds: how many.
         runs: where missions leave their recordings; None: nowhere.
+        draws: whether things are at places that are drawn.
     """
     watched = {"runs": runs} if runs else {"camera_hz": 0.0}
     found = (
@@ -246,6 +267,7 @@ def grid(
             shuffled(commands, seed),
             policy,
             recorded=runs is not None,
+            draws=draws,
         )
         for seed in range(seeds)
         for defaults in (False, True)

@@ -15,7 +15,7 @@ from types import FrameType
 from typing import TextIO
 
 from executive.app.recording import PACKAGES
-from executive.campaign import blocks
+from executive.campaign import blocks, draws
 from executive.campaign.claim import lock_folder
 from executive.campaign.journal import CRASHED, Entry, Journal, in_order, write_tables
 from executive.campaign.report import paper
@@ -49,7 +49,11 @@ class Campaign:
         self._out: Path = options.out or Path("campaigns") / options.setting
         self._policies = tuple(dict.fromkeys(options.policy or ["ours"]))
         settings = all_settings(options)
-        commands = read_commands(options.commands) if options.commands else paper.COMMANDS
+        commands: tuple[str, ...] = paper.COMMANDS
+        if options.draw:
+            commands = draws.commands()
+        elif options.commands:
+            commands = read_commands(options.commands)
         most = options.seeds * len(commands) * len(settings) * len(self._policies)
         if most > MOST_MISSIONS:
             raise InputError("--seeds", f"more than {MOST_MISSIONS:,} missions", "give fewer")
@@ -60,6 +64,7 @@ class Campaign:
             commands,
             options.seeds,
             options.runs.resolve() if options.runs else None,
+            draws=options.draw,
         )
         self._keys = {key for block in self._blocks for key in block.keys}
         self._as_in_paper = as_in_paper(settings, commands)
@@ -201,6 +206,7 @@ def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
             user="oracle",
             home=home and at_any_folder(home),
             llm=llm and at_any_folder(llm),
+            question_s=options.question_s,
             elicit=options.elicit,
             top=options.top,
         )

@@ -84,6 +84,10 @@ class Row:
     handling_s: float = 0.0
     mission_time_s: float = 0.0
     wall_time_s: float = 0.0
+    search_s: float = 0.0
+    """Of going to places and looking there, until the thing was seen, or again after a miss."""
+    cost_s: float = 0.0
+    """The same, and for each question what it costs by the settings."""
     path_m: float = 0.0
     """How far the robot drove."""
     shortest_m: float = 0.0

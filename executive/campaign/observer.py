@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from executive.records import LlmCall, Record, Tick, Transforms, TreeShape, Verified
+from executive.records import Activity, LlmCall, Record, Tick, Transforms, TreeShape, Verified
 from executive.types import Replied, Scored
 from logs.recorder import Stamp
 from sim.navigation.grid import Point
@@ -23,10 +23,13 @@ class Observed:
     """Places that the robot could not get to."""
     seconds: defaultdict[str, float] = field(default_factory=lambda: defaultdict(float))
     """Mission time by activity, as the behaviours declare it."""
+    searching_s: float = 0.0
+    """Mission time of going to places and looking there, by what the behaviours declare."""
     positions: list[Point] = field(default_factory=list)
     """Where the robot's base was, in `map` (metres)."""
     _activities: dict[str, str] = field(default_factory=dict)
     _doing: str = ""
+    _searches: bool = False
     _since_s: float = 0.0
 
     def write(self, stamp: Stamp, record: Record) -> None:
@@ -70,5 +73,9 @@ class Observed:
         """What was running after the last tick has run until this one; the innermost counts."""
         self.seconds[self._doing] += now_s - self._since_s
         running = (n.path for n in reversed(tick.nodes) if n.status == "RUNNING")
-        self._doing = next((a for path in running if (a := self._activities.get(path))), "")
+        doing = [a for path in running if (a := self._activities.get(path))]
+        if self._searches:
+            self.searching_s += now_s - self._since_s
+        self._doing = doing[0] if doing else ""
+        self._searches = Activity.SEARCHING in doing
         self._since_s = now_s

@@ -121,7 +121,8 @@ class Ordered(Ranker):
         request = super().ranking(name, among)
         words = dict(zip(request.places, request.options, strict=True))
         places = tuple(self._order(name, request.places))
-        return replace(request, places=places, options=tuple(words[place] for place in places))
+        options = tuple(words[place] for place in places)
+        return replace(request, places=places, options=options, place_kinds=())
 
 
 def nearest(parts: Parts) -> Order:
@@ -197,7 +198,10 @@ def ordered(parts: Parts, rule: Callable[[Parts], Order]) -> Parts:
     return replace(parts, model=model, advice=advice)
 
 
-BY_RANK = {"llm": "none", "elicit": "rank"}
+PAPER = {"search": "paper"}
+"""In the paper's stages: who says where to look, is all that differs."""
+PLAN = {"search": "plan"}
+BY_RANK = {**PAPER, "llm": "none", "elicit": "rank"}
 
 
 def baseline(description: str, rule: Callable[[Parts], Order]) -> Policy:
@@ -294,12 +298,19 @@ def unverified(parts: Parts) -> Parts:
     return replace(parts, advice=advice)
 
 
-WRITES, HELD = {"elicit": "generate", "grammar": False}, {"elicit": "generate", "grammar": True}
+WRITES = {**PAPER, "elicit": "generate", "grammar": False}
+HELD = {**WRITES, "grammar": True}
 
 POLICIES: Mapping[str, Policy] = MappingProxyType(
     {
-        "ours": Policy("the executive as the settings make it"),
-        "rank": Policy("the model scores the places that exist", {"elicit": "rank"}),
+        "ours": Policy("the executive as the settings make it, by the paper's stages", PAPER),
+        "paper": Policy("the same, by its own name", PAPER),
+        "plan": Policy("one belief, and a plan that weighs looking on against asking", PLAN),
+        "ask-first": Policy(
+            "the plan if questions cost nothing: the person is asked at once",
+            {**PLAN, "question_s": 0.0},
+        ),
+        "rank": Policy("the model scores the places that exist", {**PAPER, "elicit": "rank"}),
         "generate": Policy("the model writes a list, which is verified: the paper's way", WRITES),
         "generate-form": Policy("the same, held to the list's form", HELD, reworded(any_names)),
         "generate-grammar": Policy("the same, held to the list's form and to real names", HELD),
@@ -319,7 +330,7 @@ POLICIES: Mapping[str, Policy] = MappingProxyType(
         "true-first": baseline("the bound: a stand-in that knows where the thing is", true_first),
         "always-asks": Policy(
             "a fault put in by hand: neither default locations nor a model, so the person is asked",
-            {"llm": "none", "defaults": False},
+            {**PAPER, "llm": "none", "defaults": False},
         ),
     }
 )
@@ -340,5 +351,5 @@ def policy_named(name: str) -> Policy:
         return POLICIES[name]
     named = Named("--policy", name, RIGHT)
     own = named.imported()
-    settings = own.settings if isinstance(own, Policy) else {}
+    settings = own.settings if isinstance(own, Policy) else PAPER
     return Policy("of somebody's own", settings, lambda parts: named.called(own, parts, Parts))

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
+from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeVar
@@ -16,7 +17,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import Clock, Recorder
 from executive.language.grammar import EnglishInterpreter
-from executive.records import SourceAnswer
+from executive.records import SourceAnswer, WaysTold
 from executive.replay.body import recorded_body
 from executive.replay.stand_ins import Absent
 from executive.types import Place, Thing
@@ -52,6 +53,7 @@ def recorded_parts(
     home = _home(kept(run, run.attachments, "home.toml")).with_placement(settings.place)
     body = recorded_body(run, settings, home)
     absent.several = body.views
+    absent.ways = _ways(run)
     knowledge = _knowledge(run, settings, home)
     thinks = run.metadata.get("thinks") or str(kept(run, run.metadata, "model") != "none")
     parts = Parts(
@@ -122,10 +124,23 @@ def _sources(run: Run) -> tuple[RecordedSource, ...]:
     return read(str(run.path), text, (at.value for at in run.records(SourceAnswer)))
 
 
+def _ways(run: Run) -> dict[tuple[str, str], float]:
+    """What the robot told of its ways; it tells -1 of those that there are not."""
+    told = (at.value for at in run.records(WaysTold))
+    return {
+        (ways.start, place): seconds if seconds >= 0 else inf
+        for ways in told
+        for place, seconds in zip(ways.places, ways.seconds, strict=False)
+    }
+
+
 def _settings(run: Run) -> Settings:
-    """As recorded; what is not recorded was not set, whatever the environment says now."""
+    """As recorded; what is not recorded was not set, whatever the environment says now.
+
+    Recordings that do not say how it was searched are from when there was only the paper's way.
+    """
     kept(run, run.attachments, "config.toml")
-    recorded = run.config()
+    recorded = {"search": "paper", **run.config()}
     fields = Settings.model_fields.items()
     unset = {name: field.get_default(call_default_factory=True) for name, field in fields}
     try:

@@ -1,6 +1,7 @@
 """What stands in for time, robot, model and person when a recorded mission is run again."""
 
 from collections.abc import Iterable, Mapping
+from math import inf
 
 from executive.events import Ended, Event, Inbox, StopRequested
 from executive.records import Tick
@@ -97,6 +98,8 @@ class Absent:
         self._situation = situation
         self.several: Mapping[str, int] = {}
         """How many views it takes to see the places for which one is not enough."""
+        self.ways: Mapping[tuple[str, str], float] = {}
+        """How long the ways take, from a place to another one (s)."""
         self.rests = False
         """Whether it halts at once, whatever was recorded: that was not judged in earlier days."""
 
@@ -141,6 +144,10 @@ class Absent:
     def views(self, place: str) -> int:
         """As many as when it was recorded."""
         return self.several.get(place, 1)
+
+    def seconds(self, start: str, place: str) -> float:
+        """As it was told when it was recorded."""
+        return self.ways.get((start, place), inf)
 
     def count_tokens(self, text: str) -> int:
         """None: prompts are not judged, and memory need not be short."""

@@ -52,6 +52,11 @@ class Looks:
         """Whether every part of a place was seen, and the thing is in none of them."""
         return 0 < self._parts.get(place, 0) == len(self._without.get(place, ()))
 
+    def share_seen(self, place: str) -> float:
+        """How much of a place was seen without the thing, from 0 to 1."""
+        parts = self._parts.get(place, 0)
+        return len(self._without.get(place, ())) / parts if parts else 0.0
+
     def why_not_all(self, thing: str, place: str, say: Wording) -> str:
         """Why it is not known whether the thing is at a place that was reached, as a clause."""
         if place not in self.unseen:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from executive.language.wording import Wording
+from executive.situation.belief import Whereabouts
 from executive.situation.looks import Looks
 from executive.situation.snapshot import PART, logged_as
 from executive.types import DELIVERY, Candidate, Detection
@@ -52,6 +53,8 @@ class Search:
     """The part of the place that it looks at."""
     looks: Looks = field(default_factory=Looks, metadata=PART)
     """Where the thing was looked for, and what came of it."""
+    whereabouts: Whereabouts = field(default_factory=Whereabouts, metadata=PART)
+    """Where it may be, if it is searched by a plan."""
     doubtful: Detection | None = field(default=None, metadata=logged_as(plain=_guess))
     """What may be the thing, or a part of it, in the last picture; None if it was surely seen."""
     detection: Detection | None = field(default=None, metadata=logged_as("sighting", _position))

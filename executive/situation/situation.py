@@ -1,7 +1,7 @@
 """What this mission knows so far: the one place that behaviours read from and write to."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, is_dataclass
+from dataclasses import dataclass, field, is_dataclass, replace
 from functools import cache
 from typing import Any, Self
 
@@ -25,9 +25,18 @@ from executive.situation.request import Request
 from executive.situation.search import Search
 from executive.situation.snapshot import PART, snapshot
 from executive.situation.survey import Survey
-from executive.types import Command, MissionStatus, Outcome, Replied, Scored, TaskOutcome
+from executive.types import (
+    Command,
+    CommandKind,
+    MissionStatus,
+    Outcome,
+    Replied,
+    Scored,
+    TaskOutcome,
+)
 
 NOT_BEGUN = "I did not get to it"
+ONE_AT_A_TIME = "I took it, and put it away again: I hold one thing at a time"
 
 
 @dataclass
@@ -100,11 +109,22 @@ class Situation:
 
     def conclude(self) -> None:
         """Settle how the whole ended, if there was more than one task: done if all of them were."""
-        ended = self.agenda.ended
+        self.agenda.ended = ended = list(self._held_still(self.agenda.ended))
         if len(ended) > 1 or any(task.parts for task in ended):
             all_done = all(task.status == MissionStatus.DONE for task in ended)
             self.ending.status = MissionStatus.DONE if all_done else MissionStatus.NOT_DONE
             self.ending.reason = task_by_task(ended) if len(ended) > 1 else ended[0].reason
+
+    def _held_still(self, ended: Sequence[TaskOutcome]) -> Iterator[TaskOutcome]:
+        """The same; what was taken, and put away again for another thing, is not held."""
+        for number, task in enumerate(ended, start=1):
+            taken = task.kind == CommandKind.TAKE and task.status == MissionStatus.DONE
+            if not taken or task.object == self.hand.in_hand:
+                yield task
+            elif any(later.object == task.object for later in ended[number:]):
+                yield task  # it was to be put somewhere
+            else:
+                yield replace(task, status=MissionStatus.NOT_DONE, reason=ONE_AT_A_TIME)
 
     @property
     def has_it(self) -> bool:

@@ -100,6 +100,7 @@ def run_mission(
     remembers: bool = True,
     defaults: bool = True,
     elicit: str = "rank",
+    search: str = "paper",
     place: dict[str, str] | None = None,
     fault: Callable[[Goal], str | None] = lambda goal: None,
     mishaps: Iterable[str] = (),
@@ -118,6 +119,9 @@ def run_mission(
 ) -> Run:
     """Run one mission; without `answers` the person is the always-right oracle.
 
+    It is searched by the paper's stages: where the robot looks and asks is then the same in every
+    home. With `search="plan"` it goes by the ways, too, as missions do by default.
+
     Two things can go wrong: `fault` says of each goal of the robot why it fails, or None, and
     `mishaps` are what `--fault` orders of the world, as in `moved=mug:desk@1`.
 
@@ -130,6 +134,7 @@ def run_mission(
         knowledge=knowledge_system(llm, remembers),
         defaults=defaults,
         elicit=elicit,
+        search=search,
         fault=tuple(mishaps),
         seed=seed,
     )

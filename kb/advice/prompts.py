@@ -17,7 +17,7 @@ from kb.ontology.names import unique
 TEXTS = Path(__file__).parents[1] / "prompts.toml"
 
 PLACEHOLDERS: Mapping[str, Sequence[str]] = {
-    "inquiry_system": ("objects", "format"),
+    "inquiry_system": ("objects", "places", "format"),
     "system": ("rooms", "furniture in rooms", "furniture", "format"),
     "system_rooms": ("rooms", "format"),
     "general_pos": ("object name", "top"),
@@ -88,10 +88,18 @@ class Understanding(_Part):
         return (*turns, Message("user", self._about(words)))
 
     def inquiry(
-        self, words: str, objects: Sequence[str], schema: dict[str, Any]
+        self,
+        words: str,
+        objects: Sequence[str],
+        places: Sequence[str],
+        schema: dict[str, Any],
     ) -> tuple[Message, ...]:
         """For writing: what there is and the output format, then the question."""
-        values = {"objects": ", ".join(objects), "format": json.dumps(schema)}
+        values = {
+            "objects": ", ".join(objects),
+            "places": ", ".join(places),
+            "format": json.dumps(schema),
+        }
         system = Message("system", _fill(self.inquiry_system, values))
         return system, Message("user", self._about(words))
 

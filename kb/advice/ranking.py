@@ -15,6 +15,8 @@ from executive.types import Candidate, Place, Precedent, RankRequest, Scored, So
 from kb.advice.prompts import Ranking
 from kb.ontology.names import base_name
 
+ANY_PLACE = "Furniture"
+"""The class of all furniture."""
 MOST_PRECEDENTS = 300
 """More would take the embedded model many seconds, once."""
 
@@ -56,7 +58,13 @@ def rank_request(
             Precedent(texts.chat(spoken(other.name)), other.places, other.kind) for other in likest
         ),
         kind=thing.kind,
+        place_kinds=tuple((_told(place.kind), place.room) for place, _ in options),
     )
+
+
+def _told(kind: str) -> str:
+    """The class of a place; none, if it is only known to be one."""
+    return "" if kind == ANY_PLACE else kind
 
 
 def answer(place: Place, preposition: str) -> str:

@@ -31,6 +31,7 @@ from executive.shell import DONE, entry_point
 from executive.usage import Parser
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import Known
+from kb.benchmark.calibration import Calibration, calibration
 from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
 from kb.benchmark.placements import Placements
 from kb.benchmark.questions import DataSet, Item, placements, survey
@@ -47,10 +48,14 @@ WORDS = "where things of like names are"
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One way of finding out: its measures, and what one object cost, where a model was asked."""
+    """One way of finding out: its measures, and whether its probabilities can be trusted.
+
+    What one object cost is told where a model was asked for it.
+    """
 
     way: str
     measures: Measures
+    calibration: Calibration | None = None
     seconds: float | None = None
     tokens: float | None = None
 
@@ -67,10 +72,19 @@ def table(data: DataSet, ask: Callable[[Item], Answer] | None, journal: Journal)
     answers = list(journal.answers(data, ask))
     *less, last = answers[0].orders
     for way in less:
-        rows.append(Row(way, _measured(data, [answer.orders[way] for answer in answers])))
+        measures = _measured(data, [answer.orders[way] for answer in answers])
+        rows.append(Row(way, measures, _calibrated(data, answers, way)))
     measures = _measured(data, [answer.orders[last] for answer in answers])
     seconds, tokens = fmean(a.seconds for a in answers), fmean(a.tokens for a in answers)
-    return [*rows, Row(last, measures, seconds, tokens)]
+    return [*rows, Row(last, measures, _calibrated(data, answers, last), seconds, tokens)]
+
+
+def _calibrated(data: DataSet, answers: Sequence[Answer], way: str) -> Calibration | None:
+    """None for a way that tells no probabilities."""
+    if not all(way in answer.likely for answer in answers):
+        return None
+    pairs = zip(answers, data.questions, strict=True)
+    return calibration((answer.likely[way], q.thing.places) for answer, q in pairs)
 
 
 def baselines(data: DataSet) -> Iterator[Row]:
@@ -114,13 +128,15 @@ def _shares(things: Sequence[Known], places: Sequence[str]) -> Floats:
 def text(data: DataSet, rows: Sequence[Row]) -> str:
     """The table."""
     counts = f"{len(data.places)} places, {len(data.questions)} objects"
-    heads = ("first", "in 3", "in 5", "RR", "mAP", "s/object", "tokens")
+    heads = ("first", "in 3", "in 5", "RR", "mAP", "ECE", "log", "s/object", "tokens")
     lines = [f"{data.title}\n{counts:44}" + "".join(f"{head:>9}" for head in heads)]
     for row in rows:
         values = [f"{value:9.2f}" for value in astuple(row.measures)]
+        sure = row.calibration
+        values += [f"{v:9.2f}" for v in (sure.error, sure.log_score)] if sure else [" " * 9] * 2
         values += [f"{row.seconds:9.2f}" if row.seconds is not None else ""]
         values += [f"{row.tokens:9.0f}" if row.tokens is not None else ""]
-        lines.append(f"{row.way:44}" + "".join(values))
+        lines.append((f"{row.way:44}" + "".join(values)).rstrip())
     return "\n".join(lines) + "\n"
 
 
@@ -137,7 +153,10 @@ def run(given: argparse.Namespace) -> None:
     Raises:
         ExecutiveError: if one of them is wrong.
     """
-    draw = _plotter(given.plot) if given.plot else None
+    draw = _plotter("--plot", given.plot, _bars) if given.plot else None
+    draw_reliability = None
+    if given.reliability:
+        draw_reliability = _plotter("--reliability", given.reliability, _curves)
     sets = [_data_set(name, given) for name in given.data or DATA]
     journal = Journal(given.journal, _described(given))
     tables: Tables = {}
@@ -149,6 +168,8 @@ def run(given: argparse.Namespace) -> None:
         print(json.dumps(_report(given, sets, tables)))
     if draw:
         draw(sets, tables)
+    if draw_reliability:
+        draw_reliability(sets, tables)
 
 
 def _asked(data: DataSet, given: argparse.Namespace, journal: Journal) -> list[Row]:
@@ -162,22 +183,36 @@ def _asked(data: DataSet, given: argparse.Namespace, journal: Journal) -> list[R
         return table(data, ways(data, model, inbox, Prompts.load(given.prompts)), journal)
 
 
-def _plotter(path: Path) -> Callable[[Sequence[DataSet], Tables], None]:
+Draw = Callable[[Path, Sequence[DataSet], Tables], None]
+
+
+def _plotter(option: str, path: Path, draw: Draw) -> Callable[[Sequence[DataSet], Tables], None]:
     """Draws into this file; found out before the model is asked whether that is possible."""
     try:
         from kb.benchmark import plot
     except ModuleNotFoundError as error:
         right = "pip install 'robot-executive[benchmark]'"
-        raise InputError("--plot", f"{error.name} is not installed", right) from None
+        raise InputError(option, f"{error.name} is not installed", right) from None
     if path.suffix not in plot.KINDS or not path.absolute().parent.is_dir():
         right = f"name a file in a folder that exists, with {', '.join(plot.KINDS)}"
-        raise InputError(f"--plot {path}", "cannot be drawn", right)
+        raise InputError(f"{option} {path}", "cannot be drawn", right)
+    return lambda sets, tables: draw(path, sets, tables)
 
-    def draw(sets: Sequence[DataSet], tables: Tables) -> None:
-        panels = {d.title: [(row.way, row.measures) for row in tables[d.name]] for d in sets}
-        plot.draw(path, panels)
 
-    return draw
+def _bars(path: Path, sets: Sequence[DataSet], tables: Tables) -> None:
+    from kb.benchmark import plot
+
+    panels = {d.title: [(row.way, row.measures) for row in tables[d.name]] for d in sets}
+    plot.draw(path, panels)
+
+
+def _curves(path: Path, sets: Sequence[DataSet], tables: Tables) -> None:
+    from kb.benchmark import plot
+
+    last = {d.title: tables[d.name][-1] for d in sets}
+    plot.draw_reliability(
+        path, {title: r.calibration for title, r in last.items() if r.calibration}
+    )
 
 
 def _ranks(given: argparse.Namespace, model: LanguageModel) -> bool:
@@ -243,6 +278,12 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--objects", type=int, metavar="N", help="only the first N of each data set")
     p.add_argument("--journal", type=Path, metavar="FILE", help="keep answers, and go on from them")
     p.add_argument("--json", action="store_true", help="print JSON")
+    p.add_argument(
+        "--reliability",
+        type=Path,
+        metavar="FILE",
+        help="draw whether what the robot does says how likely it is, as .svg or .png",
+    )
     p.add_argument("--plot", type=Path, metavar="FILE", help="draw it, as .svg or .png")
     return p
 

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,7 @@ from executive.terminal import show_over
 from executive.types import RankRequest, Replied, Scored, Usage
 from kb.advice.lister import Lister
 from kb.advice.prompts import Prompts
-from kb.advice.ranking import rank_request
+from kb.advice.ranking import rank_request, softmax
 from kb.benchmark.questions import DataSet, Item
 from kb.llm.precedents import shares, usual
 from kb.ontology.ontology import Ontology
@@ -38,12 +38,14 @@ class Answer:
         orders: by each means, the places, the likeliest first.
         seconds: how long what the robot does took.
         tokens: how many tokens were evaluated for it; written ones count, too.
+        likely: by each means that tells it, how likely each place is.
     """
 
     object: str
     orders: dict[str, list[str]]
     seconds: float
     tokens: int
+    likely: dict[str, dict[str, float]] = field(default_factory=dict)
 
 
 Ask = Callable[[Item], Answer]
@@ -64,15 +66,24 @@ def ranking(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts)
         full, usage = scores(request)
         less, _ = scores(replace(request, precedents=()))
         plain, _ = scores(replace(request, precedents=(), neutral=()))
-        orders = {PLAIN: descending(plain, names), NEUTRAL: descending(less, names)}
+        told = {PLAIN: plain, NEUTRAL: less}
         if known := request.precedents:
             at = shares([precedent.places for precedent in known], names)
             of_no_kind = tuple(replace(precedent, kind="") for precedent in known)
             alike, _ = scores(replace(request, precedents=of_no_kind))
-            orders[COUNTS] = descending(less + np.log(usual(at)), names)
-            orders[ALIKE] = descending(alike, names)
-            orders[RANKED] = descending(full, names)
-        return Answer(question.thing.name, orders, usage.total_s, usage.evaluated_tokens)
+            told[COUNTS] = less + np.log(usual(at))
+            told[ALIKE] = alike
+            told[RANKED] = full
+        return Answer(
+            question.thing.name,
+            {way: descending(values, names) for way, values in told.items()},
+            usage.total_s,
+            usage.evaluated_tokens,
+            {
+                way: dict(zip(names, softmax(values.tolist()), strict=True))
+                for way, values in told.items()
+            },
+        )
 
     return ask
 

@@ -1,5 +1,6 @@
 """What a model has read: tokens evaluated by llama.cpp, and how likely others are after them."""
 
+import ctypes
 import operator
 import os
 from collections.abc import Iterator, Sequence
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from executive.errors import ModelError
 from kb.llm.gguf import Checkpoint, Gguf, Tokens, last_complaint
+from kb.llm.kept import Kept
 
 BATCH_TOKENS = 128
 """Tokens evaluated at a time: between two batches the caller may stop."""
@@ -29,10 +31,17 @@ class Context:
     """
 
     def __init__(
-        self, model: Gguf, tokens: int, *, sequences: int = 1, threads: int | None = None
+        self,
+        model: Gguf,
+        tokens: int,
+        *,
+        sequences: int = 1,
+        threads: int | None = None,
+        kept: Kept | None = None,
     ) -> None:
         """Room for so many tokens, and for so many sequences that share them.
 
+        What prompts begin with is looked for in what was `kept`, and kept there.
         Without `threads` one token at a time is evaluated by half of the cores, whose other half
         would only wait for memory, and batches by all.
 
@@ -56,11 +65,12 @@ class Context:
         self._memory: Any = llama_cpp.llama_get_memory(self.pointer)
         self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, sequences)
         self._vocabulary_size = model.vocabulary_size
-        self._width = llama_cpp.llama_model_n_embd(model.pointer)
+        self._width: int = llama_cpp.llama_model_n_embd(model.pointer)
         self._sequences = sequences
         self._n_ctx = tokens
         self.evaluated = 0
         """Tokens that were evaluated so far."""
+        self._kept = kept
         self._batches: list[tuple[int, ...]] = []
         self._length = 0
 
@@ -88,7 +98,10 @@ class Context:
             )
         cuts = (*range(0, head, BATCH_TOKENS), *range(head, len(tokens), TAIL_TOKENS), len(tokens))
         batches = [tuple(tokens[start:end]) for start, end in pairwise(cuts)]
+        begins = len(range(0, head, BATCH_TOKENS))
         same = sum(takewhile(bool, map(operator.eq, self._batches, batches[:-1])))
+        if same < begins < len(batches) and self._recall(batches[:begins]):
+            same = begins
         kept = sum(map(len, batches[:same]))
         if not llama_cpp.llama_memory_seq_rm(self._memory, 0, kept, -1):
             llama_cpp.llama_memory_clear(self._memory, True)
@@ -98,6 +111,8 @@ class Context:
             checkpoint()
             self.append(batch)
             self._batches.append(batch)
+            if len(self._batches) == begins < len(batches):
+                self._remember()
 
     def begin(self, head: Tokens, checkpoint: Checkpoint) -> None:
         """Evaluate what later prompts begin with, unless sequence 0 begins with it already."""
@@ -144,6 +159,11 @@ class Context:
                 llama_cpp.llama_memory_seq_rm(self._memory, sequence, *WHOLE)
         return scores
 
+    @property
+    def width(self) -> int:
+        """How many numbers a state is."""
+        return self._width
+
     def state(self) -> NDArray[np.float64]:
         """(width,) the last layer's state after the last token of sequence 0.
 
@@ -164,6 +184,28 @@ class Context:
         """Free the memory."""
         llama_cpp.llama_batch_free(self._batch)
         llama_cpp.llama_free(self.pointer)
+
+    def _recall(self, batches: list[tuple[int, ...]]) -> bool:
+        """Make sequence 0 these batches without evaluating them, if what they make is known."""
+        content = self._kept.get("cache", batches) if self._kept else None
+        if content is None:
+            return False
+        llama_cpp.llama_memory_clear(self._memory, True)
+        buffer = (ctypes.c_uint8 * len(content)).from_buffer_copy(content)
+        if not llama_cpp.llama_state_seq_set_data(self.pointer, buffer, len(content), 0):
+            self._batches = []
+            return False
+        self._batches, self._length = batches, sum(map(len, batches))
+        return True
+
+    def _remember(self) -> None:
+        """Keep what sequence 0 is."""
+        if self._kept is None:
+            return
+        size = llama_cpp.llama_state_seq_get_size(self.pointer, 0)
+        buffer = (ctypes.c_uint8 * size)()
+        written = llama_cpp.llama_state_seq_get_data(self.pointer, buffer, size, 0)
+        self._kept.put(bytes(buffer[:written]), "cache", self._batches)
 
     def _decode(self, rows: Sequence["_Row"]) -> None:
         batch = self._batch

@@ -60,7 +60,7 @@ def tried(path: Path, called_off: Callable[[], bool] = lambda: False) -> bool:
         KeyboardInterrupt: if it was called off.
     """
     check_file(path)
-    mark = _mark_of(path)
+    mark = mark_of(path)
     known = _recall(mark)
     if not known:
         log.warning("model %s is new: it is tried in a process of its own first", printable(path))
@@ -124,7 +124,7 @@ def _death(code: int) -> str:
 # --- what is remembered ---
 
 
-def _mark_of(path: Path) -> str:
+def mark_of(path: Path) -> str:
     """What tells this file, and this llama.cpp, from others; not the whole file, which takes long.
 
     Raises:

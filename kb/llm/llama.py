@@ -10,6 +10,7 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+import llama_cpp
 from llama_cpp.llama_grammar import json_schema_to_gbnf
 
 from executive.errors import ModelError
@@ -25,8 +26,9 @@ from executive.types import (
     Usage,
 )
 from kb.llm.context import Context
-from kb.llm.first_load import tried
+from kb.llm.first_load import mark_of, tried
 from kb.llm.gguf import Checkpoint, Gguf, Tokens, check_file
+from kb.llm.kept import Kept
 from kb.llm.sampling import Sampler, Sampling
 from kb.llm.scoring import Scorer
 from kb.llm.thinking import answer_of, used_up
@@ -132,6 +134,7 @@ class LlamaCpp:
         self._sampling = Sampling(temperature, top_p, seed)
         self._max_tokens = max_tokens
         self._threads = threads
+        self._gpu_layers = gpu_layers
         self._grammar = grammar
         self._stops: dict[int, threading.Event] = {}
         self._prepared_enough = threading.Event()
@@ -286,7 +289,9 @@ class LlamaCpp:
     def _scorer(self) -> Scorer:
         loaded = self._loading.result()
         if loaded.scorer is None:
-            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads)
+            settings = self._n_ctx, self._threads, self._gpu_layers
+            kept = Kept(mark_of(self._path), llama_cpp.llama_print_system_info(), settings)
+            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads, kept)
         return loaded.scorer
 
     def _sampler(self, model: Gguf, request: ChatRequest) -> Sampler:

@@ -57,7 +57,7 @@ class PlaceNames:
             return (spoken(kind), *called.get(kind, ()))
 
         rooms = (
-            [(place_words(p.room), p.room) for p in places],
+            [(place_words(name), p.room) for p in places for name in (p.room, p.room_label)],
             [(place_words(name), p.room) for p in places for name in names_of(p.room_kind)],
         )
         furniture = (
@@ -153,14 +153,11 @@ def _orders(place: Place) -> tuple[Words, ...]:
 
     As in "kitchen cabinet" and in "desk in the bedroom".
     """
-    name, base = place_words(place.name), place_words(base_name(place))
+    name, base, label = map(place_words, (place.name, base_name(place), place.label))
     room = tuple(w for w in name if w not in base)
-    return (
-        name,
-        (*room, *base),
-        (*name, *place_words(place.room)),
-        (*base, *place_words(place.room)),
-    )
+    full = place_words(place.room_label or place.room)
+    labelled = (label, (*label, *full)) if label else ()
+    return name, (*room, *base), (*name, *full), (*base, *full), *labelled
 
 
 def base_name(place: Place) -> str:

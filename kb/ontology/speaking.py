@@ -25,7 +25,7 @@ def places_called(
         place.name: Called(
             words,
             preposition=(prepositions or {}).get(place.kind, "on"),
-            room="" if words.startswith(f"{spoken(place.room)} ") else spoken(place.room),
+            room="" if words.startswith(f"{_room(place)} ") else _room(place),
             says_room=said or count[words] > 1,
         )
         for place in places
@@ -42,9 +42,15 @@ def thing_called(label: str, *, plural: bool = False, is_class: bool = False) ->
 
 def _less_room(place: Place) -> tuple[str, bool]:
     """The words of its name, less those of its room behind them, and whether there were any."""
+    if place.label:
+        return place.label, False
     room = {*words_of(place.room), *words_of(spoken(place.room_kind))}
     words = spoken(place.name).split()
     if stem(words[0]) in room:
         return " ".join(words), False
     kept = [word for word in words if stem(word) not in room]
     return " ".join(kept), len(kept) < len(words)
+
+
+def _room(place: Place) -> str:
+    return place.room_label or spoken(place.room)

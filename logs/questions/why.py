@@ -9,6 +9,7 @@ from collections import defaultdict
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from heapq import merge
+from itertools import islice
 from typing import Any
 
 from executive.events import Heard
@@ -18,6 +19,7 @@ from executive.records import (
     LlmCall,
     NodeShape,
     NodeState,
+    Planned,
     Tick,
     TreeShape,
     Utterance,
@@ -30,6 +32,10 @@ from logs.recording.reader import At, Run
 
 WORLD = "world"
 """Whose doing an ordered fault is."""
+PLAN = "look or ask"
+"""What a plan settles."""
+MOST_TOLD, LEAST = 5, 0.005
+"""So many places that are less likely are told of, if they are as likely as this."""
 NOT_NEEDED = "not needed"
 _VERB = re.compile(r"\b(is|was|may)\b")
 
@@ -66,11 +72,15 @@ class Decision:
 
 def why(run: Run) -> list[Decision]:
     """Every decision of a mission, in order, up to how it ended; and what went wrong by order."""
+    planned = (
+        Decision(at.time_s, PLAN, at.value.text, "", "", tuple(_less_likely(at.value)))
+        for at in run.records(Planned)
+    )
     ordered = (
         Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
         for at in run.mishaps()
     )
-    chain = merge(_heard(run), _Chain(run).decisions(), ordered, key=lambda d: d.time_s)
+    chain = merge(_heard(run), _Chain(run).decisions(), planned, ordered, key=lambda d: d.time_s)
     decisions = list(chain)
     outcome = run.outcome()
     if outcome is not None:
@@ -293,6 +303,16 @@ def _goes_on(at: At[Tick]) -> bool:
 
 def _runs(paths: Container[str], at: At[Tick]) -> bool:
     return any(node.status == "RUNNING" and node.path in paths for node in at.value.nodes)
+
+
+def _less_likely(planned: Planned) -> Iterator[Alternative]:
+    """The likeliest of the places that are not next, and who says so of each."""
+    told = zip(planned.places, planned.probabilities, planned.says, strict=False)
+    others = (
+        (place, p, says) for place, p, says in told if place not in planned.order[:1] and p >= LEAST
+    )
+    for place, probability, says in islice(others, MOST_TOLD):
+        yield Alternative(place, f"{probability:.2f} ({says})" if says else f"{probability:.2f}")
 
 
 def _outranked(call: LlmCall) -> list[Alternative]:

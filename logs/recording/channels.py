@@ -22,6 +22,7 @@ from executive.records import (
     Mishap,
     Note,
     Picture,
+    Planned,
     PlannedPath,
     Record,
     Scene,
@@ -32,6 +33,7 @@ from executive.records import (
     TreeShape,
     Utterance,
     Verified,
+    WaysTold,
 )
 from logs.recording import foxglove, plain
 from logs.recording.context import Context
@@ -145,6 +147,9 @@ CHANNELS: tuple[Channel[Any], ...] = (
     _own("/llm/call", LlmCall, "LlmCall", LLM_CALL, llm_call_to_fields, llm_call_from_message),
     _plain("/llm/verification", Verified, "LlmVerification"),
     _plain("/source/answer", SourceAnswer),
+    _plain("/plan", Planned),
+    _line(Planned, "info", lambda planned: planned.text),
+    _plain("/ways", WaysTold),
     _plain("/dialog", Utterance),
     _line(Utterance, "info", lambda said: f"{said.speaker}: {said.text}"),
     _own("/event", EventTaken, "Event", EVENT, event_to_fields, event_from_message, exact=True),

@@ -47,7 +47,8 @@ def mission_blueprint(entities: Iterable[Entity] = ()) -> rrb.Blueprint:
 
 def _world(entities: Iterable[Entity]) -> rrb.Spatial3DView:
     robot = (scene.FRAMES, scene.PLAN, scene.CAMERA)
-    drawn = (scene.SCENE, *robot, candidates.CANDIDATES, candidates.TARGET)
+    thoughts = (candidates.CANDIDATES, candidates.ORDER, candidates.TARGET)
+    drawn = (scene.SCENE, *robot, *thoughts)
     return rrb.Spatial3DView(
         origin="/",
         contents=[f"/{path}/**" for path in drawn],

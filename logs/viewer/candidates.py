@@ -1,4 +1,4 @@
-"""In rerun: a ball above each place where the thing may be, and one where it was seen."""
+"""In rerun: a ball above each place where the thing may be, their order, and where it was seen."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
@@ -8,12 +8,13 @@ import numpy as np
 import rerun as rr
 from scipy.spatial.transform import Rotation
 
-from executive.records import Entity, Shape
+from executive.records import Entity, Planned, Shape
 from executive.types import Vector3
 from logs.viewer.states import State, states
 
 CANDIDATES = "candidates"
 TARGET = "target"
+ORDER = "order"
 
 COLORS = {
     State.OPEN: (90, 150, 255),
@@ -24,6 +25,7 @@ COLORS = {
 }
 _RADIUS_M, _ABOVE_M = 0.16, 0.35
 _TARGET_RADIUS_M = 0.10
+_ORDER_COLOR, _ORDER_RADIUS_M = (90, 150, 255), 0.03
 _CORNERS = np.array(list(product((-0.5, 0.5), repeat=3)))
 """Of a cube of edge 1."""
 
@@ -37,7 +39,7 @@ class CandidatesView:
         self._above: dict[str, Vector3] = {}
         self._shown: Mapping[str, State] = {}
         self._sighting: list[float] = []
-        for path in (CANDIDATES, TARGET):
+        for path in (CANDIDATES, TARGET, ORDER):
             stream.log(path, rr.CoordinateFrame("map"), static=True)
 
     def place(self, entities: Iterable[Entity]) -> None:
@@ -46,6 +48,13 @@ class CandidatesView:
             shapes = [shape for shape in entity.shapes if shape.kind != "mesh"]
             if entity.frame_id == "map" and shapes:
                 self._above[entity.name] = _above(shapes)
+
+    def plan(self, planned: Planned) -> None:
+        """Log the order in which the robot means to look, as a line from place to place."""
+        points = [self._above[place] for place in planned.order if place in self._above]
+        lines = [points] if len(points) > 1 else []
+        drawn = rr.LineStrips3D(lines, colors=_ORDER_COLOR, radii=_ORDER_RADIUS_M)
+        self._stream.log(ORDER, drawn)
 
     def show(self, situation: Mapping[str, Any]) -> None:
         """Log the state of each candidate, and where the thing was seen."""

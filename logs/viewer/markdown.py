@@ -15,6 +15,7 @@ _ACTIVE = re.compile(r"[\\`*<|~]|(?<=[!\]])[\[(:]")
 DOTS = 10
 GIST_LENGTH = 300
 
+_HEADS = ("| | place | probability | says |", "|---|---|---|---|")
 _MARKS = {
     State.OPEN: "",
     State.CURRENT: "▶",
@@ -58,6 +59,8 @@ def belief(situation: dict[str, Any]) -> str:
         situation: the snapshot that each tick carries.
     """
     heading = f"### Where is {plain(situation.get('object') or 'the thing')}?\n\n"
+    if planned := _planned(situation):
+        return heading + planned
     candidates = [
         Candidate(c["place"], c["source"], c["probability"])
         for c in situation.get("candidates") or ()
@@ -66,6 +69,25 @@ def belief(situation: dict[str, Any]) -> str:
         return heading + "No place is known yet."
     marks = {place: _MARKS[state] for place, state in states(situation).items()}
     return heading + _candidates(candidates, marks)
+
+
+def _planned(situation: Mapping[str, Any]) -> str:
+    """The belief that a plan was made by; empty if there is none."""
+    known = situation.get("belief") or {}
+    marks = {place: _MARKS[state] for place, state in states(situation).items()}
+    rows = [
+        f"| {marks.get(one['place'], '')} | {plain(one['place'])} "
+        f"| {_probability(one['probability'])} | {plain(_shares(one['shares']))} |"
+        for one in known.get("places") or ()
+    ]
+    if not rows:
+        return ""
+    elsewhere = f"| | elsewhere | {_probability(known['elsewhere'])} | |"
+    return "\n".join([*_HEADS, *rows, elsewhere])
+
+
+def _shares(shares: Mapping[str, float]) -> str:
+    return ", ".join(f"{source} {probability:.2f}" for source, probability in shares.items())
 
 
 def outcome(outcome: Outcome) -> str:
@@ -99,7 +121,7 @@ def _candidates(candidates: Iterable[Candidate], marks: Mapping[str, str]) -> st
         f"| {plain(c.source)} |"
         for c in candidates
     ]
-    return "\n".join(["| | place | probability | says |", "|---|---|---|---|", *rows])
+    return "\n".join([*_HEADS, *rows])
 
 
 def _scores(scored: Scored) -> str:

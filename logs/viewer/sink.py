@@ -15,6 +15,7 @@ from executive.records import (
     Mishap,
     Note,
     Picture,
+    Planned,
     PlannedPath,
     Record,
     Scene,
@@ -26,6 +27,7 @@ from executive.records import (
     TreeShape,
     Utterance,
     Verified,
+    WaysTold,
 )
 from executive.types import Frame, Intrinsics
 from logs.images import jpeg_scaled
@@ -110,6 +112,12 @@ class RerunSink:
             case SourceAnswer(source, thing, places):
                 where = ", ".join(places) or "not known"
                 text = f"{source}: {thing}: {where}"
+                self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
+            case Planned():
+                self._candidates.plan(record)
+                self._stream.log(blueprint.LOG, rr.TextLog(record.text, level="INFO"))
+            case WaysTold(start, places):
+                text = f"ways from {start} to {', '.join(places)}"
                 self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
             case Mishap(fault, text):
                 self._stream.log(blueprint.LOG, rr.TextLog(f"{fault}: {text}", level="WARN"))

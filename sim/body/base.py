@@ -95,6 +95,31 @@ def drive(
     hardware.park()
 
 
+def fastest(points: Floats, along: Floats, limits: Limits) -> Floats:
+    """(n,) the speeds (m/s) of who follows way-points, from rest to rest.
+
+    Args:
+        points: (m, 2) the way-points (metres).
+        along: (n,) lengths of way at which the speed is wanted (metres).
+        limits: of speed and acceleration.
+    """
+    ends = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))))
+    most = np.full(len(along), limits.speed)
+    for corner, speed in zip(ends[1:-1], _corner_speeds(points, limits.acceleration), strict=True):
+        near = np.abs(along - corner) < _CORNER_M
+        most[near] = np.minimum(most[near], speed)
+    left = np.maximum(ends[-1] - along, 0.0)
+    most = np.minimum(most, np.minimum(0.9 * np.sqrt(2 * limits.acceleration * left), 4.0 * left))
+    squares = np.minimum.accumulate(
+        np.concatenate(([0.0], most[1:] ** 2)) - 2 * limits.acceleration * along
+    )
+    faster = squares + 2 * limits.acceleration * along
+    braking = 1.6 * limits.acceleration * along
+    slower = np.minimum.accumulate((faster + braking)[::-1])[::-1] - braking
+    speeds: Floats = np.sqrt(np.maximum(slower, 0.0))
+    return speeds
+
+
 def brake(hardware: Hardware) -> Skill:
     """Bring the base to rest and park it."""
     velocity = hardware.base_velocity

@@ -20,6 +20,8 @@ class Room(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str
+    label: str = ""
+    """What the robot calls it; empty: what its name says."""
     kind: str
     """Its class in the ontology."""
     rectangle: tuple[Coordinate, Coordinate, Coordinate, Coordinate]

@@ -102,6 +102,8 @@ class Furniture(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str
+    label: str = ""
+    """What the robot calls it; empty: what its name says."""
     kind: str
     """Its class in the ontology."""
     room: str

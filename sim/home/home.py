@@ -108,8 +108,11 @@ class Home(BaseModel):
 
     def places(self) -> tuple[Place, ...]:
         """The searchable furniture, in the file's order."""
-        kinds = {room.name: room.kind for room in self.rooms}
-        return tuple(Place(f.name, f.kind, f.room, kinds[f.room]) for f in self.furniture)
+        rooms = {room.name: room for room in self.rooms}
+        return tuple(
+            Place(f.name, f.kind, f.room, rooms[f.room].kind, f.label, rooms[f.room].label)
+            for f in self.furniture
+        )
 
     def extent(self) -> tuple[float, float, float, float]:
         """Left, lower, right and upper edge of all rooms, in `map` (metres)."""

@@ -48,6 +48,8 @@ def _name_flaws(home: "Home") -> Iterator[Flaw]:
     named += [("room", "kind", room.kind) for room in home.rooms]
     named += [("furniture", "name", piece.name) for piece in pieces]
     named += [("furniture", "kind", piece.kind) for piece in pieces]
+    labelled = [("room", room) for room in home.rooms] + [("furniture", p) for p in pieces]
+    named += [(what, "label", one.label) for what, one in labelled if one.label]
     named += [("object", "name", name) for name in home.own]
     named += [("object", "kind", one.kind) for one in home.own.values()]
     for what, key, name in named:
@@ -57,6 +59,7 @@ def _name_flaws(home: "Home") -> Iterator[Flaw]:
 
 def _room_flaws(home: "Home") -> Iterator[Flaw]:
     yield from _taken("room", [room.name for room in home.rooms])
+    yield from _labels_taken("room", [r.label for r in home.rooms], [r.name for r in home.rooms])
     for room in home.rooms:
         left, lower, right, upper = room.rectangle
         if left >= right or lower >= upper:
@@ -97,6 +100,13 @@ def _taken(what: str, names: Sequence[str], rooms: Sequence[str] = ()) -> Iterat
             yield f"{what} {few} differ too little to be kept apart", right
 
 
+def _labels_taken(what: str, labels: Sequence[str], names: Sequence[str]) -> Iterator[Flaw]:
+    """Labels that mean something else, or by which another one goes."""
+    if any(labels):
+        called = [label or name for label, name in zip(labels, names, strict=True)]
+        yield from _taken(f"{what} that is called", called)
+
+
 def _furniture_flaws(home: "Home") -> Iterator[Flaw]:
     rooms = {room.name for room in home.rooms}
     spoken = {folded(room.kind): room.name for room in home.rooms}
@@ -107,6 +117,8 @@ def _furniture_flaws(home: "Home") -> Iterator[Flaw]:
         [piece.name for piece in home.furniture],
         [f"{piece.room} {kinds.get(piece.room, '')}" for piece in home.furniture],
     )
+    labels = [piece.label for piece in home.furniture]
+    yield from _labels_taken("furniture", labels, [piece.name for piece in home.furniture])
     if home.delivery.name != DELIVERY:
         yield f"the delivery table is named {home.delivery.name}", f"name it {DELIVERY}"
     for piece in (*home.furniture, home.delivery):

@@ -7,7 +7,7 @@ straddle: the whole of a box, the wall of a mug, the handle of a pitcher.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import combinations_with_replacement, product
+from itertools import combinations_with_replacement
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,22 +147,27 @@ def _straddles(model: ObjectModel, pose: Pose, rotation: Rotation) -> Iterator[G
     grid = np.stack(np.meshgrid(xs, zs, ys, indexing="ij"), axis=-1)[..., (0, 2, 1)]
     inside = signed_distance(model.shapes, to_hand.inv().apply(grid.reshape(-1, 3))) < 0
     stretches = _stretches(inside.reshape(grid.shape[:-1]), ys)
-    for i, k in product(range(len(xs)), range(len(zs))):
-        for start, end in _wholes(stretches[i][k], model):
-            middle = np.array([xs[i], (start + end) / 2, zs[k]])
+    for x, plane in zip(xs, stretches, strict=True):
+        near = np.abs(points[:, 0] - x) < _PALM_HALF_SIZE[0]
+        beside, facing = points[near], normals[near]
+        wholes = (
+            (z, whole) for z, runs in zip(zs, plane, strict=True) for whole in _wholes(runs, model)
+        )
+        for z, (start, end) in wholes:
+            middle = np.array([x, (start + end) / 2, z])
             gap = min(2 * FINGER_TRAVEL, end - start + _OPENING)
-            if not NARROWEST < end - start < WIDEST or not _room(points, middle, end - start, gap):
+            if not NARROWEST < end - start < WIDEST or not _room(beside, middle, end - start, gap):
                 continue
             position = base + rotation.apply(middle)
             tip_height = (position + TIP * rotation.apply((0.0, 0.0, 1.0)))[2]
             over_base = tip_height - base[2]
             if over_base < _LOWEST_TIP:
                 continue
-            grip = _grip(points, normals, middle, end - start)
+            grip = _grip(beside, facing, middle, end - start)
             if grip == 0.0:
                 continue
             lever = np.linalg.norm((rotation.apply(mass - middle))[:2])
-            shallow = max(0.0, low[2] + 0.04 - zs[k])
+            shallow = max(0.0, low[2] + 0.04 - z)
             tight = max(0.0, end - start - 0.06)
             low_tip = max(0.0, _EASY_TIP - over_base)
             cost = float(lever + 0.03 * (1 - grip) + 0.2 * shallow + low_tip + tight)

@@ -1,32 +1,34 @@
 """Finding where a known thing stands from the part of its surface that the camera saw."""
 
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import OptimizeResult, least_squares
-from scipy.spatial.transform import Rotation
+from numpy.typing import NDArray
 
 from executive.geometry import Floats
 from executive.types import Pose
+from sim.manipulation.fitting import least_squares
+from sim.objects.distance import distance_to
 from sim.objects.objects import ObjectModel
-from sim.objects.resting import forms
-from sim.objects.solids import signed_distance
+from sim.objects.resting import Lying, lyings
 
-_POINTS = 250
+_POINTS, _FEW = 250, 3
+"""Points that are fitted to, and every which of them in a first, rough fit."""
 _YAWS, _BEHIND = 12, (0.0, 0.5, 1.0)
 """How many yaws are guessed; how far behind what is seen the middle may be (of half the depth)."""
 _NUDGES_M = (0.0, 0.02, -0.02, 0.04, -0.04)
 """How far from the best of these, along the view, the fit is tried again: it may be stuck there."""
+_ROUGH, _FINE, _EXACT = 5, 10, 50
+"""Steps of the fits at most: from all guesses, from the nudged ones, to all points."""
+_NUDGED, _REFINED = 4, 3
+"""How many of the guesses are nudged, and how many of those fitted to all points."""
 _CENTERING = 0.1
 """Where the points leave a thing free to slide, their middle is that of the thing."""
-_PROBE_M = 5e-4
 _SEED = 0
 _FITS_M = 0.008
 """A model that is off by less, in its surface and height together, is not doubted."""
-_NOISE_M = 0.003
-"""Points farther than this from the model count less and less (soft L1 loss)."""
-Off = Callable[[Floats], Floats]
+Which = NDArray[np.intp]
 
 
 def fit_pose(model: ObjectModel, points: Floats, eye: Floats) -> Pose:
@@ -36,7 +38,8 @@ def fit_pose(model: ObjectModel, points: Floats, eye: Floats) -> Pose:
     camera is in `map`, can see. The yaw of a thing that looks the same from several sides is one of
     several.
     """
-    return _fit_pose(model, points, eye)[0]
+    seen, stands = _Seen(points, eye), lyings(model)[0]
+    return seen.refine(stands, seen.fit([stands])[0]).pose
 
 
 def fit_fallen_pose(
@@ -47,77 +50,185 @@ def fit_fallen_pose(
     Returns:
         The one of `forms(model)` that fits the visible points (n, 3), and its pose in `map`.
     """
-    best, least = (model, Pose()), np.inf
-    for form in forms(model):
-        pose, off = _fit_pose(form, points, eye)
-        off += abs(pose.position[2] - support)
-        if off < _FITS_M:
-            return form, pose
-        if off < least:
-            best, least = (form, pose), off
-    return best
+    seen, (stands, *fallen) = _Seen(points, eye), lyings(model)
+    upright = seen.refine(stands, seen.fit([stands])[0])
+    if upright.doubt(support) < _FITS_M:
+        return model, upright.pose
+    found = seen.fit(fallen)
+    doubts = [fits[0].doubt(support) for fits in found]
+    sure = (number for number, doubt in enumerate(doubts) if doubt < _FITS_M)
+    likely = next(sure, int(np.argmin(doubts)))
+    lies = seen.refine(fallen[likely], found[likely])
+    if lies.doubt(support) < upright.doubt(support):
+        return fallen[likely].model, lies.pose
+    return model, upright.pose
 
 
-def _fit_pose(model: ObjectModel, points: Floats, eye: Floats) -> tuple[Pose, float]:
-    """The best pose of an upright thing, and how far the points are off its surface (metres)."""
-    order = np.random.default_rng(_SEED).permutation(len(points))
-    few = np.asarray(points[order[:_POINTS]], dtype=np.float64)
-    off, roughly = partial(_off, model, few), partial(_off, model, few[::3])
-    middle = (few.min(axis=0) + few.max(axis=0))[:2] / 2
-    away = (middle - eye[:2]) / np.linalg.norm(middle - eye[:2])
+@dataclass(frozen=True, slots=True, eq=False)
+class _Fit:
+    """A guess (x, y, z, yaw), and how far the points are off the thing there, on average (m)."""
 
-    def best(fits: Iterable[OptimizeResult]) -> OptimizeResult:
-        return min(fits, key=lambda fit: (_turned_away(model, few, eye, fit.x), fit.cost))
+    guess: Floats
+    off: float
 
-    starts = _starts(model, np.append(middle, few[:, 2].max()), away, roughly)
-    coarse = best(_fit(roughly, start, 10) for start in starts)
-    nudges = [np.array([*(nudge * away), 0.0, 0.0]) for nudge in _NUDGES_M]
-    fit = best(_fit(off, coarse.x + nudge, 50) for nudge in nudges)
-    x, y, z, yaw = (float(v) for v in fit.x)
-    pose = Pose((x, y, z), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
-    return pose, float(np.abs(off(fit.x)[: len(few)]).mean())
+    @property
+    def pose(self) -> Pose:
+        """In `map`."""
+        x, y, z, yaw = (float(value) for value in self.guess)
+        return Pose((x, y, z), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
+
+    def doubt(self, support: float) -> float:
+        """How far its surface is off the points, and its base off what it is on (metres)."""
+        return self.off + abs(float(self.guess[2]) - support)
 
 
-def _starts(model: ObjectModel, top: Floats, away: Floats, off: Off) -> Iterator[Floats]:
-    """A guess (x, y, z, yaw) for each yaw: below the middle of what is seen, or behind that."""
-    middle, bottom = top[:2], top[2] - model.size[2]
-    for yaw in np.arange(_YAWS) * 2 * np.pi / _YAWS:
-        along = np.array([[np.cos(yaw), np.sin(yaw)], [-np.sin(yaw), np.cos(yaw)]]) @ away
-        half = np.abs(along) @ np.array(model.size[:2]) / 2
-        guesses = [np.array([*(middle + part * half * away), bottom, yaw]) for part in _BEHIND]
-        yield min(guesses, key=lambda guess: float((off(guess) ** 2).sum()))
+class _Seen:
+    """The visible points of a thing, and who saw them."""
+
+    def __init__(self, points: Floats, eye: Floats) -> None:
+        order = np.random.default_rng(_SEED).permutation(len(points))
+        few = np.asarray(points[order[:_POINTS]], dtype=np.float64)
+        self._eye = eye
+        self._points = few
+        self._middle = (few.min(axis=0) + few.max(axis=0))[:2] / 2
+        self._away = (self._middle - eye[:2]) / np.linalg.norm(self._middle - eye[:2])
+
+    def fit(self, lyings: Sequence[Lying]) -> list[list[_Fit]]:
+        """Where a thing is, roughly, for each of these ways to lie; the likeliest first."""
+        surface = _Surface(lyings, self._points[::_FEW])
+        guesses, which = self._starts(surface, lyings)
+        guesses, which = self._best(surface, guesses, which, _ROUGH, _NUDGED)
+        nudges = np.zeros((len(_NUDGES_M), 4))
+        nudges[:, :2] = np.outer(_NUDGES_M, self._away)
+        guesses, which = (guesses[:, None] + nudges).reshape(-1, 4), which.repeat(len(nudges))
+        guesses, which = self._best(surface, guesses, which, _FINE, _REFINED)
+        off = np.abs(surface.distances(guesses, which)).mean(axis=1)
+        fits = [_Fit(*fit) for fit in zip(guesses, off.tolist(), strict=True)]
+        return [fits[first : first + _REFINED] for first in range(0, len(fits), _REFINED)]
+
+    def refine(self, lying: Lying, fits: Sequence[_Fit]) -> _Fit:
+        """Where exactly."""
+        surface, which = _Surface([lying], self._points), np.zeros(len(fits), np.intp)
+        guesses, which = self._best(surface, np.array([f.guess for f in fits]), which, _EXACT, 1)
+        return _Fit(guesses[0], float(np.abs(surface.distances(guesses, which)).mean()))
+
+    def _starts(self, surface: "_Surface", lyings: Sequence[Lying]) -> tuple[Floats, Which]:
+        """A guess (x, y, z, yaw) for each yaw: below the middle of what is seen, or behind that."""
+        yaws = np.arange(_YAWS) * 2 * np.pi / _YAWS
+        across = np.stack((np.cos(yaws), np.sin(yaws), -np.sin(yaws), np.cos(yaws)), axis=-1)
+        along = np.abs(across.reshape(-1, 2, 2) @ self._away)
+        sizes = np.array([lying.model.size for lying in lyings])
+        half = sizes[:, :2] @ along.T / 2
+        guesses = np.empty((len(lyings), _YAWS, len(_BEHIND), 4))
+        behind = np.asarray(_BEHIND)[:, None] * half[:, :, None, None]
+        guesses[..., :2] = self._middle + behind * self._away
+        guesses[..., 2] = self._points[:, 2].max() - sizes[:, None, None, 2]
+        guesses[..., 3] = yaws[:, None]
+        which = np.repeat(np.arange(len(lyings)), _YAWS * len(_BEHIND))
+        off = surface.off_only(guesses.reshape(-1, 4), which)
+        best = (off**2).sum(axis=1).reshape(-1, len(_BEHIND)).argmin(axis=1)
+        flat = guesses.reshape(-1, len(_BEHIND), 4)
+        return flat[np.arange(len(flat)), best], np.repeat(np.arange(len(lyings)), _YAWS)
+
+    def _best(
+        self, surface: "_Surface", starts: Floats, which: Which, steps: int, kept: int
+    ) -> tuple[Floats, Which]:
+        """Of the fits from some starts, the best for each way to lie.
+
+        Those first that face the eye, by their costs.
+        """
+        guesses, costs = least_squares(surface.off, starts, which, steps)
+        away = surface.facing(guesses, which, self._eye) < 0.5
+        order = np.lexsort((costs, away, which))
+        each = len(guesses) // (int(which.max()) + 1)
+        best = order.reshape(-1, each)[:, :kept].ravel()
+        return guesses[best], which[best]
 
 
-def _off(model: ObjectModel, points: Floats, guess: Floats) -> Floats:
-    """How far points (n, 3) are off the model's surface, and their middle off its own (n + 2,)."""
-    local = _local(guess, points)
-    middle = (np.array(model.lower) + model.upper)[:2] / 2
-    off_middle = (local.min(axis=0) + local.max(axis=0))[:2] / 2 - middle
-    return np.append(signed_distance(model.shapes, local), _CENTERING * off_middle)
+class _Surface:
+    """How far points are off the surface of a thing that lies in some way and at some pose.
+
+    Poses are guesses (x, y, z, yaw), each with the number of the way in which it lies.
+    """
+
+    def __init__(self, lyings: Sequence[Lying], points: Floats) -> None:
+        self._points = points.T
+        self._distance = distance_to(lyings[0].shapes)
+        self._falls = np.stack([lying.fall.T for lying in lyings])
+        self._bases = np.stack([lying.base for lying in lyings])
+        models = [lying.model for lying in lyings]
+        self._middles = np.array([np.add(m.lower, m.upper)[:2] / 2 for m in models])
+
+    def distances(self, guesses: Floats, which: Which) -> Floats:
+        """Of each point (g, n), negative inside."""
+        standing = self._standing(self._local(guesses), which)
+        return self._distance.at(_columns(standing)).reshape(len(guesses), -1)
+
+    def off_only(self, guesses: Floats, which: Which) -> Floats:
+        """The distances, and how far the middle of the points is off that of the thing."""
+        local = self._local(guesses)
+        distances = self._distance.at(_columns(self._standing(local, which)))
+        middle = (local[:, :2].min(axis=2) + local[:, :2].max(axis=2)) / 2
+        centering = _CENTERING * (middle - self._middles[which])
+        return np.concatenate((distances.reshape(len(guesses), -1), centering), axis=1)
+
+    def off(self, guesses: Floats, which: Which) -> tuple[Floats, Floats]:
+        """The same (g, n + 2), and its derivatives by the guess (g, n + 2, 4)."""
+        local = self._local(guesses)
+        distances, grows = self._with_gradient(local, which)
+        cos, sin = np.cos(guesses[:, 3:]), np.sin(guesses[:, 3:])
+        count, points = distances.shape
+        off, slope = np.empty((count, points + 2)), np.zeros((count, points + 2, 4))
+        off[:, :points] = distances
+        slope[:, :points, 0] = sin * grows[:, 1] - cos * grows[:, 0]
+        slope[:, :points, 1] = -sin * grows[:, 0] - cos * grows[:, 1]
+        slope[:, :points, 2] = -grows[:, 2]
+        slope[:, :points, 3] = grows[:, 0] * local[:, 1] - grows[:, 1] * local[:, 0]
+        every = np.arange(count)
+        for axis, (by_x, by_y) in enumerate(((-cos, -sin), (sin, -cos))):
+            ends = local[:, axis].argmin(axis=1), local[:, axis].argmax(axis=1)
+            middle = (local[every, axis, ends[0]] + local[every, axis, ends[1]]) / 2
+            other = (local[every, 1 - axis, ends[0]] + local[every, 1 - axis, ends[1]]) / 2
+            off[:, points + axis] = _CENTERING * (middle - self._middles[which, axis])
+            slope[:, points + axis, 0] = _CENTERING * by_x[:, 0]
+            slope[:, points + axis, 1] = _CENTERING * by_y[:, 0]
+            slope[:, points + axis, 3] = _CENTERING * (other if axis == 0 else -other)
+        return off, slope
+
+    def facing(self, guesses: Floats, which: Which, eye: Floats) -> Floats:
+        """The share (g,) of the points that are on sides of the thing which the eye can see."""
+        local = self._local(guesses)
+        _, grows = self._with_gradient(local, which)
+        to_eye = _turned(guesses, np.broadcast_to(eye[:, None], (3, 1))) - local
+        share: Floats = ((to_eye * grows).sum(axis=1) > 0).mean(axis=1)
+        return share
+
+    def _with_gradient(self, local: Floats, which: Which) -> tuple[Floats, Floats]:
+        """Distances (g, n), and how they grow (g, 3, n) in the frame of the thing that lies."""
+        distances, grows = self._distance.with_gradient(_columns(self._standing(local, which)))
+        standing = grows.reshape(3, len(local), -1).transpose(1, 0, 2)
+        return distances.reshape(len(local), -1), self._falls[which].transpose(0, 2, 1) @ standing
+
+    def _local(self, guesses: Floats) -> Floats:
+        """The points (g, 3, n) in the frame of a thing at each guess."""
+        return _turned(guesses, self._points)
+
+    def _standing(self, local: Floats, which: Which) -> Floats:
+        """The same in the frame of the thing as it would stand."""
+        stood: Floats = self._falls[which] @ (local + self._bases[which][:, :, None])
+        return stood
 
 
-def _turned_away(model: ObjectModel, points: Floats, eye: Floats, guess: Floats) -> bool:
-    """Whether most of the points are on sides of the model that the eye cannot see."""
-    local = _local(guess, points)
-    normals = np.column_stack(
-        [
-            signed_distance(model.shapes, local + step)
-            - signed_distance(model.shapes, local - step)
-            for step in _PROBE_M * np.eye(3)
-        ]
-    )
-    facing = ((_local(guess, eye) - local) * normals).sum(axis=1) > 0
-    return bool(facing.mean() < 0.5)
+def _turned(guesses: Floats, points: Floats) -> Floats:
+    """Points (3, n) of `map` in the frames (g, 3, n) of things at some guesses."""
+    off = points[None] - guesses[:, :3, None]
+    cos, sin = np.cos(guesses[:, 3:]), np.sin(guesses[:, 3:])
+    x, y = off[:, 0].copy(), off[:, 1].copy()
+    off[:, 0] = cos * x + sin * y
+    off[:, 1] = cos * y - sin * x
+    return off
 
 
-def _local(guess: Floats, points: Floats) -> Floats:
-    """Points (..., 3) of `map` in the frame of a thing at (x, y, z, yaw)."""
-    local: Floats = (points - guess[:3]) @ Rotation.from_euler("z", guess[3]).as_matrix()
-    return local
-
-
-def _fit(off: Off, start: Floats, evaluations: int) -> OptimizeResult:
-    scale = (0.01, 0.01, 0.01, 0.2)
-    return least_squares(
-        off, start, loss="soft_l1", f_scale=_NOISE_M, max_nfev=evaluations, x_scale=scale
-    )
+def _columns(points: Floats) -> Floats:
+    """Points (g, 3, n) side by side (3, g * n)."""
+    return points.transpose(1, 0, 2).reshape(3, -1)

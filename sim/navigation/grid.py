@@ -3,6 +3,7 @@
 The map is the home's plan, walls and furniture; what a person leaves on the floor is not in it.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -30,6 +31,8 @@ DISCOMFORT = 4.0
 PERSON_RADIUS_M = 0.25
 SLACK = 1.02
 """A straight line may cost this much of the path that it replaces."""
+THINNED = 6
+"""Where many ways are worked out, every so many-th cell of each is enough."""
 SNAP_M = 0.25
 """The robot may start this far from where it is allowed to be, to get out of a tight place."""
 
@@ -174,6 +177,22 @@ def plan(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
     return start, *_way(grid, _nearest_free(grid, start), goal)
 
 
+def ways(
+    grid: OccupancyGrid, start: Point, goals: Sequence[Point]
+) -> list[tuple[Point, ...] | None]:
+    """The cheapest way to each of the goals; None where there is none.
+
+    They are straightened in longer steps than those that are driven, which is quicker.
+    """
+    try:
+        here = start if grid.is_free(grid.cell(start)) else _nearest_free(grid, start)
+    except Unreachable:
+        return [None] * len(goals)
+    reach = _Reach.of(grid, here)
+    head = () if here == start else (start,)
+    return [(*head, *way) if (way := reach.way(goal, THINNED)) else None for goal in goals]
+
+
 def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
     """(columns, rows) the cells that the robot can get to from where it starts.
 
@@ -188,20 +207,45 @@ def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
 
 def _way(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
     """The cheapest way between two free points."""
-    shape = grid.clearance.shape
-    first, last = (int(np.ravel_multi_index(grid.cell(end), shape)) for end in (start, goal))
-    costs, previous = dijkstra(
-        grid.graph, directed=False, indices=[first], return_predecessors=True
-    )
-    if not np.isfinite(costs[0, last]):
+    way = _Reach.of(grid, start).way(goal)
+    if way is None:
         raise Unreachable("the way to the {place} is blocked")
-    numbers = [last]
-    while numbers[-1] != first:
-        numbers.append(int(previous[0, numbers[-1]]))
-    numbers.reverse()
-    cells = [divmod(number, shape[1]) for number in numbers]
-    points = [start, *(grid.point(cell) for cell in cells[1:-1]), goal]
-    return _straightened(grid, points, costs[0, numbers])
+    return way
+
+
+@dataclass(frozen=True, eq=False)
+class _Reach:
+    """All that can be reached from a free point, and what it costs (both by cell, row-major)."""
+
+    grid: OccupancyGrid
+    start: Point
+    costs: Floats
+    previous: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, grid: OccupancyGrid, start: Point) -> "_Reach":
+        first = int(np.ravel_multi_index(grid.cell(start), grid.clearance.shape))
+        costs, previous = dijkstra(
+            grid.graph, directed=False, indices=[first], return_predecessors=True
+        )
+        return cls(grid, start, costs[0], previous[0])
+
+    def way(self, goal: Point, every: int = 1) -> tuple[Point, ...] | None:
+        """The cheapest way there, made of every so many-th cell of it; None if there is none."""
+        grid = self.grid
+        if not grid.is_free(grid.cell(goal)):
+            return None
+        shape = grid.clearance.shape
+        first, last = (int(np.ravel_multi_index(grid.cell(p), shape)) for p in (self.start, goal))
+        if not np.isfinite(self.costs[last]):
+            return None
+        numbers = [last]
+        while numbers[-1] != first:
+            numbers.append(int(self.previous[numbers[-1]]))
+        numbers = [first, *reversed(numbers[:-1:every])]
+        cells = [divmod(number, shape[1]) for number in numbers]
+        points = [self.start, *(grid.point(cell) for cell in cells[1:-1]), goal]
+        return _straightened(grid, points, self.costs[numbers])
 
 
 def _straightened(grid: OccupancyGrid, points: list[Point], costs: Floats) -> tuple[Point, ...]:

@@ -1,12 +1,13 @@
 """How a thing may lie: on its base, as it is put down, or fallen on one of its other sides."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats
+from executive.records import Shape
 from executive.types import Pose, Vector3
 from sim.objects.objects import ObjectModel
 from sim.objects.solids import sample_surface
@@ -15,19 +16,43 @@ _FALLS = (("x", 90.0), ("x", -90.0), ("y", 90.0), ("y", -90.0), ("x", 180.0))
 """From standing to each of the other sides (axis, degrees)."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Lying:
+    """How a thing lies.
+
+    Attributes:
+        shapes: of the thing as it stands.
+        model: the thing as it lies: a model that rests on its own base.
+        fall: rotation matrix (3, 3) from how it stands to how it lies.
+        base: the middle of what is now its base, after that rotation (metres).
+    """
+
+    shapes: tuple[Shape, ...]
+    model: ObjectModel
+    fall: Floats
+    base: Floats
+
+
+@cache
+def lyings(model: ObjectModel) -> tuple[Lying, ...]:
+    """The thing as it stands, then as it may lie."""
+    stands = Lying(model.shapes, model, np.eye(3), np.zeros(3))
+    return (stands, *(_fallen(model, Rotation.from_euler(a, d, degrees=True)) for a, d in _FALLS))
+
+
 @cache
 def forms(model: ObjectModel) -> tuple[ObjectModel, ...]:
-    """The thing as it stands, then as it may lie: each a model that rests on its own base."""
-    return (model, *(_fallen(model, Rotation.from_euler(a, d, degrees=True)) for a, d in _FALLS))
+    """The models of a thing as it stands, then as it may lie."""
+    return tuple(lying.model for lying in lyings(model))
 
 
-def _fallen(model: ObjectModel, fall: Rotation) -> ObjectModel:
+def _fallen(model: ObjectModel, fall: Rotation) -> Lying:
     """The model turned, with the origin in the middle of what is now its base."""
     surface = fall.apply(sample_surface(model.shapes)[0])
     low, high = surface.min(axis=0), surface.max(axis=0)
     base = np.append((low[:2] + high[:2]) / 2, low[2])
     shapes = tuple(replace(shape, pose=_moved(shape.pose, fall, base)) for shape in model.shapes)
-    return replace(
+    lies = replace(
         model,
         grasp="top" if model.grasp == "top" else "rim",
         shapes=shapes,
@@ -35,6 +60,7 @@ def _fallen(model: ObjectModel, fall: Rotation) -> ObjectModel:
         upper=_vector(high - base),
         center_of_mass=_vector(fall.apply(model.center_of_mass) - base),
     )
+    return Lying(model.shapes, lies, fall.as_matrix(), base)
 
 
 def _moved(pose: Pose, fall: Rotation, base: Floats) -> Pose:

@@ -1,25 +1,26 @@
 """Distance to, and points on, the surface of a thing built from boxes, cylinders and spheres."""
 
 from collections.abc import Sequence
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.computing import still_wanted
 from executive.geometry import Floats
 from executive.records import Shape
-from executive.types import Quaternion
+from sim.objects.distance import distance_to
+
+_KEPT = 256
+"""Surfaces that are kept."""
 
 
 def signed_distance(shapes: Sequence[Shape], points: Floats) -> Floats:
     """How far points (n, 3) are outside the union of the shapes: negative inside (metres, (n,))."""
-    still_wanted()
-    return np.asarray(np.min([_distance(s, _local(s, points)) for s in shapes], axis=0))
+    return distance_to(tuple(shapes)).at(points.T)
 
 
-def sample_surface(shapes: Sequence[Shape], spacing: float = 0.004) -> tuple[Floats, Floats]:
-    """Points (n, 3) about `spacing` metres apart on the outside, and their unit normals (n, 3)."""
+@lru_cache(maxsize=_KEPT)
+def _surface(shapes: tuple[Shape, ...], spacing: float) -> tuple[Floats, Floats]:
     found_points, found_normals = [], []
     for shape in shapes:
         points, normals = _SAMPLERS[shape.kind](np.asarray(shape.size), spacing)
@@ -31,27 +32,10 @@ def sample_surface(shapes: Sequence[Shape], spacing: float = 0.004) -> tuple[Flo
     return points[outside], normals[outside]
 
 
-def _local(shape: Shape, points: Floats) -> Floats:
-    local: Floats = (points - shape.pose.position) @ _matrix(shape.pose.orientation)
-    return local
-
-
-@cache
-def _matrix(orientation: Quaternion) -> Floats:
-    return Rotation.from_quat(orientation).as_matrix()
-
-
-def _distance(shape: Shape, local: Floats) -> Floats:
-    half = np.asarray(shape.size) / 2
-    if shape.kind == "sphere":
-        return np.asarray(np.linalg.norm(local, axis=1) - half[0])
-    if shape.kind == "cylinder":
-        radial = np.linalg.norm(local[:, :2], axis=1) - half[0]
-        beyond = np.column_stack((radial, np.abs(local[:, 2]) - half[2]))
-    else:
-        beyond = np.abs(local) - half
-    outside = np.linalg.norm(np.maximum(beyond, 0.0), axis=1)
-    return np.asarray(outside + np.minimum(beyond.max(axis=1), 0.0))
+def sample_surface(shapes: Sequence[Shape], spacing: float = 0.004) -> tuple[Floats, Floats]:
+    """Points (n, 3) about `spacing` metres apart on the outside, and their unit normals (n, 3)."""
+    points, normals = _surface(tuple(shapes), spacing)
+    return points.copy(), normals.copy()
 
 
 def _steps(length: float, spacing: float) -> Floats:

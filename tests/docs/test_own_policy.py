@@ -88,7 +88,7 @@ def test_a_name_without_a_module_has_to_be_one_of_ours(
 ) -> None:
     with pytest.raises(SystemExit, match="2"):
         campaign("near", tmp_path)
-    assert "'near' (choose from 'ours', 'rank', " in capsys.readouterr().err
+    assert "'near' (choose from 'ours', 'paper', " in capsys.readouterr().err
 
 
 def test_its_settings_come_before_those_of_the_campaign(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -90,7 +90,9 @@ def beside_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator
 
 
 def run(words: str, folder: Path) -> Outcome:
-    settings = load_settings(world="own_robot:build", user="none", llm="none", runs=folder)
+    settings = load_settings(
+        world="own_robot:build", search="paper", user="none", llm="none", runs=folder
+    )
     with Session(settings, out=io.StringIO()) as session:
         return session.run(words)
 

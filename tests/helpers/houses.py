@@ -11,7 +11,13 @@ from executive.types import Goal, Outcome
 from logs.recording.reader import Run
 from sim.fake import FakeWorld
 
-OKB = {"world": "fake", "llm": "none", "knowledge": KnowledgeSystem.OKB, "user": "oracle"}
+OKB = {
+    "world": "fake",
+    "search": "paper",
+    "llm": "none",
+    "knowledge": KnowledgeSystem.OKB,
+    "user": "oracle",
+}
 
 
 class House:

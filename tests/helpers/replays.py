@@ -38,7 +38,7 @@ def recorded(
             user="oracle",
             runs=runs,
             knowledge=knowledge(llm, remembers),
-            **settings,
+            **{"search": "paper", **settings},
         ),
         inbox=inbox,
         user=None if answers is None else Scripted(inbox, answers),

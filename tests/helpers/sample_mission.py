@@ -16,6 +16,7 @@ from executive.records import (
     NodeState,
     Note,
     Picture,
+    Planned,
     PlannedPath,
     Record,
     Scene,
@@ -28,6 +29,7 @@ from executive.records import (
     TreeShape,
     Utterance,
     Verified,
+    WaysTold,
 )
 from executive.types import (
     Box,
@@ -225,6 +227,29 @@ def mission() -> Iterator[tuple[float, Record]]:
     yield 1.0, chat_call()
     yield 1.0, Verified("general_pos", ("cupboard",), (), ("spice rack",))
     yield 1.5, SourceAnswer("calendar", "sugar_box", ("cupboard",))
+    yield 1.6, WaysTold("person", ("cupboard", "table"), (4.5, -1.0))
+    yield (
+        1.7,
+        Planned(
+            thing="sugar_box",
+            decision="look",
+            order=("cupboard",),
+            ask_after=1,
+            seconds=5.0,
+            visits=1.0,
+            questions=0.1,
+            cost=11.0,
+            may_ask=True,
+            asking_cost=64.5,
+            may_look=True,
+            looking_cost=11.0,
+            places=("cupboard", "table"),
+            probabilities=(0.9, 0.05),
+            says=("calendar 0.90", "anywhere 0.05"),
+            elsewhere=0.05,
+            text="I look at cupboard 0.90: asking would cost 64 s and looking on 11 s.",
+        ),
+    )
     done = "SUCCESS"
     yield (
         2.0,

@@ -5,6 +5,7 @@ import itertools
 import json
 import math
 from dataclasses import replace
+from math import log
 
 import pytest
 
@@ -15,6 +16,7 @@ from executive.types import Place, RankRequest
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import Known
 from kb.benchmark.__main__ import CHANCE, HINDSIGHT, POPULARITY, WORDS, table
+from kb.benchmark.calibration import calibration
 from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
 from kb.benchmark.placements import Placements, preposition
 from kb.benchmark.questions import DataSet, Item, placements, survey
@@ -288,3 +290,40 @@ def test_the_embedded_model_learns_from_what_is_known(file, capsys):
     assert rows[-1].way == RANKED
     assert rows[-1].measures.first == 1
     assert math.isfinite(rows[-1].seconds)
+
+
+def test_who_is_as_often_right_as_they_say_is_calibrated() -> None:
+    told = [({"desk": 0.75, "sofa": 0.25}, [place]) for place in ("desk", "desk", "desk", "sofa")]
+    found = calibration(told)
+    assert found.error == pytest.approx(0)
+    assert found.bins == ((0.75, 0.75, 4),)
+    assert found.log_score == pytest.approx((3 * log(0.75) + log(0.25)) / 4)
+
+
+def test_a_belief_that_is_far_too_sure_shows() -> None:
+    told = [({"desk": 1.0, "sofa": 0.0}, [place]) for place in ("desk", "sofa")]
+    found = calibration(told)
+    assert found.error == pytest.approx(0.5)
+    assert found.log_score < log(0.01)
+
+
+def test_of_two_right_places_each_is_half_right() -> None:
+    assert calibration([({"desk": 0.5, "sofa": 0.5}, ["desk", "sofa"])]).error == pytest.approx(0)
+
+
+def test_the_reliability_is_drawn(tmp_path) -> None:
+    pytest.importorskip("matplotlib")
+    from kb.benchmark import plot
+
+    told = [({"desk": 0.75, "sofa": 0.25}, ["desk"]), ({"desk": 0.2, "sofa": 0.8}, ["desk"])]
+    plot.draw_reliability(tmp_path / "it.svg", {"a data set": calibration(told)})
+    assert "calibration error 0.53" in (tmp_path / "it.svg").read_text()
+
+
+def test_what_the_robot_does_tells_probabilities(data) -> None:
+    answers = iter([[[2.0, 1.0, 0.0]] * 5] * 2)
+    inbox = Inbox()
+    model = Scripted([row for rows in answers for row in rows], inbox)
+    rows = table(data, ranking(data, model, inbox, Prompts.load()), Journal(None, {}))
+    assert rows[-1].calibration is not None
+    assert 0 <= rows[-1].calibration.error <= 1

@@ -112,11 +112,13 @@ def test_a_missing_embedded_model_says_what_to_install(monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def real() -> Iterator[tuple[LlamaCpp, Inbox]]:
+def real(tmp_path_factory) -> Iterator[tuple[LlamaCpp, Inbox]]:
     inbox = Inbox()
-    model = LlamaCpp(embedded_model(), inbox, n_ctx=1024, max_tokens=24, temperature=0.0)
-    yield model, inbox
-    model.close()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        model = LlamaCpp(embedded_model(), inbox, n_ctx=1024, max_tokens=24, temperature=0.0)
+        yield model, inbox
+        model.close()
 
 
 @pytest.mark.llm

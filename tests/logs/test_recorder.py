@@ -120,6 +120,27 @@ def test_what_was_written_is_flushed_even_if_nothing_more_happens(
     fan_out.close()
 
 
+def test_who_is_watched_is_flushed_soon_and_the_others_as_ever(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(recorder, "LIVE_FLUSH_S", 0.01)
+    monkeypatch.setattr(recorder, "FLUSH_S", 1.0)
+    watched, other = ListSink(), ListSink()
+    vars(watched)["live"] = True
+    fan_out = FanOut(lambda: 0.0)
+    fan_out.open([watched, other], STARTED)
+    while watched.flushes < 5:
+        fan_out.record(Note("info", "moved"))
+        time.sleep(0.001)
+    assert other.flushes < watched.flushes
+    written, latest = len(other.entries), time.monotonic() + 60
+    while other.flushes < 2 and time.monotonic() < latest:  # though nothing more happens
+        time.sleep(0.01)
+    fan_out.close()
+    assert written
+    assert other.flushes >= 2
+
+
 def test_records_that_come_fast_are_written_before_the_rest_is_over(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

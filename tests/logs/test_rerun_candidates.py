@@ -1,13 +1,15 @@
 """What became of each place, and how rerun draws it."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import rerun as rr
 from rerun.chunk import RrdReader
+from sample_mission import mission
 
-from executive.records import Entity, Shape
+from executive.records import Entity, Planned, Shape
 from executive.types import Pose
 from logs.viewer.candidates import COLORS, CandidatesView
 from logs.viewer.states import State, states
@@ -73,3 +75,18 @@ def test_where_the_thing_was_seen_is_marked(tmp_path: Path) -> None:
 def rgba(state: State) -> int:
     red, green, blue = COLORS[state]
     return red << 24 | green << 16 | blue << 8 | 0xFF
+
+
+def test_the_order_of_a_plan_is_a_line_from_place_to_place(tmp_path: Path) -> None:
+    stream = rr.RecordingStream("test")
+    stream.save(tmp_path / "it.rrd")
+    view = CandidatesView(stream)
+    view.place(FURNITURE)
+    view.plan(
+        replace(next(r for _, r in mission() if isinstance(r, Planned)), order=("shelf", "desk"))
+    )
+    stream.disconnect()
+    chunks = [c for c in RrdReader(tmp_path / "it.rrd").stream() if str(c.entity_path) == "/order"]
+    (batch,) = [chunk.to_record_batch() for chunk in chunks if not chunk.is_static]
+    (((first, second),),) = batch.column("LineStrips3D:strips").to_pylist()
+    np.testing.assert_allclose([first, second], [(0.0, 3.0, 2.15), (2.0, 1.0, 1.05)], atol=1e-6)

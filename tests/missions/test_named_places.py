@@ -82,7 +82,8 @@ def test_a_place_that_nobody_knows_does_not_end_the_search(tmp_path: Path) -> No
 
 
 def test_a_thing_that_is_gone_from_there_is_not_looked_for_there_again(tmp_path: Path) -> None:
-    session, _ = session_in(tmp_path, ["on the sofa"], fault=("moved=power_drill:sofa@10",))
+    fault = ("moved=power_drill:sofa@10",)
+    session, _ = session_in(tmp_path, ["on the sofa"], fault=fault, search="paper")
     outcome = session.run("Take the power_drill from the shelf_lobby")
     assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ("shelf_lobby", "sofa"))
     session.close()

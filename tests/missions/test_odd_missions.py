@@ -22,7 +22,14 @@ SECRET = "sk-4f5e6d7c"
 
 def run(url: str, runs: Path, **more: Any) -> Outcome:
     settings = load_settings(
-        llm=url, defaults=False, world="fake", user="none", runs=runs, temperature=0.0, **more
+        llm=url,
+        defaults=False,
+        world="fake",
+        search="paper",
+        user="none",
+        runs=runs,
+        temperature=0.0,
+        **more,
     )
     session = Session(settings, out=io.StringIO())
     try:

@@ -54,7 +54,14 @@ def test_it_prepares_for_every_place_and_all_things_that_are_known(tmp_path: Pat
 
 
 @pytest.fixture
-def fresh() -> Iterator[tuple[LlamaCpp, Inbox]]:
+def no_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is kept for other processes."""
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+
+
+@pytest.fixture
+def fresh(no_cache: None) -> Iterator[tuple[LlamaCpp, Inbox]]:
     model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024, max_tokens=8)
     yield model, inbox
     model.close()
@@ -128,7 +135,7 @@ def test_a_request_takes_over_after_one_batch_what_was_prepared(fresh, monkeypat
         time.sleep(0.01)
     usage = end_of(inbox, requests[0]).usage
     assert 0 < usage.prepared_tokens <= 128
-    monkeypatch.undo()
+    monkeypatch.setattr(Context, "append", read)
     unprepared = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024)
     cold = end_of(inbox, unprepared.rank(ranker.ranking("hammer", ()))).usage
     unprepared.close()

@@ -70,6 +70,7 @@ def test_a_place_that_was_looked_at_in_vain_is_not_named_again() -> None:
 
 def session(note: Note, runs: Path) -> Session:
     settings = load_settings(
+        search="paper",
         world="fake",
         knowledge=KnowledgeSystem.OKB,
         user="oracle",

@@ -72,7 +72,7 @@ def test_what_is_it_and_there_was_said_in_the_task_before() -> None:
 
 def test_what_is_held_is_put_back_before_the_next_thing_is_fetched() -> None:
     run = run_mission("Take the mug. Then bring the apple.", llm=False, facts=FactStore())
-    assert run.outcome.status == DONE
+    assert [task.status for task in run.outcome.tasks] == [MissionStatus.NOT_DONE, DONE]
     assert "I put the mug back on the coffee table first." in run.user.told
     assert run.world.resting_place("mug") == "coffee_table"
 
@@ -147,3 +147,17 @@ def test_what_is_to_be_done_instead_interrupts_the_task_at_hand() -> None:
     run = change_meanwhile("Find the mug. Then find the pear.", no_the_apple)
     assert ends(run) == [("find", "apple", DONE), ("find", "pear", DONE)]
     assert run.goals[:2] == [DriveTo("coffee_table"), DriveTo("dining_table")]
+
+
+def test_of_two_things_that_are_taken_only_one_is_held() -> None:
+    run = run_mission("Take the hammer and the power drill", llm=False)
+    statuses = [task.status for task in run.outcome.tasks]
+    assert statuses == [MissionStatus.NOT_DONE, MissionStatus.DONE]
+    assert run.outcome.status == MissionStatus.NOT_DONE
+    assert "I hold one thing at a time" in run.outcome.reason
+
+
+def test_what_is_taken_to_be_put_somewhere_was_taken() -> None:
+    run = run_mission("Take the hammer. Go to the kitchen. Then put it on the sofa.", llm=False)
+    assert run.outcome.status == MissionStatus.DONE, run.outcome.reason
+    assert run.world.resting_place("hammer") == "sofa"

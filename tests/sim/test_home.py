@@ -172,6 +172,16 @@ FAULTS = {
     "millimetres": ("[0, 0, 5, 5]", "[0, 0, 5000, 5000]", "rooms.den.rectangle.2 is 5000; .*1000"),
     "feet": ("[0, 0, 5, 5]", "[0, 0, 500, 500]", "rooms span more than 200 m"),
     "door in no wall": ("[2, 0]", "[2, 1]", "door at .* is not in a wall"),
+    "a label of none": (
+        'name = "desk"',
+        'name = "desk"\nlabel = "Anna;"',
+        "its label has the character",
+    ),
+    "a label that is taken": (
+        'name = "desk"',
+        'name = "desk"\nlabel = "the mug"',
+        "that is called 'the mug': this is the name of an object",
+    ),
     "unknown room": (
         'room = "den"',
         'room = "loo"',

@@ -92,6 +92,8 @@ def report(
         parts += [Heading(heading), tables.measure(found, title), *plots.get(title, ())]
         parts += [tables.differences(found, title)]
     parts += plots.get("distributions", ())
+    if any(row.search_s for row in ran):  # results of earlier days do not tell
+        parts += [Heading("What the search cost"), Text(SEARCHING), tables.searching(found)]
     parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
     if len(found) > 1:
         parts += [Heading("Policies, homes and models compared"), Text(COMPARED)]
@@ -111,6 +113,12 @@ def not_counted(rows: Sequence[Row]) -> str:
         f"{'is' if len(rows) == 1 else 'are'} not counted; run again to try them."
     )
 
+
+SEARCHING = (
+    "Search: the seconds of going to places and looking there. Cost: the same, and for each "
+    "question to the person its price, the setting question_s. Stars: the cost differs from that "
+    "of the first variant in the same condition, by command, Holm-corrected over the variants."
+)
 
 COMPARED = (
     "Stars: the difference from the first variant in the same condition, by command, Holm-"

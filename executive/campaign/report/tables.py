@@ -248,6 +248,32 @@ def policies(found: Sequence[Variant]) -> Table:
     return Table([*heads, "n"], lines)
 
 
+def searching(found: Sequence[Variant]) -> Table:
+    """How long the thing was looked for, and what that cost with the questions."""
+    lines: Lines = []
+    for condition in paper.CONDITIONS:
+        mine = {v.name: one for v in found if (one := select(v.own, condition))}
+        p = _against_first(mine, lambda row: row.cost_s) if len(mine) > 1 else {}
+        for variant, rows in mine.items():
+            search = summary_of(rows, lambda row: row.search_s)
+            cost = summary_of(rows, lambda row: row.cost_s)
+            if search and cost:
+                lines.append(
+                    [
+                        name(condition),
+                        variant or "-",
+                        f"{search.mean:.1f}",
+                        interval(search, 1),
+                        _mean(rows, lambda row: row.inquiries),
+                        f"{cost.mean:.1f}" + p.get(variant, ""),
+                        interval(cost, 1),
+                        str(len(rows)),
+                    ]
+                )
+    heads = ["condition", "variant", "search [s]", "95 %", "inquiries", "cost [s]", "95 %", "n"]
+    return Table(heads, lines)
+
+
 def cost(found: Sequence[Variant]) -> Table:
     """What consulting the language model cost, of missions that did."""
 

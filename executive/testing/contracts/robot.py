@@ -6,6 +6,7 @@ empty hand, an inbox, and a way to let time pass.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 import pytest
@@ -30,6 +31,8 @@ from executive.types import (
 PATIENCE_S = 90.0
 MOVING_S = 0.4
 """After this, whatever is to move does."""
+TELLING, TELLING_S = 0.15, 0.5
+"""How well it has to know how long a drive takes: to this part of it, and so many seconds."""
 REST_S = 0.6
 """After this (half a second, and a bit) it is at rest."""
 
@@ -50,11 +53,15 @@ class Bench:
 
     def end_of(self, request: int) -> Result:
         """Let time pass until this request ends."""
+        return self.timed_end_of(request)[0]
+
+    def timed_end_of(self, request: int) -> tuple[Result, float]:
+        """The same, and how much time passed (s)."""
         passed = 0.0
         while passed < PATIENCE_S:
             for event in self.inbox.take_all():
                 if isinstance(event, Ended) and event.request == request:
-                    return event.result
+                    return event.result, passed
             passed += self.advance(PATIENCE_S - passed)
         raise AssertionError(f"no end within {PATIENCE_S} s")
 
@@ -86,6 +93,17 @@ class RobotContract:
     def test_it_drives_back_to_the_person(self, bench: Bench) -> None:
         assert bench.do(DriveTo(bench.place)) == Succeeded()
         assert bench.do(DriveTo("person")) == Succeeded()
+
+    def test_it_knows_beforehand_how_long_a_drive_takes(self, bench: Bench) -> None:
+        bench.do(DriveTo(bench.place))
+        expected_s = bench.robot.seconds(bench.place, bench.bare)
+        result, took_s = bench.timed_end_of(bench.robot.start(DriveTo(bench.bare)))
+        assert result == Succeeded()
+        assert abs(expected_s - took_s) <= TELLING * took_s + TELLING_S
+
+    def test_there_is_no_way_to_an_unknown_place(self, bench: Bench) -> None:
+        assert bench.robot.seconds("person", "atlantis") == inf
+        assert bench.robot.seconds("atlantis", "person") == inf
 
     def test_every_request_has_its_own_number(self, bench: Bench) -> None:
         first = bench.robot.start(Halt())

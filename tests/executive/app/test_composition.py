@@ -39,7 +39,6 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
         return contexts[-1]
 
     monkeypatch.setattr(parts, "build_context", noted)
-    monkeypatch.setattr("trees.__main__.build_context", noted)
     return contexts
 
 

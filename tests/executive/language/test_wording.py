@@ -90,6 +90,16 @@ def test_what_is_said_of_a_place_is_understood_as_that_place() -> None:
         assert known.places_named(words.at_in_full(one.name)) == (one.name,)
 
 
+def test_a_home_may_give_labels_which_are_understood_too() -> None:
+    labelled = Place("desk_1", "Desk", "room_2", "Bedroom", "Anna's desk", "Anna's room")
+    known = Ontology([labelled, place("desk_2", "bedroom")])
+    words = Wording(known.called)
+    assert words.at_in_full("desk_1") == "on Anna's desk in Anna's room"
+    assert known.places_named("on Anna's desk in Anna's room") == ("desk_1",)
+    assert known.places_named("in Anna's room") == ("desk_1",)
+    assert known.places_named("the desk_1") == ("desk_1",)
+
+
 def test_what_is_said_of_a_thing_is_understood_as_that_thing() -> None:
     for name in ontology(True).objects():
         assert ontology(True).objects_named(say.the(name)) == (name,)

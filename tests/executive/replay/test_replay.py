@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 
 import pytest
+import tomli_w
 from mcap.reader import make_reader
 from outcome_cases import CASES, Case, favouring
 from py_trees.common import Status as NodeStatus
@@ -23,8 +24,8 @@ from kb.ontology import ontology
 from logs.__main__ import main
 from logs.recorder import Stamp
 from logs.recording.sink import McapSink
+from trees.by_plan import search
 from trees.robot import SeeTarget
-from trees.search import search
 from trees.tree import MissionTree
 
 
@@ -238,3 +239,35 @@ def test_one_recording_of_many_that_cannot_be_read_keeps_no_other_from_being_rep
     said = capsys.readouterr().out
     assert "broken: " in said
     assert "2 of 2 missions as recorded" in said
+
+
+@pytest.mark.parametrize("question_s", [0.0, 60.0])
+def test_a_search_by_plan_replays(tmp_path: Path, question_s: float) -> None:
+    run = recorded(
+        tmp_path,
+        "Bring the mug",
+        llm=False,
+        remembers=False,
+        search="plan",
+        question_s=question_s,
+        place={"mug": "sofa"},
+    )
+    again = replay(run)
+    assert (again.parting, again.notes) == (None, ())
+
+
+def test_a_recording_that_does_not_say_how_it_was_searched_was_searched_by_stages(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As all were of earlier days."""
+    leave_out = {"search", "question_s"}
+    monkeypatch.setattr(
+        Settings,
+        "to_toml",
+        lambda self: tomli_w.dumps(
+            self.model_dump(mode="json", exclude_none=True, exclude=leave_out)
+        ),
+    )
+    run = recorded(tmp_path, "Find the mug", llm=False, remembers=False, place={"mug": "sofa"})
+    again = replay(run)
+    assert (again.parting, again.notes) == (None, ())

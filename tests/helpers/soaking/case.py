@@ -130,6 +130,8 @@ class Soak:
             action_timeout_s=chance.choice((1.0, 5.0, 120.0, 120.0)),
             answer_timeout_s=chance.choice((5.0, 120.0)),
             llm_timeout_s=chance.choice((5.0, 60.0)),
+            search=chance.choice(("plan", "plan", "paper")),
+            question_s=chance.choice((0.0, 20.0, 60.0, 1000.0)),
         )
 
     def run(self) -> Iterator[str]:
@@ -165,7 +167,7 @@ class Soak:
         chaos.rate = rate
         say = Wording(self._session.parts.knowledge.called)
         places = [place.name for place in self._home.places()]
-        words = Names(say, self._home.objects, places)
+        words = Names(say, tuple(self._home.objects), places)
         self._witness = Witness(self._world, self._home.objects, words)
 
     def _disturb(self, parts: Parts) -> Parts:

@@ -117,6 +117,10 @@ class ChaosRobot:
         self._chaos.may_raise("views")
         return self.inner.views(place)
 
+    def seconds(self, start: str, place: str) -> float:
+        self._chaos.may_raise("seconds")
+        return self.inner.seconds(start, place)
+
     def start(self, goal: Goal) -> int:
         self._chaos.call(self._inbox)
         self.halts += isinstance(goal, Halt)

@@ -2,7 +2,7 @@
 
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from executive.events import Ended, StopRequested
@@ -41,12 +41,13 @@ class Notes:
 class Names:
     """Knows what the words stand for that the robot says: "on the high table" is at high_table."""
 
-    def __init__(self, say: Wording, things: Iterable[str], places: Iterable[str]) -> None:
+    def __init__(self, say: Wording, things: Sequence[str], places: Sequence[str]) -> None:
         names = {say.the(thing): f"the {thing}" for thing in things}
         for place in (*places, BY_THE_PERSON, FLOOR):
             names |= {say.the(place): f"the {place}"}
             names |= {at: f"at {place}" for at in (say.at(place), say.at_in_full(place))}
         self._names = names
+        self.identifiers = frozenset(name for name in (*things, *places) if "_" in name)
         found = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
         self._pattern = re.compile(rf"\b(?:{found})\b", re.IGNORECASE)
 
@@ -62,6 +63,7 @@ class Witness:
         self._world = world
         self._names = tuple(names)
         self.in_names = words.in_names
+        self._identifiers = words.identifiers
         self.said: list[str] = []
         self.wrong: list[str] = []
         self.was_at: defaultdict[str, set[str]] = defaultdict(set)
@@ -89,7 +91,9 @@ class Witness:
         self.wrong += [f"said {text!r}, but {but}" for but in self._untrue(text)]
 
     def _untrue(self, text: str) -> Iterator[str]:
-        """What of a sentence is not so now."""
+        """What of a sentence is not so now, or no language."""
+        for name in self._identifiers & {*re.findall(r"\w+", re.sub(r"'[^']*'", "", text))}:
+            yield f"one says {name} otherwise"
         held, text = self._world.held, self.in_names(text)
         if re.search(r"\bNone\b|: \.|: *$|\(\)", text):
             yield "that is no sentence"

@@ -1,0 +1,45 @@
+"""Where a thing is, drawn by a seed from what the paper's survey says of it, in any home."""
+
+import random
+from functools import cache
+
+from executive.errors import InputError
+from executive.types import Place
+from kb.ontology.ontology import Ontology
+from sim.home.home import Home, load_home
+from sim.objects.objects import load_objects
+
+SURVEYED = "four_rooms"
+"""The home whose furniture the survey's default locations name."""
+
+
+def commands() -> tuple[str, ...]:
+    """To find each thing that there is."""
+    return tuple(f"Find the {name}" for name in load_objects())
+
+
+def drawn(home: Home, thing: str, seed: int) -> dict[str, str]:
+    """A placement of this thing: furniture of a kind and in a kind of room that the survey names.
+
+    Each such piece is as likely, as far as there is room on it. The place of a thing of which the
+    survey records nothing, or of which this home has no such furniture, is any.
+    """
+    pieces = home.places()
+    usual = {(p.kind, p.room_kind) for p in _surveyed(thing)}
+    kinds = {kind for kind, _ in usual}
+    likely = [p.name for p in pieces if (p.kind, p.room_kind) in usual]
+    likely = likely or [p.name for p in pieces if p.kind in kinds] or [p.name for p in pieces]
+    for place in random.Random(f"{seed} {thing}").sample(likely, len(likely)):
+        try:
+            home.with_placement({thing: place})
+        except InputError:
+            continue
+        return {thing: place}
+    return {}
+
+
+@cache
+def _surveyed(thing: str) -> list[Place]:
+    home = load_home(SURVEYED)
+    usual = Ontology(home.places()).usual_places(thing)
+    return [place for place in home.places() if place.name in usual]

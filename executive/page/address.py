@@ -1,0 +1,105 @@
+"""Where the page is served, and the options that say so."""
+
+import argparse
+import ipaddress
+import logging
+import ssl
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from executive.errors import InputError
+
+PORT = 8080
+LOCAL = "127.0.0.1"
+UNENCRYPTED = "the page is open to the network, unencrypted: give --page-cert and --page-key"
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Address:
+    """Where the page is to be.
+
+    Attributes:
+        port: 0 for any that is free.
+        host: of this machine: a name or a number; `0.0.0.0` or `::` for all of them.
+        certificate: PEM file, for https.
+        key: PEM file of the certificate's private key, if that has none in it.
+    """
+
+    port: int = PORT
+    host: str = LOCAL
+    certificate: Path | None = None
+    key: Path | None = None
+
+    @property
+    def is_local(self) -> bool:
+        """Whether nobody reaches it from outside of this machine."""
+        try:
+            return ipaddress.ip_address(self.host).is_loopback
+        except ValueError:
+            return self.host == "localhost"
+
+    @property
+    def scheme(self) -> str:
+        """How an address begins there."""
+        return "https" if self.certificate else "http"
+
+    def url(self, port: int, token: str) -> str:
+        """What to open in a browser."""
+        host = f"[{self.host}]" if ":" in self.host else self.host
+        return f"{self.scheme}://{host}:{port}/?token={token}"
+
+    def checked(self) -> None:
+        """See that the files can be used; say what is unwise.
+
+        Raises:
+            InputError: if they cannot.
+        """
+        if self.certificate is None:
+            if self.key is not None:
+                raise InputError("--page-key", "there is no certificate", "give --page-cert, too")
+            if not self.is_local:
+                log.warning(UNENCRYPTED)
+            return
+        try:
+            context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+            context.load_cert_chain(self.certificate, self.key, password="")
+        except (OSError, ValueError) as error:
+            why = error.strerror if isinstance(error, FileNotFoundError) else "is no PEM of that"
+            right = "give a certificate and its key without a password"
+            raise InputError("--page-cert", f"cannot be used: {why}", right) from None
+
+
+def add_page(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the page to a command line."""
+    parser.add_argument(
+        "--page",
+        nargs="?",
+        type=_port,
+        const=PORT,
+        metavar="PORT",
+        help=f"talk by a page in the browser, on this machine (default port: {PORT})",
+    )
+    parser.add_argument(
+        "--page-address", metavar="ADDRESS", help="of this machine, for other devices; 0.0.0.0: all"
+    )
+    parser.add_argument(
+        "--page-cert", type=Path, metavar="FILE", help="certificate (PEM), for https"
+    )
+    parser.add_argument("--page-key", type=Path, metavar="FILE", help="its private key (PEM)")
+
+
+def address_of(options: dict[str, Any]) -> Address | None:
+    """What these options say, which are taken out; None if no page is wanted."""
+    names = ("page", "page_address", "page_cert", "page_key")
+    port, host, certificate, key = (options.pop(name) for name in names)
+    return None if port is None else Address(port, host or LOCAL, certificate, key)
+
+
+def _port(text: str) -> int:
+    """A number of a port; 0 is any that is free."""
+    if text.isascii() and text.isdecimal() and int(text) < 2**16:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text!r} is no port: words go before --page")

@@ -1,0 +1,92 @@
+// What was said, and why.
+
+import { element } from "./elements.js";
+import { why } from "./robot.js";
+import { text, textOr } from "./texts.js";
+
+const list = document.getElementById("said");
+const scroll = document.getElementById("scroll");
+const MOST = 500;
+const NEAR_END_PX = 80;
+const FIRST = 3; // reasons that are shown at once
+
+export function forget() {
+  list.replaceChildren();
+}
+
+export function add(entry) {
+  const follows = scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < NEAR_END_PX;
+  list.append(item(entry));
+  while (list.children.length > MOST) list.firstElementChild.remove();
+  if (follows || entry.who === "person") toEnd();
+}
+
+export function toEnd() {
+  scroll.scrollTop = scroll.scrollHeight;
+}
+
+export function personHasSpoken() {
+  return list.querySelector(".person") !== null;
+}
+
+function item(entry) {
+  const said = entry.stop ? text("stop_said") : entry.text;
+  const at = new Date(entry.at * 1000);
+  const time = at.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" });
+  const kinds = entry.stop ? "person stopped" : entry.who;
+  return element("li", { class: kinds, id: `said-${entry.id}` },
+    element("p", {}, element("span", { class: "unseen" }, `${text(entry.who === "person" ? "you" : "robot")}: `), said),
+    element("div", { class: "under" },
+      element("span", { "aria-hidden": "true" }, text(entry.who === "person" ? "you" : "robot")),
+      element("time", { datetime: at.toISOString() }, time),
+      entry.run ? whyButton(entry) : null));
+}
+
+function whyButton(entry) {
+  const button = element("button", {
+    type: "button", class: "why", "aria-expanded": "false",
+    "aria-label": text("why_of", { text: entry.text }),
+    onclick: () => toggle(button, entry),
+  }, text("why"));
+  return button;
+}
+
+async function toggle(button, entry) {
+  const item = button.closest("li");
+  const shown = item.querySelector(".because");
+  if (shown) {
+    shown.remove();
+    button.setAttribute("aria-expanded", "false");
+    button.textContent = text("why");
+    return;
+  }
+  button.setAttribute("aria-expanded", "true");
+  button.textContent = text("why_hide");
+  const because = element("div", { class: "because" }, element("p", {}, text("why_loading")));
+  item.append(because);
+  try {
+    because.replaceChildren(reasons(await why(entry.run, entry.time_s)));
+  } catch {
+    because.replaceChildren(element("p", {}, text("why_lost")));
+  }
+  because.scrollIntoView({ block: "nearest" });
+}
+
+function reasons(decisions) {
+  if (!decisions.length) return element("p", {}, text("why_none"));
+  const [first, before] = [decisions.slice(0, FIRST), decisions.slice(FIRST)];
+  const rest = before.length ? element("details", {},
+    element("summary", {}, text("why_before", { count: before.length })),
+    element("ol", {}, ...before.map(reason))) : "";
+  return element("div", {}, element("ol", {}, ...first.map(reason)), rest);
+}
+
+function reason(decision) {
+  const source = decision.source && textOr(`said_by.${decision.source}`, decision.source);
+  const others = decision.alternatives.map((other) =>
+    element("li", {}, text("why_not", { what: other.what, why_not: other.why_not })));
+  return element("li", {},
+    element("strong", {}, `${decision.question}: `), decision.answer,
+    source ? element("em", {}, ` (${source})`) : null,
+    others.length ? element("ul", {}, ...others) : null);
+}

@@ -1,0 +1,168 @@
+// The person's page: shows the board of the robot, and sends what the person says.
+
+import { mayBe, showAnswers, showSuggestions } from "./answers.js";
+import { showCamera } from "./camera.js";
+import * as conversation from "./conversation.js";
+import { offerPlaces, showHome, showPlaces, showRobot, showWay } from "./home.js";
+import { follow, say as send, stop as sendStop } from "./robot.js";
+import { load, spoken, text, textOr } from "./texts.js";
+
+const doing = document.getElementById("doing");
+const progress = document.getElementById("progress");
+const last = document.getElementById("last");
+const trouble = document.getElementById("trouble");
+const form = document.getElementById("form");
+const words = document.getElementById("words");
+const stopButton = document.getElementById("stop");
+const troubles = new Map();
+const LONGEST = 1000;
+let board = {};
+let stopping = false;
+
+const show = {
+  fresh() {
+    board = {};
+    conversation.forget();
+    showHome(null);
+    showPlaces(null);
+    showCamera(null);
+    showQuestion(null);
+  },
+  said(entry) {
+    conversation.add(entry);
+    suggest();
+  },
+  doing: showDoing,
+  outcome: () => showDoing(board.doing),
+  question: showQuestion,
+  home(plan) {
+    showHome(plan);
+    showRobot(board.robot);
+    showWay(board.path);
+    showPlaces(board.places);
+    showQuestion(board.question);
+  },
+  things: () => {
+    suggest();
+    showQuestion(board.question);
+  },
+  robot: showRobot,
+  path: showWay,
+  places: showPlaces,
+  camera: showCamera,
+};
+
+function showDoing(state) {
+  const sentence = state ? sentenceOf(state) : "…";
+  if (doing.textContent !== sentence) doing.textContent = sentence;
+  const steps = state?.steps ?? 0;
+  progress.hidden = !steps;
+  if (steps) {
+    Object.assign(progress.querySelector("progress"), { max: steps, value: state.step });
+    progress.querySelector("span").textContent = text("progress", state);
+  }
+  const ended = ["ready", "rest"].includes(state?.state) && board.outcome;
+  last.hidden = !ended;
+  if (ended) last.textContent = textOr(`last.${board.outcome.status}`, board.outcome.status);
+  suggest();
+}
+
+function sentenceOf(state) {
+  if (state.state !== "busy") return text(`doing.${state.state}`);
+  const { activity = "" } = state;
+  const values = {
+    activity,
+    thing: spoken(state.thing || "thing"),
+    held: spoken(state.held ?? ""),
+    place: spoken(state.place ?? ""),
+  };
+  if (!activity) return text("doing.busy");
+  if (activity === "driving" && state.place) return text("doing.driving_to", values);
+  if (activity === "driving" && state.held) return text("doing.driving_with", values);
+  if (activity === "looking" && state.place) return text("doing.looking_at", values);
+  if (activity === "handling" && state.held) return text("doing.handling_held", values);
+  return textOr(`doing.${activity}`, "") && text(`doing.${activity}`, values) || text("doing.other", values);
+}
+
+function showQuestion(question = null) {
+  const had = showAnswers(question, board.things ?? {}, board.home, say);
+  offerPlaces(say, (piece) => mayBe(question, piece));
+  if (had && !question) focusWords();
+  conversation.toEnd();
+}
+
+function suggest() {
+  const shown = board.doing?.state === "ready" && !conversation.personHasSpoken();
+  showSuggestions(shown && Boolean(board.things), board.things ?? {}, say);
+}
+
+function focusWords() {
+  const touch = matchMedia("(pointer: coarse)").matches; // there it would open a keyboard
+  (touch ? document.getElementById("scroll") : words).focus();
+}
+
+function setTrouble(name, message) {
+  if (message) troubles.set(name, message);
+  else troubles.delete(name);
+  const shown = [...troubles.values()].join(" ");
+  trouble.hidden = !shown;
+  if (trouble.textContent !== shown) trouble.textContent = shown;
+}
+
+async function say(said) {
+  try {
+    await send(said);
+    setTrouble("say", "");
+    return true;
+  } catch {
+    setTrouble("say", text(said.length > LONGEST ? "too_long" : "not_sent", { most: LONGEST }));
+    return false;
+  }
+}
+
+async function stop() {
+  if (stopping) return;
+  stopping = true;
+  stopButton.classList.add("sent");
+  await sendStop(() => setTrouble("stop", text("stop_lost")));
+  setTrouble("stop", "");
+  stopButton.classList.remove("sent");
+  stopping = false;
+}
+
+form.addEventListener("submit", async (event) => {
+  event.preventDefault();
+  const said = words.value.trim();
+  if (!said) return;
+  words.value = "";
+  if (!(await say(said)) && !words.value) words.value = said;
+});
+stopButton.addEventListener("click", stop);
+document.addEventListener("keydown", (event) => {
+  if (event.key === "Escape" && !event.isComposing) {
+    event.preventDefault();
+    stop();
+  }
+}, true);
+for (const button of document.querySelectorAll(".views button")) {
+  button.addEventListener("click", () => {
+    document.body.dataset.view = button.dataset.view;
+    for (const other of document.querySelectorAll(".views button")) {
+      other.setAttribute("aria-pressed", String(other === button));
+    }
+    conversation.toEnd();
+  });
+}
+
+const connection = {
+  open: () => setTrouble("wire", ""),
+  lost: () => setTrouble("wire", board.doing?.state === "over" ? "" : text("disconnected")),
+  refused: () => setTrouble("wire", text("refused")),
+};
+
+await load("english.json");
+words.placeholder = text("say_example", { thing: "mug" });
+follow(Object.keys(show), (name, value) => {
+  if (name !== "said") board[name] = value;
+  show[name](value);
+}, (state) => connection[state]());

@@ -1,0 +1,70 @@
+// The wire to the robot: what is new comes as server-sent events, what is said goes as JSON.
+
+const token = new URLSearchParams(location.search).get("token") ?? "";
+const AGAIN_MS = 1500;
+const STOP_AGAIN_MS = 400;
+
+export function address(path, values = {}) {
+  return `${path}?${new URLSearchParams({ ...values, token })}`;
+}
+
+/** Follow the board: `show(name, value)` for each change, `connected(state)` as it goes. */
+export function follow(names, show, connected) {
+  let known = "";
+  const open = () => {
+    const source = new EventSource(address("/events", known ? { known } : {}));
+    source.onopen = () => connected("open");
+    source.onerror = () => {
+      if (source.readyState !== EventSource.CLOSED) return connected("lost");
+      source.close();
+      wasRefused().then((refused) => connected(refused ? "refused" : "lost"));
+      setTimeout(open, AGAIN_MS);
+    };
+    for (const name of names) {
+      source.addEventListener(name, (event) => {
+        if (event.lastEventId) known = event.lastEventId;
+        show(name, JSON.parse(event.data));
+      });
+    }
+  };
+  open();
+}
+
+async function wasRefused() {
+  try {
+    return (await fetch(address("/"))).status === 403;
+  } catch {
+    return false;
+  }
+}
+
+async function send(path, body) {
+  const answer = await fetch(address(path), {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(body),
+  });
+  if (!answer.ok) throw new Error(answer.status);
+}
+
+export function say(words) {
+  return send("/say", { words });
+}
+
+/** Stop, until it has reached the robot; `lost` is called each time that it has not. */
+export async function stop(lost) {
+  for (;;) {
+    try {
+      return await send("/stop", {});
+    } catch {
+      lost();
+      await new Promise((resolve) => setTimeout(resolve, STOP_AGAIN_MS));
+    }
+  }
+}
+
+export async function why(run, timeS) {
+  const answer = await fetch(address("/why", { run, time_s: timeS }));
+  if (!answer.ok) throw new Error(answer.status);
+  return answer.json();
+}

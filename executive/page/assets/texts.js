@@ -1,0 +1,32 @@
+// All that the page says by itself stands in one file of texts: english.json.
+
+let texts = {};
+
+export async function load(file) {
+  texts = await (await fetch(file)).json();
+  document.documentElement.lang = texts.language;
+  document.title = texts.title;
+  for (const element of document.querySelectorAll("[data-text]")) {
+    element.textContent = text(element.dataset.text);
+  }
+  for (const element of document.querySelectorAll("[data-label]")) {
+    element.setAttribute("aria-label", text(element.dataset.label));
+  }
+}
+
+/** A text by its key, such as "doing.ready", with what stands in braces filled in. */
+export function text(key, values = {}) {
+  const found = key.split(".").reduce((node, part) => node?.[part], texts);
+  return String(found ?? key).replace(/\{(\w+)\}/g, (whole, name) => values[name] ?? whole);
+}
+
+/** The text of a key, if the file has it; otherwise what was given. */
+export function textOr(key, otherwise) {
+  const found = text(key);
+  return found === key ? otherwise : found;
+}
+
+/** A name as one says it: high_table is "high table". */
+export function spoken(name) {
+  return String(name).replaceAll("_", " ");
+}

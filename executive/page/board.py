@@ -1,0 +1,100 @@
+"""What all open pages show: notices that are replaced, and a conversation that grows.
+
+Each change has a number. A page that comes, or comes back, says the number of the last change that
+it knows and is told what is newer. So nothing is kept for a page, however slow it is or however
+long it was away, and all pages show the same.
+"""
+
+import json
+import secrets
+import threading
+from collections import deque
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+MOST_SAID = 500
+"""So much of the conversation is kept for pages that are opened later."""
+
+
+class Change(NamedTuple):
+    """Something to show: a notice of this name, or `said`."""
+
+    number: int
+    name: str
+    json: str
+
+
+class Board:
+    """Notices and conversation. Any thread may write, any may read."""
+
+    def __init__(self) -> None:
+        """Show nothing yet."""
+        self.name = secrets.token_hex(4)
+        """Tells this board from those of earlier processes, whose numbers mean nothing here."""
+        self._lock = threading.Lock()
+        self._last = 0
+        self._notices: dict[str, Change] = {}
+        self._said: deque[Change] = deque(maxlen=MOST_SAID)
+        self._waiting: set[Callable[[], None]] = set()
+        self.over = False
+        """Whether nothing comes any more."""
+
+    def put(self, name: str, value: Any) -> None:
+        """Show a notice in place of the one of the same name; `flush` tells the pages.
+
+        What is the same as before is no change.
+        """
+        text = _json(value)
+        with self._lock:
+            before = self._notices.get(name)
+            if before is None or before.json != text:
+                self._notices[name] = Change(self._next(), name, text)
+
+    def say(self, entry: dict[str, Any]) -> int:
+        """Add to the conversation, and tell the pages; returns the number of the entry."""
+        with self._lock:
+            number = self._next()
+            self._said.append(Change(number, "said", _json({"id": number, **entry})))
+        self.flush()
+        return number
+
+    def since(self, number: int) -> list[Change]:
+        """What has changed after this number (0: everything), in the order in which it did."""
+        with self._lock:
+            changes = (*self._notices.values(), *self._said)
+            return sorted(change for change in changes if change.number > number)
+
+    def flush(self) -> None:
+        """Tell those who wait that there may be something new."""
+        with self._lock:
+            waiting = tuple(self._waiting)
+        for wake in waiting:
+            wake()
+
+    def end(self) -> None:
+        """Nothing comes any more."""
+        self.over = True
+        self.flush()
+
+    def wait_with(self, wake: Callable[[], None]) -> None:
+        """Have this called, from any thread, when there may be something new."""
+        with self._lock:
+            self._waiting.add(wake)
+
+    def wait_no_more(self, wake: Callable[[], None]) -> None:
+        """Do not call it any more."""
+        with self._lock:
+            self._waiting.discard(wake)
+
+    @property
+    def readers(self) -> int:
+        """How many pages are told of changes."""
+        return len(self._waiting)
+
+    def _next(self) -> int:
+        self._last += 1
+        return self._last
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=True, separators=(",", ":"))

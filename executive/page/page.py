@@ -1,0 +1,116 @@
+"""The page as a whole: what is shown, who speaks, and the server between."""
+
+import secrets
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+from executive.errors import InputError
+from executive.events import Inbox
+from executive.language.phrases import spoken
+from executive.page.address import Address
+from executive.page.board import Board
+from executive.page.guarding import Guard
+from executive.page.person import PagePerson
+from executive.page.plan import plan
+from executive.page.portraits import Portraits
+from executive.page.serving import Server
+from executive.page.sink import PageSink
+from executive.page.site import PUBLIC, site
+from executive.page.why import why_said
+
+if TYPE_CHECKING:
+    from executive.app.session import Session
+
+
+class Page:
+    """The person's page, to be used in a `with` block, inside of which it is served.
+
+    It is there before the robot is: `person` and `sink` are for the session, which is shown with
+    `follow` when it is built.
+    """
+
+    def __init__(self, inbox: Inbox, address: Address | None = None, token: str = "") -> None:
+        """Serve at once; the token is chosen if none is given.
+
+        Raises:
+            InputError: if the address cannot be had.
+        """
+        address = address or Address()
+        token = token or secrets.token_urlsafe(16)
+        self._server = Server(address)
+        self.url = address.url(self._server.port, token)
+        """What to open in a browser."""
+        self.board = Board()
+        self.sink = PageSink(self.board)
+        self.person = PagePerson(inbox, self.board)
+        self._portraits = Portraits({})
+        self._runs: Path | None = None
+        self._server.start(Guard(site(self), token, address.host, PUBLIC))
+
+    def __enter__(self) -> Self:
+        """Nothing more to open."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close."""
+        self.close()
+
+    def close(self) -> None:
+        """Tell the open pages that it is over, and serve no more."""
+        self.board.put("doing", {"state": "over"})
+        self.board.put("question", None)
+        self.board.end()
+        self._server.close()
+
+    def follow(self, session: "Session") -> None:
+        """Show the home and the missions of this session."""
+        home = session.parts.home
+        self._runs = session.settings.runs
+        self._portraits = Portraits(home.drawn_models())
+        self.board.put("home", plan(home))
+        self.board.put("things", _things(session, self._portraits))
+        self.person.follow(session)
+        self.board.flush()
+
+    # --- what the server asks; in its own threads ---
+
+    def says(self, words: str) -> None:
+        """The person sent words."""
+        self.person.says(words)
+
+    def stops(self) -> None:
+        """The person pressed the stop button."""
+        self.person.stops()
+
+    def picture(self, number: int) -> bytes | None:
+        """One of the latest pictures of the camera, as JPEG."""
+        return self.sink.picture(number)
+
+    def portrait(self, name: str) -> bytes | None:
+        """A picture of a thing, as PNG."""
+        return self._portraits.png(name)
+
+    def why(self, run: str, time_s: float) -> list[dict[str, Any]]:
+        """The decisions behind a sentence.
+
+        Raises:
+            InputError: if there is no such run.
+        """
+        if self._runs is None or run != Path(run).name or not (self._runs / run).is_dir():
+            raise InputError("run", "there is no such run")
+        return why_said(self._runs / run, time_s)
+
+
+def _things(session: "Session", portraits: Portraits) -> dict[str, dict[str, Any]]:
+    """What the robot may be asked for: how it is called, and whether there is a picture of it."""
+    pictured = set(portraits.names())
+    return {
+        name: {"label": spoken(name), "picture": name in pictured}
+        for name in session.parts.knowledge.objects()
+    }

@@ -1,0 +1,123 @@
+"""The person at a page."""
+
+import threading
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TextIO, cast
+
+from executive.events import Inbox
+from executive.page.board import Board
+from executive.page.lines import Lines, Said
+from executive.text import LONGEST, one_line, writable
+from executive.types import Question
+from executive.user import Console
+
+if TYPE_CHECKING:
+    from executive.app.session import Session
+
+
+class PagePerson(Console):
+    """Implements `User` for who sits at any of the open pages: all of them are the same person.
+
+    That no page is open is no answer, and that one is closed is no stop.
+    """
+
+    def __init__(self, inbox: Inbox, board: Board) -> None:
+        """Talk by this board."""
+        self._board = board
+        self._typing = Lines()
+        self._question: Question | None = None
+        """What was asked last; None if a command is listened for."""
+        self._ticking = 0
+        """The thread in which the mission speaks."""
+        self._session: Session | None = None
+        self._before: Path | None = None
+        """The last mission that was over when a command was listened for."""
+        super().__init__(inbox, cast(TextIO, self._typing), cast(TextIO, Said(self._shown)))
+        board.put("question", None)
+
+    def follow(self, session: "Session") -> None:
+        """Tell from now on with each sentence in which mission of this session it was said."""
+        self._session = session
+
+    # --- the robot speaks ---
+
+    def ask(self, question: Question) -> int:
+        """Show it, with the answers that are known."""
+        self._ticking = threading.get_ident()
+        self._question = question
+        request = super().ask(question)
+        self._board.flush()
+        return request
+
+    def tell(self, text: str) -> None:
+        """Show it."""
+        self._ticking = threading.get_ident()
+        super().tell(text)
+
+    def listen(self, prompt: str = "") -> int:
+        """Wait for a command; the page says by itself that the robot does."""
+        self._before = self._session.folder if self._session else None
+        self._question = None
+        request = super().listen()
+        self._board.put("doing", {"state": "ready"})
+        self._board.flush()
+        return request
+
+    def cancel(self, request: int) -> None:
+        """Withdraw the question."""
+        super().cancel(request)
+        with self._lock:
+            self._show_question()
+        self._board.flush()
+
+    # --- the person speaks, in whichever thread serves the page ---
+
+    def says(self, words: str) -> None:
+        """They sent words: a command, an answer, a stop."""
+        line = one_line(writable(words))
+        if not line:
+            return
+        self._board.say({"who": "person", "text": line[:LONGEST], "at": time.time()})
+        self._typing.put(words)
+
+    def stops(self) -> None:
+        """They pressed the stop button: nothing has to be read first."""
+        self._board.say({"who": "person", "stop": True, "at": time.time()})
+        self._stop()
+
+    def _shown(self, line: str) -> None:
+        self._board.say({"who": "robot", "text": line, "at": time.time(), **self._moment()})
+
+    def _moment(self) -> dict[str, Any]:
+        """In which mission, if it is recorded, and when in it (mission time, s).
+
+        What is said at once to who speaks, before any tick, was not decided in the mission.
+        """
+        folder = self._session.folder if self._session else None
+        if self._session is None or folder is None or folder == self._before:
+            return {}
+        if threading.get_ident() != self._ticking:
+            return {}
+        return {"run": folder.name, "time_s": round(self._session.parts.clock.now(), 3)}
+
+    def _serve(self) -> None:
+        """Give the oldest line to whoever waits, and show who does; the lock is held."""
+        super()._serve()
+        self._show_question()
+        self._board.flush()
+
+    def _show_question(self) -> None:
+        """Show the question as long as an answer would be taken for one; the lock is held."""
+        waits = self._question if self._request is not None else None
+        self._board.put("question", shown(waits) if waits else None)
+
+
+def shown(question: Question) -> dict[str, Any]:
+    """A question as the page has it."""
+    return {
+        "kind": question.kind,
+        "about": question.about,
+        "text": question.text,
+        "options": question.options,
+    }

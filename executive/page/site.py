@@ -1,0 +1,197 @@
+"""What the page's server answers: the page itself, what is new, and what the person sends."""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Awaitable, Callable
+from importlib.resources import files
+from pathlib import Path
+from typing import Protocol
+
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import JSONResponse, PlainTextResponse, Response, StreamingResponse
+from starlette.routing import Route
+
+from executive.errors import ExecutiveError
+from executive.page.board import Board
+
+MOST_BYTES = 8192
+"""Of what a page sends: a thousand characters, however they are written."""
+MOST_PAGES = 50
+HEARTBEAT_S = 15.0
+"""A connection that broke without a word is found out so soon."""
+RETRY_MS = 1000
+"""When a browser that lost the connection tries again."""
+PNG, JPEG = "image/png", "image/jpeg"
+KINDS = {
+    ".html": "text/html",
+    ".css": "text/css",
+    ".js": "text/javascript",
+    ".json": "application/json",
+    ".svg": "image/svg+xml",
+}
+ASSETS = {
+    f"/{entry.name}": entry
+    for entry in files("executive.page").joinpath("assets").iterdir()
+    if Path(entry.name).suffix in KINDS
+}
+PUBLIC = frozenset(ASSETS)
+"""What needs no token: it is the same for everyone."""
+
+
+class Behind(Protocol):
+    """What the page is about."""
+
+    board: Board
+
+    def says(self, words: str) -> None:
+        """The person sent words."""
+        ...
+
+    def stops(self) -> None:
+        """The person pressed the stop button."""
+        ...
+
+    def picture(self, number: int) -> bytes | None:
+        """One of the latest pictures of the camera, as JPEG."""
+        ...
+
+    def portrait(self, name: str) -> bytes | None:
+        """A picture of a thing, as PNG."""
+        ...
+
+    def why(self, run: str, time_s: float) -> list[dict[str, object]]:
+        """The decisions behind a sentence."""
+        ...
+
+
+def site(behind: Behind) -> Starlette:
+    """The application, still open to all: `Guard` comes around it."""
+    answers = _Answers(behind)
+    return Starlette(
+        routes=[
+            Route("/", answers.page),
+            *(Route(path, answers.asset) for path in sorted(PUBLIC)),
+            Route("/events", answers.events),
+            Route("/say", answers.say, methods=["POST"]),
+            Route("/stop", answers.stop, methods=["POST"]),
+            Route("/why", answers.why),
+            Route("/camera/{number:int}.jpg", answers.camera),
+            Route("/thing/{name}.png", answers.thing),
+        ]
+    )
+
+
+Answer = Callable[[Request], Awaitable[Response]]
+
+
+class _Answers:
+    """An answer a path."""
+
+    def __init__(self, behind: Behind) -> None:
+        self._behind = behind
+        self._assets = {path: entry.read_bytes() for path, entry in ASSETS.items()}
+
+    async def page(self, request: Request) -> Response:
+        return self._file("/index.html")
+
+    async def asset(self, request: Request) -> Response:
+        return self._file(request.url.path)
+
+    def _file(self, path: str) -> Response:
+        return Response(self._assets[path], media_type=KINDS[Path(path).suffix])
+
+    async def events(self, request: Request) -> Response:
+        board = self._behind.board
+        if board.readers >= MOST_PAGES:
+            return PlainTextResponse("Too many pages are open.", 503)
+        last = request.query_params.get("known", "")
+        known = _known(board, request.headers.get("last-event-id", last))
+        return StreamingResponse(news(board, known), media_type="text/event-stream")
+
+    async def say(self, request: Request) -> Response:
+        words = await _words(request)
+        if words is None:
+            return PlainTextResponse("This is too long, or no text.", 413)
+        self._behind.says(words)
+        return JSONResponse({})
+
+    async def stop(self, request: Request) -> Response:
+        self._behind.stops()
+        return JSONResponse({})
+
+    async def why(self, request: Request) -> Response:
+        run = request.query_params.get("run", "")
+        try:
+            time_s = float(request.query_params.get("time_s", ""))
+            chain = await run_in_threadpool(self._behind.why, run, time_s)
+        except (ExecutiveError, ValueError) as error:
+            return JSONResponse({"error": str(error)}, 404)
+        return JSONResponse(chain)
+
+    async def camera(self, request: Request) -> Response:
+        picture = self._behind.picture
+        return _picture(await run_in_threadpool(picture, request.path_params["number"]), JPEG)
+
+    async def thing(self, request: Request) -> Response:
+        portrait = self._behind.portrait
+        return _picture(await run_in_threadpool(portrait, request.path_params["name"]), PNG)
+
+
+def _picture(content: bytes | None, kind: str) -> Response:
+    if content is None:
+        return PlainTextResponse("There is no such picture.", 404)
+    return Response(content, media_type=kind)
+
+
+async def _words(request: Request) -> str | None:
+    """What the person sent, as JSON: {"words": ...}; None if it is too long, or something else."""
+    content = b""
+    async for part in request.stream():
+        content += part
+        if len(content) > MOST_BYTES:
+            return None
+    try:
+        words = json.loads(content)["words"]
+    except (ValueError, LookupError, TypeError, RecursionError):
+        return None
+    return words if isinstance(words, str) else None
+
+
+def _known(board: Board, last: str) -> int:
+    """The number of the last change that a page knows, of this board and no earlier one."""
+    name, _, number = last.partition("-")
+    return int(number) if name == board.name and number.isdecimal() else 0
+
+
+async def news(board: Board, known: int) -> AsyncIterator[str]:
+    """Server-sent events: all that is newer than a page knows, and then what comes, until it ends.
+
+    A page that knows nothing of this board is told first to forget what it shows.
+    """
+    loop, changed = asyncio.get_running_loop(), asyncio.Event()
+
+    def wake() -> None:
+        if not loop.is_closed():
+            loop.call_soon_threadsafe(changed.set)
+
+    board.wait_with(wake)
+    try:
+        yield f"retry: {RETRY_MS}\n\n"
+        if not known:
+            yield "event: fresh\ndata: {}\n\n"
+        while True:
+            changed.clear()
+            over = board.over
+            for number, name, text in board.since(known):
+                known = number
+                yield f"id: {board.name}-{number}\nevent: {name}\ndata: {text}\n\n"
+            if over:
+                return
+            try:
+                await asyncio.wait_for(changed.wait(), HEARTBEAT_S)
+            except TimeoutError:
+                yield ": \n\n"
+    finally:
+        board.wait_no_more(wake)

@@ -1,0 +1,55 @@
+"""What pages show is the same for all, whenever they come."""
+
+import json
+
+from executive.page.board import MOST_SAID, Board
+
+
+def names(board: Board, known: int = 0) -> list[str]:
+    return [change.name for change in board.since(known)]
+
+
+def test_who_comes_late_is_told_each_notice_once_as_it_is_now() -> None:
+    board = Board()
+    for value in range(10):
+        board.put("robot", value)
+    board.put("doing", {"state": "ready"})
+    assert names(board) == ["robot", "doing"]
+    assert json.loads(board.since(0)[0].json) == 9
+
+
+def test_who_comes_back_is_told_what_is_newer_and_nothing_else() -> None:
+    board = Board()
+    board.put("doing", "ready")
+    known = board.say({"text": "before"})
+    board.say({"text": "meanwhile"})
+    board.put("doing", "busy")
+    assert names(board, known) == ["said", "doing"]
+
+
+def test_what_is_the_same_as_before_is_no_change() -> None:
+    board = Board()
+    board.put("path", [])
+    last = board.since(0)[-1].number
+    board.put("path", [])
+    assert not board.since(last)
+
+
+def test_a_long_conversation_is_kept_as_far_as_pages_may_need_it() -> None:
+    board = Board()
+    for number in range(MOST_SAID + 10):
+        board.say({"text": str(number)})
+    assert len(board.since(0)) == MOST_SAID
+
+
+def test_who_waits_is_woken_by_what_is_said_until_they_go() -> None:
+    board, woken = Board(), list[int]()
+
+    def wake() -> None:
+        woken.append(1)
+
+    board.wait_with(wake)
+    board.say({"text": "Hello"})
+    board.wait_no_more(wake)
+    board.say({"text": "Hello?"})
+    assert woken == [1]

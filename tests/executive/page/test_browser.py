@@ -1,0 +1,196 @@
+"""The page in a real browser, as a person uses it."""
+
+import random
+import re
+from pathlib import Path
+
+import pytest
+from browsing import answer, opened, said, say, wait_until_ready
+from paging import TOKEN, Robot, robot
+from playwright.sync_api import Browser, expect
+
+from executive.events import Inbox
+from executive.page.address import Address
+from executive.page.page import Page
+
+pytestmark = pytest.mark.browser
+
+BROUGHT = "Here is the peach from high_table."
+
+
+def test_a_whole_mission_by_the_page(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Bring a fruit")
+        answer(tab, "peach").click()
+        answer(tab, "sofa").click()
+        answer(tab, "high table").click()
+        wait_until_ready(tab)
+        expect(tab.locator("#last")).to_have_text("Last time: done.")
+        assert said(tab)[-1].endswith(BROUGHT)
+        expect(tab.locator("#places tr.found")).to_contain_text("high table")
+        expect(tab.locator("#places tr.empty")).to_contain_text("sofa")
+    assert [outcome.status for outcome in talking.outcomes] == ["done"]
+
+
+def test_things_to_choose_from_are_shown_in_pictures(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Bring a fruit")
+        pictures = tab.locator("#answers img")
+        expect(pictures).to_have_count(6)
+        for picture in pictures.all():
+            expect(picture).to_have_js_property("complete", True)
+            expect(picture).to_have_js_property("naturalWidth", 160)
+
+
+def test_a_place_may_be_chosen_on_the_map(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find the peach")
+        tab.locator("#map .choice", has_text="high table").locator("rect").click()
+        wait_until_ready(tab)
+    assert talking.outcomes[0].location == "high_table"
+
+
+def test_why_is_told_beside_the_sentence(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find the peach")
+        answer(tab, "high table").click()
+        wait_until_ready(tab)
+        why = tab.get_by_role("button", name=re.compile("^Why did the robot say: I look for"))
+        why.click()
+        because = tab.locator(".because")
+        expect(because).to_contain_text("which places: high_table (you said so)")
+        why.press("Enter")
+        expect(because).to_have_count(0)
+
+
+def test_by_the_keyboard_alone(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        tab.keyboard.press("Tab")
+        tab.keyboard.press("Enter")  # skip to what you say
+        tab.keyboard.type("Bring a fruit")
+        tab.keyboard.press("Enter")
+        expect(answer(tab, "peach")).to_be_visible()
+        while tab.locator(":focus").inner_text() != "peach":
+            tab.keyboard.press("Shift+Tab")
+        tab.keyboard.press("Space")
+        expect(answer(tab, "sofa")).to_be_visible()
+        expect(tab.locator("#words")).to_be_focused()
+        tab.keyboard.type("on the high table")
+        tab.keyboard.press("Enter")
+        wait_until_ready(tab)
+        assert said(tab)[-1].endswith(BROUGHT)
+
+
+@pytest.mark.parametrize("how", ["Escape", "button"])
+def test_a_question_is_stopped_as_well(browser: Browser, talking: Robot, how: str) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Bring a fruit")
+        expect(answer(tab, "peach")).to_be_visible()
+        if how == "button":
+            tab.get_by_role("button", name="Stop").click()
+        else:
+            tab.keyboard.press(how)
+        expect(tab.locator("#last")).to_have_text("Last time: stopped.")
+        expect(tab.locator("#answers")).to_be_hidden()
+
+
+def test_it_is_stopped_at_any_moment(browser: Browser, tmp_path: Path) -> None:
+    chance = random.Random(0)
+    with (
+        robot(tmp_path, world="paging:in_real_time") as made,
+        opened(browser, made.page) as tab,
+    ):
+        for number in range(1, 7):
+            wait_until_ready(tab)
+            say(tab, "Find the sugar_box at the sofa" if number % 2 else "Bring a fruit")
+            tab.wait_for_timeout(chance.uniform(0, 600))
+            tab.keyboard.press("Escape")
+            expect(tab.locator("#said .stopped")).to_have_count(number)
+            answered = tab.locator("#said .robot", has_text=re.compile("Stopping|nothing to stop"))
+            expect(answered).to_have_count(number)
+        wait_until_ready(tab)
+        assert {outcome.status for outcome in made.outcomes} == {"stopped"}
+
+
+def test_two_pages_show_the_same(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as one, opened(browser, talking.page) as other:
+        wait_until_ready(one)
+        say(one, "Find a fruit")
+        answer(other, "peach").click()
+        answer(one, "high table").click()
+        for tab in (one, other):
+            wait_until_ready(tab)
+            expect(tab.locator("#answers")).to_be_hidden()
+        assert said(one) == said(other)
+        assert len(said(one)) > 5
+        with opened(browser, talking.page) as late:
+            wait_until_ready(late)
+            assert said(late) == said(one)
+
+
+def test_a_page_that_is_closed_and_opened_again_goes_on(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find a fruit")
+        expect(answer(tab, "peach")).to_be_visible()
+        tab.close()
+    with opened(browser, talking.page) as tab:
+        answer(tab, "peach").click()
+        answer(tab, "high table").click()
+        wait_until_ready(tab)
+    assert [outcome.status for outcome in talking.outcomes] == ["done"]
+
+
+def test_a_lost_connection_is_told_and_made_again(browser: Browser) -> None:
+    with Page(Inbox(), Address(port=0), token=TOKEN) as first, opened(browser, first) as tab:
+        first.board.say({"who": "robot", "text": "before", "at": 0})
+        expect(tab.locator("#said")).to_contain_text("before")
+        port = int(first.url.rsplit(":", 1)[1].split("/")[0])
+        first._server.close()  # as if the program had been killed
+        expect(tab.get_by_role("alert")).to_contain_text("No connection to the robot.")
+        tab.keyboard.press("Escape")
+        expect(tab.get_by_role("alert")).to_contain_text("STOP has not reached the robot")
+        with Page(Inbox(), Address(port=port), token=TOKEN) as second:
+            expect(tab.get_by_role("alert")).to_be_hidden()
+            expect(tab.locator("#said .stopped")).to_have_count(1)
+            second.board.say({"who": "robot", "text": "after", "at": 0})
+            expect(tab.locator("#said")).to_contain_text("after")
+            assert "before" not in tab.locator("#said").inner_text()
+
+
+HOSTILE = (
+    "<img src=x onerror=alert(1)>",
+    "<script>alert(2)</script>",
+    "</li></ol><h1>Owned</h1>",
+    "javascript:alert(3) \u202e \x07 \x00",
+    'Bring the <b>mug</b> & "it\'s"',
+)
+
+
+def test_hostile_words_are_words(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        for number, words in enumerate(HOSTILE, 1):
+            talking.page.says(words)
+            expect(tab.locator("#said .person:not(.stopped)")).to_have_count(number)
+            tab.keyboard.press("Escape")
+            wait_until_ready(tab)
+        assert tab.locator("#said img, #said script, #said h1, #said b").count() == 0
+        assert tab.locator("h1").count() == 1
+        assert HOSTILE[0] in tab.locator("#said").inner_text()
+
+
+def test_what_is_too_long_stays_in_the_box(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        box = tab.locator("#words")
+        box.evaluate("box => { box.maxLength = 2e6; box.value = 'a'.repeat(1e6); }")
+        box.press("Enter")
+        expect(tab.get_by_role("alert")).to_contain_text("reads at most 1000 characters")
+        assert len(box.input_value()) == 1_000_000
