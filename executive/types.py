@@ -124,7 +124,7 @@ class Command:
     number: int = 0
     """How many things: `ALL` that there are; 0: as many as the target names."""
     among: tuple[str, ...] = ()
-    """Names of which one is meant: "either the hammer or the drill"."""
+    """Names of which one is meant, or as many as the number says: "the hammer or the drill"."""
     superlative: str = ""
     """Which of them by a measure: "biggest"; empty if that was not said."""
     conditional: bool = False

@@ -7,7 +7,10 @@ confirmed     named places    else ontology: its one    if gone, search    or pu
   │           else ask        place; else LLM, verified again              no room there:
   │           hand is free    else person; visit, look;                    other furniture
   │           else put down   not seen: ask the person                     else person
-  └─> put down what is held, or go somewhere
+  ├─> several things, one of several, on a condition: in parts, each a task of its own
+  └─> put down what is held, go somewhere, clear furniture, or answer by looking around
+
+Of several tasks each goes through all of it (`trees/tasks.py`): none is lost by another.
 """
 
 from py_trees.behaviour import Behaviour

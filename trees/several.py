@@ -80,7 +80,7 @@ class EachThing(Step):
         if not parts:
             near = nearest(self.context, command.target)
             return self.fail(unresolved(self.context, command.target, near))
-        wanted = 1 if command.among else len(parts) if command.number == ALL else command.number
+        wanted = len(parts) if command.number == ALL else max(command.number, 1)
         self.situation.agenda.split(command, parts, min(wanted, len(parts)))
         return self.succeed(", ".join(part.target for part in parts))
 

@@ -65,7 +65,7 @@ def without_condition(command: Command) -> Command:
 def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
     """What came of the whole; told, if its parts alone do not tell it."""
     command, last = whole.command, whole.parts[-1]
-    if command.conditional or command.among:
+    if command.conditional or (command.among and not command.number):
         done = last.status == MissionStatus.DONE
         reason = last.reason if done else sentences(whole.parts)
     else:

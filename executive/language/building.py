@@ -271,7 +271,7 @@ class Builder(Transformer[Token, Said]):
         return _task(Verb.CHECK, parts)
 
     def if_there(self, parts: list[Part]) -> Task:
-        """As in "if there is one", "if there is an apple on the table"."""
+        """As in "if there is one", "if the apple is on the table"."""
         return _task(Verb.CHECK, parts)
 
     def otherwise(self, parts: list[Part]) -> "Otherwise":

@@ -161,9 +161,12 @@ def _commands(tasks: Iterable[Task], words: str) -> Commands | str:
 
 
 def _each(task: Task) -> tuple[Things | None, ...]:
-    """Of several things that are all meant, each one; a condition is about all of them."""
+    """Of several things that are all meant, each one.
+
+    A condition is about all of them; so is what one hand can do with but one.
+    """
     things = task.things
-    if things is None or things.one_of or task.conditional:
+    if things is None or things.one_of or task.conditional or task.verb == Verb.TAKE:
         return (things,)
     return tuple(Things((thing,)) for thing in things.members)
 
@@ -182,7 +185,7 @@ def _command(task: Task, things: Things | None, words: str) -> Command:
         purpose=" and ".join(thing.purpose for thing in members if thing.purpose),
         exceptions=tuple(but.words for thing in members for but in thing.exceptions),
         number=_number(task, members),
-        among=tuple(map(_name, members)) if things and things.one_of else (),
+        among=tuple(map(_name, members)) if len(members) > 1 else (),
         superlative=_superlative(task),
     )
 
@@ -207,7 +210,9 @@ def _conditional(task: Task, words: str) -> Command:
 
 def _number(task: Task, members: Sequence[Thing]) -> int:
     """How many, if it was said; that it is one, only counts where a place may have several."""
-    if len(members) != 1 or task.verb not in (*_ALONE, Verb.PUT, Verb.PUT_BACK):
+    if len(members) > 1:
+        return len(members) if task.things and not task.things.one_of else 0
+    if not members or task.verb not in (*_ALONE, Verb.PUT, Verb.PUT_BACK):
         return 0
     number = members[0].number or 0
     return number if number != 1 or task.source else 0

@@ -280,6 +280,12 @@ CASES = [
         inquiries=1,
     ),
     Case(
+        "of two things of which one is enough, one is taken",
+        "Take the hammer or a power drill.",
+        OKB | {"answers": []},
+        object="hammer",
+    ),
+    Case(
         "of several things each is found",
         "Find a power drill and the hammer.",
         OKB,

@@ -75,8 +75,9 @@ def test_if_one_of_two_things_fails_the_other_is_brought() -> None:
     assert (one.outcome.status, on(one, "delivery")) == (DONE, {"mug"})
 
 
-def test_one_hand_takes_one_thing() -> None:
-    two = run("Take two fruits")
+@pytest.mark.parametrize("words", ["Take two fruits", "Take the apple and the pear"])
+def test_one_hand_takes_one_thing(words: str) -> None:
+    two = run(words)
     assert two.outcome.status == NOT_DONE
     assert two.outcome.reason == "I took one of two: the apple; I can hold one thing at a time."
 
@@ -89,6 +90,7 @@ def test_one_hand_takes_one_thing() -> None:
         ("Bring a unicorn if there is one, otherwise the pear", "pear"),
         ("If there is a fruit on the dining table, bring it, otherwise bring the mug", "apple"),
         ("If there is a tool on the dining table, bring it, otherwise bring the mug", "mug"),
+        ("If the mug is on the coffee table, bring the pear", "pear"),
     ],
 )
 def test_on_a_condition_it_is_this_or_that(words: str, brought: str) -> None:

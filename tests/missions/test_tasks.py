@@ -150,7 +150,7 @@ def test_what_is_to_be_done_instead_interrupts_the_task_at_hand() -> None:
 
 
 def test_of_two_things_that_are_taken_only_one_is_held() -> None:
-    run = run_mission("Take the hammer and the power drill", llm=False)
+    run = run_mission("Take the hammer. Then take the power drill.", llm=False)
     statuses = [task.status for task in run.outcome.tasks]
     assert statuses == [MissionStatus.NOT_DONE, MissionStatus.DONE]
     assert run.outcome.status == MissionStatus.NOT_DONE
