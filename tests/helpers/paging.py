@@ -51,7 +51,14 @@ class Robot:
 def robot(runs: Path, *, recorded: bool = False, **settings: Any) -> Iterator[Robot]:
     """A robot in the instant world whose page is served, in a conversation."""
     inbox = Inbox()
-    given = {"world": "fake", "llm": "none", "runs": runs, "answer_timeout_s": 3600.0, **settings}
+    given = {
+        "world": "fake",
+        "llm": "none",
+        "search": "paper",
+        "runs": runs,
+        "answer_timeout_s": 3600.0,
+        **settings,
+    }
     with Page(inbox, Address(port=0), token=TOKEN) as page:
         made = Robot(page)
 

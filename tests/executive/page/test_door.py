@@ -16,7 +16,8 @@ from paging import heard, post
 @contextmanager
 def begun(runs: Path, *words: str) -> Iterator[tuple["subprocess.Popen[str]", Any, dict[str, Any]]]:
     """The program, its page, and the token to use it with."""
-    options = ["--world", "fake", "--llm", "none", "--runs", str(runs), "--page", "0"]
+    paper = ["--world", "fake", "--llm", "none", "--search", "paper"]
+    options = [*paper, "--runs", str(runs), "--page", "0"]
     with subprocess.Popen(
         [sys.executable, "-m", "executive", *words, *options],
         stdout=subprocess.PIPE,
@@ -39,7 +40,7 @@ def test_a_conversation_by_page_ends_as_one_at_the_terminal(tmp_path: Path) -> N
         heard(page, "doing", state="ready", **token)
         post(page, "/say", {"words": "quit"}, **token)
         printed, _ = process.communicate(timeout=60)
-    assert printed.startswith("done: The peach is at high_table.")
+    assert printed.startswith("done: The peach is on the high table in the kitchen.")
     assert process.returncode == 0
 
 
