@@ -85,10 +85,21 @@ function sentenceOf(state) {
 }
 
 function showQuestion(question = null) {
-  const had = showAnswers(question, board.things ?? {}, board.home, say);
-  offerPlaces(say, (piece) => mayBe(question, piece));
+  const answer = once();
+  const had = showAnswers(question, board.things ?? {}, board.home, answer);
+  offerPlaces(answer, (piece) => mayBe(question, piece));
   if (had && !question) focusWords();
   conversation.toEnd();
+}
+
+/** Says one thing: a second tap would answer a question that was not asked yet. */
+function once() {
+  let underWay = false;
+  return async (said) => {
+    if (underWay) return;
+    underWay = true;
+    underWay = await say(said);
+  };
 }
 
 function suggest() {

@@ -15,7 +15,7 @@ from executive.page.page import Page
 
 pytestmark = pytest.mark.browser
 
-BROUGHT = "Here is the peach from high_table."
+BROUGHT = "Here is the peach from the high table."
 
 
 def test_a_whole_mission_by_the_page(browser: Browser, talking: Robot) -> None:
@@ -49,7 +49,7 @@ def test_a_place_may_be_chosen_on_the_map(browser: Browser, talking: Robot) -> N
         wait_until_ready(tab)
         say(tab, "Find the peach")
         tab.locator("#map .choice", has_text="high table").locator("rect").click()
-        wait_until_ready(tab)
+        expect(tab.locator("#last")).to_have_text("Last time: done.")
     assert talking.outcomes[0].location == "high_table"
 
 
