@@ -15,7 +15,10 @@ import pytest
 from executive.replay.replaying import replay
 
 DOORS = ("executive", "executive.campaign", "kb", "logs", "sim", "trees", "kb.benchmark")
-ROBOT = [sys.executable, "-m", "executive", "--world", "fake", "--llm", "none"]
+ROBOT = [
+    *(sys.executable, "-m", "executive"),
+    *("--world", "fake", "--llm", "none", "--search", "paper"),
+]
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT]
 
 
@@ -42,7 +45,7 @@ def test_a_signal_during_imports_ends_a_program_without_a_traceback(
     door: str, number: signal.Signals, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     slow = f"import os, time\nos.kill(os.getpid(), {number:d})\ntime.sleep(20)\n"
-    (tmp_path / "numpy.py").write_text(slow)
+    (tmp_path / "argparse.py").write_text(slow)  # every door imports it
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.getenv('PYTHONPATH', '')}")
     ended = subprocess.run([sys.executable, "-m", door], capture_output=True, text=True, timeout=15)
     assert (ended.returncode, ended.stderr) == (130, "")

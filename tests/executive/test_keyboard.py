@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-ROBOT = [sys.executable, "-m", "executive", "--world", "fake", "--llm", "none"]
+ROBOT = [sys.executable, "-m", "executive", "--world", "fake", "--llm", "none", "--search", "paper"]
 ASKED = "quit ends the session"
 PROMPT = "> "
 LONG_S = 60

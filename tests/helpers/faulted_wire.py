@@ -101,7 +101,7 @@ class _Mission:
         body = self.there.body
         if outcome.status == MissionStatus.DONE and outcome.object is not None:
             truth = whereabouts(outcome.object, body.world)
-            if not completed(outcome, truth) and not _says_so(outcome, truth):
+            if not completed(outcome, lambda _: truth) and not _says_so(outcome, truth):
                 self.wrong.append(f"it says {outcome.reason!r}, and the thing is at {truth!r}")
         self.wire.mischief = Mischief()
         latest = time.monotonic() + RECONNECTED_S + NOISE_S
