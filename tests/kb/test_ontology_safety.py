@@ -322,6 +322,6 @@ def test_a_question_that_takes_too_long_is_given_up(monkeypatch, capsys):
 
 def test_a_mission_says_what_is_not_loaded_and_goes_on(guest, capsys, caplog):
     file = rdf(guest, ABOUT.format('<owl:imports rdf:resource="http://far.example/x.owl"/>'))
-    assert mission([*QUICK, "--kb", str(file), "Find a sugar_box"]) == 1
+    assert mission([*QUICK, "--search", "paper", "--kb", str(file), "Find a sugar_box"]) == 1
     assert "guest.owl imports http://far.example/x.owl, which is not loaded" in caplog.text
     assert "sugar box" in capsys.readouterr().out
