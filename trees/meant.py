@@ -1,7 +1,5 @@
 """Which things and places words mean, as far as nobody has to be asked."""
 
-from collections.abc import Sequence
-
 from executive.interfaces import Knowledge
 from executive.situation import Situation
 from executive.types import PERSON, Command
@@ -31,8 +29,3 @@ def robot_at(situation: Situation) -> str:
     if not situation.dialogue.away:
         return PERSON
     return situation.hand.put_at or next(reversed(situation.search.looks.visited), PERSON)
-
-
-def listed(names: Sequence[str]) -> str:
-    """All of the names: "apple, pear and mug"."""
-    return " and ".join((", ".join(names[:-1]), names[-1])) if len(names) > 1 else "".join(names)

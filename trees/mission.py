@@ -1,12 +1,12 @@
 """The mission: from words to a deed, and to an honest word when it cannot be done.
 
 understand ─> which object ─> search ──────────────────> grasp ───────────> act ─────> report
-grammar       ontology        where the words say       pick it up         find, take,
-else LLM,     else person     else memory: where it was else look again    bring, put
-confirmed     named places    else ontology: its one    if gone, search    or put back;
-  │           else ask        place; else LLM, verified again              no room there:
-  │           hand is free    else person; visit, look;                    other furniture
-  │           else put down   not seen: ask the person                     else person
+grammar       ontology        where the words say;      pick it up         find, take,
+else LLM,     else person     else by one belief of     else look again    bring, put
+confirmed     named places    memory, ontology, LLM     if gone, search    or put back;
+  │           else ask        (verified) and person:    again              no room there:
+  │           hand is free    look or ask, what costs                      other furniture
+  │           else put away   less (or by the paper's)                     else person
   ├─> several things, one of several, on a condition: in parts, each a task of its own
   └─> put down what is held, go somewhere, clear furniture, or answer by looking around
 

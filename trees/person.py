@@ -81,16 +81,16 @@ class Ask(Action):
             return self._no_help("you could not tell me")
         if not unread and self.understood(result.text):
             return self.succeed(result.text)
-        self._attended = not unread and self._attend_to(result.text)
+        self._attended = not unread and self._attend_to(said, result.text)
         if self.situation.agenda.interrupts:
             return Status.RUNNING  # until the tree gives it up, in this tick
         if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
 
-    def _attend_to(self, words: str) -> bool:
+    def _attend_to(self, said: Said, words: str) -> bool:
         """Answer what is no answer: a further wish, a correction, a question."""
-        if isinstance(self.context.interpreter.read(words), Answer | Unread):
+        if isinstance(said, Answer | Unread):
             return False
         tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
         return True
@@ -320,10 +320,8 @@ class Announce(Step):
         """Say it."""
         candidates = self.situation.search.candidates
         name, say = self.situation.request.object or "", self.context.say
-        ours = SAYS_OF_SEVERAL if say.agree(name, "", "are") else SAYS
-        says = {**ours, **{source.name: source.says for source in self.context.sources}}
         places = ", then ".join(say.at_each(candidate.place for candidate in candidates))
-        why = printable(says.get(candidates[0].source, f"so says the {candidates[0].source}"))
+        why = who_says(self.context, candidates[0].source)
         tell(self.context, f"I look for {say.the(name)} {places}: {why}.")
         return self.succeed(", then ".join(candidate.place for candidate in candidates))
 
@@ -378,6 +376,17 @@ class Apologise(Step):
         why = self.situation.request.remark or f"Sorry: {self.situation.ending.why}"
         tell(self.context, sentence(why))
         return self.succeed(self.situation.ending.why)
+
+
+def who_says(context: MissionContext, source: str, **others: tuple[str, str]) -> str:
+    """Who says where the thing is, as a clause; `others` say it of one thing, and of several."""
+    name, say = context.situation.request.object or "", context.say
+    says = {
+        **(SAYS_OF_SEVERAL if say.agree(name, "", "are") else SAYS),
+        **{who: say.agree(name, *clauses) for who, clauses in others.items()},
+        **{own.name: own.says for own in context.sources},
+    }
+    return printable(says.get(source, f"so says the {source}"))
 
 
 def without_exceptions(context: MissionContext, names: tuple[str, ...]) -> tuple[str, ...]:

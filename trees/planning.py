@@ -9,13 +9,11 @@ from py_trees.common import Status
 from executive.belief import ANYWHERE, PLAN, Belief, Likely, Statement, in_order
 from executive.plan import Chance, Plan, Prices, best_plan
 from executive.records import Planned, WaysTold
-from executive.replies import SAYS, SAYS_OF_SEVERAL
-from executive.text import printable
 from executive.types import PERSON, Candidate, Source
 from trees.context import MissionContext
 from trees.hearing import PERSON_TRUST, believed
 from trees.nodes import Step
-from trees.person import AskWhere
+from trees.person import AskWhere, who_says
 from trees.telling import tell
 
 MOST_PLANNED = 60
@@ -182,11 +180,8 @@ class TellWhere(Step):
 
     def _tell(self, places: tuple[str, ...], source: str) -> None:
         name, say = self.situation.request.object or "", self.context.say
-        own = {source.name: source.says for source in self.context.sources}
-        ours = SAYS_OF_SEVERAL if say.agree(name, "", "are") else SAYS
-        says = {**ours, ANYWHERE: say.agree(name, *NOBODY_SAYS), **own}
-        if self.situation.search.default_locations:
-            says[Source.ONTOLOGY] = say.agree(name, *USUALLY)
-        why = printable(says.get(source, f"so says the {source}"))
+        usually = self.situation.search.default_locations
+        others = {ANYWHERE: NOBODY_SAYS} | ({Source.ONTOLOGY: USUALLY} if usually else {})
+        why = who_says(self.context, source, **others)
         where = ", then ".join(say.at_each(places))
         tell(self.context, f"I look for {say.the(name)} {where}: {why}.")

@@ -6,12 +6,12 @@ import numpy as np
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.language.wording import Wording
+from executive.language.wording import Wording, listed
 from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Detection, Result, Saw, Source
 from trees.context import MissionContext
-from trees.meant import listed, robot_at, things_meant
+from trees.meant import robot_at, things_meant
 from trees.nodes import EachOf, Optionally, Step, sequence
 from trees.person import is_place, places_in
 from trees.robot import LookAtCandidate, SeeTarget, Visit

@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 
+from executive.language.wording import listed
 from executive.situation import Whole
 from executive.types import Command, CommandKind, MissionStatus, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds import deed_of
-from trees.meant import listed
 from trees.telling import tell
 
 NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")

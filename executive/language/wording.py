@@ -89,7 +89,16 @@ class Wording:
 
 def either(words: Sequence[str]) -> str:
     """One of these: "apple, pear or mug"."""
-    return " or ".join((", ".join(words[:-1]), words[-1])) if len(words) > 1 else "".join(words)
+    return _joined(words, "or")
+
+
+def listed(words: Sequence[str]) -> str:
+    """All of these: "apple, pear and mug"."""
+    return _joined(words, "and")
+
+
+def _joined(words: Sequence[str], last: str) -> str:
+    return f" {last} ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
 def as_said(text: str, words: str) -> str:
