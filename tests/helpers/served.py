@@ -8,8 +8,9 @@ import subprocess
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import count
 from typing import Any, Self
 
@@ -20,7 +21,8 @@ from executive.testing.bench import four_rooms
 from sim.served.serving import Plan, build
 from sim.served.simulation import Simulation
 
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
+ANSWERS = ("service_response", "action_result")
 ZERO = {"goal_id": {"uuid": [0] * 16}, "stamp": {"sec": 0, "nanosec": 0}}
 """What means all goals."""
 TYPES = {
@@ -67,6 +69,7 @@ class Raw:
         self._connecting = connect(address, max_size=2**25, **how)
         self._numbers = count()
         self.heard: list[dict[str, Any]] = []
+        self._answers: list[dict[str, Any]] = []
 
     def __enter__(self) -> Self:
         self._socket = self._connecting.__enter__()
@@ -93,13 +96,23 @@ class Raw:
         return dict(said)
 
     def hear_of(self, op: str, **fields: Any) -> dict[str, Any]:
-        """The next that is so; what comes before it stays in `heard`."""
-        until = time.monotonic() + PATIENCE_S
-        while time.monotonic() < until:
-            said = self.hear()
-            if said["op"] == op and all(said.get(name) == v for name, v in fields.items()):
+        """The next that is so; what comes before it stays in `heard`.
+
+        Answers and ends may have come while something else was waited for: they count, too.
+        """
+        for said in self._answers:
+            if _is(said, op, fields):
+                self._answers.remove(said)
                 return said
-        raise AssertionError(f"no {op} came, only {[one['op'] for one in self.heard][-20:]}")
+        until = time.monotonic() + PATIENCE_S
+        while (left := until - time.monotonic()) > 0:
+            with suppress(TimeoutError):
+                if _is(said := self.hear(left), op, fields):
+                    return said
+                if said["op"] in ANSWERS:
+                    self._answers.append(said)
+        came = Counter(one["op"] for one in self.heard)
+        raise AssertionError(f"no {op} with {fields} came in {PATIENCE_S} s, only {came}")
 
     def hears_nothing(self, for_s: float = 0.3) -> bool:
         """Whether it is quiet for so long."""
@@ -137,6 +150,10 @@ class Raw:
     def do(self, action: str, goal: dict[str, Any]) -> dict[str, Any]:
         """Send a goal and wait for its end."""
         return self.end_of(self.pursue(action, goal))
+
+
+def _is(said: dict[str, Any], op: str, fields: dict[str, Any]) -> bool:
+    return said["op"] == op and all(said.get(name) == v for name, v in fields.items())
 
 
 def pose_goal(x: float, y: float, yaw: float = 0.0, frame: str = "map") -> dict[str, Any]:

@@ -61,9 +61,17 @@ def test_a_picture_is_of_that_moment_in_color_and_depth(client: Raw) -> None:
     assert 0.3 < np.median(metres[np.isfinite(metres)]) < 5.0
 
 
-def test_it_stops_within_half_a_second_of_its_time(client: Raw) -> None:
+@pytest.fixture
+def unhurried() -> Iterator[Raw]:
+    """So slow that a drive is heard of while it lasts, however busy the machine is."""
+    with served(world="physics", speed=3.0) as robot, Raw(robot) as raw:
+        yield raw
+
+
+def test_it_stops_within_half_a_second_of_its_time(unhurried: Raw) -> None:
+    client = unhurried
     client.subscribe("/odom")
-    id = client.pursue(DRIVE, place_goal("person"))
+    id = client.pursue(DRIVE, place_goal("desk"))
     while client.hear_of("publish")["msg"]["twist"]["twist"]["linear"]["x"] < 0.3:
         pass
     told = client.told(f"{DRIVE}/_action/cancel_goal", goal_info=ZERO)
