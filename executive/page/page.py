@@ -84,6 +84,10 @@ class Page:
         """The person sent words."""
         self.person.says(words)
 
+    def answers(self, words: str, question: int) -> bool:
+        """The person chose an answer of this question; False if that is over."""
+        return self.person.answers(words, question)
+
     def stops(self) -> None:
         """The person pressed the stop button."""
         self.person.stops()

@@ -60,7 +60,9 @@ class PagePerson(Console):
         self._before = self._session.folder if self._session else None
         self._question = None
         request = super().listen()
-        self._board.put("doing", {"state": "ready"})
+        with self._lock:
+            if self._is_idle:  # or it was answered already
+                self._board.put("doing", {"state": "ready"})
         self._board.flush()
         return request
 
@@ -80,6 +82,20 @@ class PagePerson(Console):
             return
         self._board.say({"who": "person", "text": line[:LONGEST], "at": time.time()})
         self._typing.put(words)
+
+    def answers(self, words: str, question: int) -> bool:
+        """They chose an answer of this question; False if it does not wait for one any more.
+
+        So what was chosen a moment too late never answers the next question, unseen.
+        """
+        with self._lock:
+            if self._question is None or self._request is None or self._request != question:
+                return False
+            line = one_line(writable(words))[: LONGEST + 1]
+            self._board.say({"who": "person", "text": line[:LONGEST], "at": time.time()})
+            self._lines.append(line)
+            self._serve()
+            return True
 
     def stops(self) -> None:
         """They pressed the stop button: nothing has to be read first."""
@@ -103,19 +119,23 @@ class PagePerson(Console):
 
     def _serve(self) -> None:
         """Give the oldest line to whoever waits, and show who does; the lock is held."""
+        if self._is_idle and self._lines:
+            self._board.put("doing", {"state": "busy"})
         super()._serve()
         self._show_question()
         self._board.flush()
 
     def _show_question(self) -> None:
         """Show the question as long as an answer would be taken for one; the lock is held."""
-        waits = self._question if self._request is not None else None
-        self._board.put("question", shown(waits) if waits else None)
+        asked, request = self._question, self._request
+        waits = asked is not None and request is not None
+        self._board.put("question", shown(asked, request) if waits else None)
 
 
-def shown(question: Question) -> dict[str, Any]:
+def shown(question: Question, number: int) -> dict[str, Any]:
     """A question as the page has it."""
     return {
+        "id": number,
         "kind": question.kind,
         "about": question.about,
         "text": question.text,

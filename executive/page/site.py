@@ -5,7 +5,7 @@ import json
 from collections.abc import AsyncIterator, Awaitable, Callable
 from importlib.resources import files
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
@@ -47,6 +47,10 @@ class Behind(Protocol):
 
     def says(self, words: str) -> None:
         """The person sent words."""
+        ...
+
+    def answers(self, words: str, question: int) -> bool:
+        """The person chose an answer of this question; False if that is over."""
         ...
 
     def stops(self) -> None:
@@ -111,10 +115,14 @@ class _Answers:
         return StreamingResponse(news(board, known), media_type="text/event-stream")
 
     async def say(self, request: Request) -> Response:
-        words = await _words(request)
-        if words is None:
+        sent = await _sent(request)
+        words, question = sent.get("words"), sent.get("question")
+        if not isinstance(words, str):
             return PlainTextResponse("This is too long, or no text.", 413)
-        self._behind.says(words)
+        if not isinstance(question, int):
+            self._behind.says(words)
+        elif not self._behind.answers(words, question):
+            return PlainTextResponse("This question is over.", 409)
         return JSONResponse({})
 
     async def stop(self, request: Request) -> Response:
@@ -145,18 +153,18 @@ def _picture(content: bytes | None, kind: str) -> Response:
     return Response(content, media_type=kind)
 
 
-async def _words(request: Request) -> str | None:
-    """What the person sent, as JSON: {"words": ...}; None if it is too long, or something else."""
+async def _sent(request: Request) -> dict[str, Any]:
+    """What the person sent, as a JSON object; an empty one if it is too long, or something else."""
     content = b""
     async for part in request.stream():
         content += part
         if len(content) > MOST_BYTES:
-            return None
+            return {}
     try:
-        words = json.loads(content)["words"]
-    except (ValueError, LookupError, TypeError, RecursionError):
-        return None
-    return words if isinstance(words, str) else None
+        sent = json.loads(content)
+    except (ValueError, RecursionError):
+        return {}
+    return sent if isinstance(sent, dict) else {}
 
 
 def _known(board: Board, last: str) -> int:

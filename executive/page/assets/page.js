@@ -4,7 +4,7 @@ import { mayBe, showAnswers, showSuggestions } from "./answers.js";
 import { showCamera } from "./camera.js";
 import * as conversation from "./conversation.js";
 import { offerPlaces, showHome, showPlaces, showRobot, showWay } from "./home.js";
-import { follow, say as send, stop as sendStop } from "./robot.js";
+import { OVER, answer, follow, say as send, stop as sendStop } from "./robot.js";
 import { load, spoken, text, textOr } from "./texts.js";
 
 const doing = document.getElementById("doing");
@@ -16,7 +16,10 @@ const words = document.getElementById("words");
 const stopButton = document.getElementById("stop");
 const troubles = new Map();
 const LONGEST = 1000;
+const TWO_TAPS_MS = 400;
 let board = {};
+let chosenAt = -TWO_TAPS_MS;
+let showing = 0;
 let stopping = false;
 
 const show = {
@@ -84,22 +87,33 @@ function sentenceOf(state) {
   return textOr(`doing.${activity}`, "") && text(`doing.${activity}`, values) || text("doing.other", values);
 }
 
+/** A question right after an answer waits a moment: the second tap of two is no answer to it. */
 function showQuestion(question = null) {
-  const answer = once();
-  const had = showAnswers(question, board.things ?? {}, board.home, answer);
-  offerPlaces(answer, (piece) => mayBe(question, piece));
+  clearTimeout(showing);
+  const wait = question ? chosenAt + TWO_TAPS_MS - performance.now() : 0;
+  if (wait > 0) showing = setTimeout(() => offer(board.question), wait);
+  else offer(question);
+}
+
+function offer(question) {
+  const choose = (said) => chosen(said, question);
+  const had = showAnswers(question, board.things ?? {}, board.home, choose);
+  offerPlaces(choose, (piece) => mayBe(question, piece));
   if (had && !question) focusWords();
   conversation.toEnd();
 }
 
-/** Says one thing: a second tap would answer a question that was not asked yet. */
-function once() {
-  let underWay = false;
-  return async (said) => {
-    if (underWay) return;
-    underWay = true;
-    underWay = await say(said);
-  };
+/** What can be chosen is taken away at once; it comes back if the choice did not reach the robot. */
+async function chosen(said, question) {
+  chosenAt = performance.now();
+  offer(null);
+  try {
+    await answer(said, question.id);
+    setTrouble("say", "");
+  } catch (error) {
+    setTrouble("say", text(error === OVER ? "too_late" : "not_chosen", { text: said }));
+    if (error !== OVER) showQuestion(board.question);
+  }
 }
 
 function suggest() {

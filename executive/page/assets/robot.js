@@ -3,6 +3,7 @@
 const token = new URLSearchParams(location.search).get("token") ?? "";
 const AGAIN_MS = 1500;
 const STOP_AGAIN_MS = 400;
+export const OVER = new Error("over");
 
 export function address(path, values = {}) {
   return `${path}?${new URLSearchParams({ ...values, token })}`;
@@ -44,11 +45,16 @@ async function send(path, body) {
     headers: { "content-type": "application/json" },
     body: JSON.stringify(body),
   });
-  if (!answer.ok) throw new Error(answer.status);
+  if (!answer.ok) throw answer.status === 409 ? OVER : new Error(answer.status);
 }
 
 export function say(words) {
   return send("/say", { words });
+}
+
+/** Answers the question with this number, and no other; throws OVER if it is over. */
+export function answer(words, question) {
+  return send("/say", { words, question });
 }
 
 /** Stop, until it has reached the robot; `lost` is called each time that it has not. */

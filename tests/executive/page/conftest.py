@@ -1,4 +1,8 @@
-"""One browser for all tests of the page, and a robot to each."""
+"""A browser for the tests of a file, and a robot to each.
+
+The browser is driven by an event loop in the thread of the tests: it has to end with the file, so
+that other tests may run a loop of their own.
+"""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,7 +13,7 @@ from paging import Robot, robot
 from playwright.sync_api import Browser
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     with chromium() as browser:
         yield browser

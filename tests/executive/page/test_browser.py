@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 from browsing import answer, opened, said, say, wait_until_ready
-from paging import TOKEN, Robot, robot
-from playwright.sync_api import Browser, expect
+from paging import TOKEN, Robot, heard, robot
+from playwright.sync_api import Browser, Route, expect
 
 from executive.events import Inbox
 from executive.page.address import Address
@@ -31,6 +31,38 @@ def test_a_whole_mission_by_the_page(browser: Browser, talking: Robot) -> None:
         expect(tab.locator("#places tr.found")).to_contain_text("high table")
         expect(tab.locator("#places tr.empty")).to_contain_text("sofa")
     assert [outcome.status for outcome in talking.outcomes] == ["done"]
+
+
+def test_what_was_chosen_from_is_gone_at_once_and_two_taps_are_one(
+    browser: Browser, talking: Robot
+) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find a fruit")
+        answer(tab, "peach").evaluate(
+            "button => { button.click(); window.left = answers.children.length; }"
+        )
+        assert tab.evaluate("window.left") == 0
+        expect(answer(tab, "high table")).to_be_visible()
+        answer(tab, "sofa").dblclick()
+        expect(tab.locator("#said .person", has_text="sofa")).to_have_count(1)
+
+
+def test_a_choice_that_came_too_late_is_told(browser: Browser, talking: Robot) -> None:
+    def meanwhile(route: Route) -> None:
+        """On another page they were faster."""
+        talking.page.says("peach")
+        heard(talking.page, "question", kind="where_is")
+        route.continue_()
+
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find a fruit")
+        expect(answer(tab, "banana")).to_be_visible()
+        tab.route("**/say*", meanwhile)
+        answer(tab, "banana").click()
+        expect(tab.get_by_role("alert")).to_contain_text("came when its question was over")
+        expect(answer(tab, "high table")).to_be_visible()
 
 
 def test_things_to_choose_from_are_shown_in_pictures(browser: Browser, talking: Robot) -> None:

@@ -10,6 +10,9 @@ from pathlib import Path
 import pytest
 from paging import Robot, ask, heard, page_alone, post, robot, told
 
+from executive.events import Inbox
+from executive.page.board import Board
+from executive.page.person import PagePerson
 from executive.page.site import MOST_BYTES
 
 
@@ -30,6 +33,24 @@ def test_a_command_is_carried_out_and_its_answers_are_taken(talking: Robot) -> N
     assert heard(talking.page, "outcome")["status"] == "done"
     heard(talking.page, "doing", state="ready")
     assert talking.outcomes[0].object == "peach"
+
+
+def test_what_is_chosen_answers_its_own_question_and_no_other(talking: Robot) -> None:
+    post(talking.page, "/say", {"words": "Find a fruit"})
+    first = heard(talking.page, "question", kind="which_object")["id"]
+    assert post(talking.page, "/say", {"words": "peach", "question": first}) == 200
+    second = heard(talking.page, "question", kind="where_is")["id"]
+    assert post(talking.page, "/say", {"words": "sofa", "question": first}) == 409
+    assert heard(talking.page, "question")["id"] == second
+    assert not any("sofa" in one.json for one in talking.page.board.since(0) if one.name == "said")
+
+
+def test_who_is_listened_to_is_busy_as_soon_as_they_spoke() -> None:
+    person = PagePerson(inbox := Inbox(), board := Board())
+    person.listen()
+    person.says("Find a fruit")
+    assert inbox.wait(20)
+    assert {one.name: json.loads(one.json) for one in board.since(0)}["doing"] == {"state": "busy"}
 
 
 def test_the_stop_button_stops_a_mission_and_no_more(talking: Robot) -> None:
@@ -53,10 +74,8 @@ def test_each_sentence_in_a_mission_says_why(tmp_path: Path) -> None:
         post(made.page, "/say", {"words": "Find a fruit"})
         heard(made.page, "question")
         said = heard(made.page, "said", who="robot")
-        chain: list[dict[str, object]] = []
-        while not chain:  # until it is on disk
-            answer = ask(made.page, "/why", run=said["run"], time_s=said["time_s"])
-            chain = json.loads(answer.body) if answer.status == 200 else []
+        answer = ask(made.page, "/why", run=said["run"], time_s=said["time_s"])
+        chain = json.loads(answer.body)
     assert chain[0]["question"] == "known object"
     assert chain[-1] == {
         "time_s": 0.0,
