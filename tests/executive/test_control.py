@@ -145,9 +145,9 @@ def test_the_longest_line_is_read_in_no_time(reader, piece: str) -> None:
     line = f"find {piece * LONGEST}"[:LONGEST]
     took_s = []
     for _ in range(5):
-        began = time.perf_counter()
+        began = time.thread_time()
         reader(line)
-        took_s.append(time.perf_counter() - began)
+        took_s.append(time.thread_time() - began)
     assert min(took_s) < 0.02
 
 
