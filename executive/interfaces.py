@@ -385,6 +385,10 @@ class Interpreter(Protocol):
         """
         ...
 
+    def not_understood(self, words: str) -> str:
+        """Why nobody could read the words, as a clause: they are of another language, for one."""
+        ...
+
     def without_slips(self, words: str) -> Commands:
         """The tasks that the words are with the word for the deed spelled right; none if none."""
         ...

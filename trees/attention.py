@@ -54,7 +54,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
             return _add(context, commands_in(resolved(said, spoken), words), now)
     if correction and at_hand:
         return _correct(context, correction, at_hand, words, now)
-    return context.interpreter.remark(words) or f"I do not understand '{words}'. {now}"
+    why_not = context.interpreter.remark(words)
+    return why_not or f"{context.interpreter.not_understood(words)}. {now}"
 
 
 def spoken_now(situation: Situation) -> Spoken:

@@ -209,9 +209,7 @@ class NotUnderstood(Step):
         if remark := self.situation.request.remark:
             return self.fail(remark.removesuffix("."))
         self.situation.ending.status = MissionStatus.NOT_UNDERSTOOD
-        words = self.situation.request.words
-        said = f"'{words}'" if words.strip() else "what you said"
+        why = self.context.interpreter.not_understood(self.situation.request.words)
         return self.fail(
-            f"I do not understand {said}; "
-            'say for example "Find an apple", "Take the mug" or "Bring a sugar box"'
+            f'{why}; say for example "Find an apple", "Take the mug" or "Bring a sugar box"'
         )

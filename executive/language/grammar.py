@@ -22,8 +22,10 @@ class EnglishInterpreter:
 
     def __init__(self, names: Iterable[str] = ()) -> None:
         """Build what reads, which takes longest of all."""
+        names = tuple(names)
         odd = tuple(sorted({name for name in names if not _is_read(name)}))
         self._reader = english(odd) if odd else english()
+        self._known = frozenset(map(self._reader.plain, names))
 
     def read(self, words: str) -> Said:
         """What the words mean, as far as the grammar reads them."""
@@ -51,14 +53,28 @@ class EnglishInterpreter:
         """The tasks; or what to say; nothing to say if somebody else may read it."""
         read = commands_in(resolved(self._reader.read(words), spoken, holds=holds), words)
         denial = ""
-        if read is None:
-            denial = self._reader.denial(words)
-        elif isinstance(read, tuple):
-            names = chain.from_iterable(named_in(command) for group in read for command in group)
+        if isinstance(read, tuple):
+            names = [*chain.from_iterable(named_in(one) for group in read for one in group)]
             denial = next(filter(None, map(self._reader.denial_in_name, names)), "")
+            if self._is_other_language(words, names):
+                read = None
+        if read is None:
+            denial = denial or self._reader.denial(words)
         if denial:
             return f"I do nothing: I hear '{denial}', and do not understand the rest."
         return read
+
+    def _is_other_language(self, words: str, names: Iterable[str]) -> bool:
+        """Whether what was read as English is not, but for names that are known in any language."""
+        is_other = self._reader.is_other_language
+        return is_other(words) and any(is_other(n) for n in names if n and n not in self._known)
+
+    def not_understood(self, words: str) -> str:
+        """Why nobody could read the words, as a clause."""
+        said = f"'{words}'" if words.strip() else "what you said"
+        if self._reader.is_other_language(words):
+            return f"I speak only English, and do not understand {said}"
+        return f"I do not understand {said}"
 
     def talk(self, words: str, things: Sequence[str] = ()) -> str:
         """The answer to small talk, or to who asks for help; empty if it is neither."""
@@ -98,6 +114,8 @@ def named_in(command: Command) -> tuple[str, ...]:
 @cache
 def _is_read(name: str) -> bool:
     """Whether the grammar reads a name as one, without being told."""
+    if english().denial_in_name(name):
+        return False
     if not english().knows(name):
         return True
     match english().read(f"find {name}"):

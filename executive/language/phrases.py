@@ -3,6 +3,8 @@
 import re
 import unicodedata
 
+from executive.text import one_line
+
 Words = tuple[str, ...]
 """Stems, as `words_of` makes them."""
 
@@ -14,6 +16,15 @@ CLAUSE_ENDS = re.compile(r"[,;:.!?\n]|\b(?:or|and|then|but|maybe|perhaps)\b")
 NEGATION = re.compile(r"\b(?:not|no|never|nowhere|except|neither|nor|cannot)\b|n['’]t\b")
 """A clause with one of these names nothing."""
 _DETERMINERS = frozenset(("a", "an", "any", "my", "our", "some", "that", "the", "this", "your"))
+
+
+_APOSTROPHES = re.compile("[’‘`´ʼ′]")
+
+
+def plain_letters(text: str) -> str:
+    """One line in lower case; full-width letters are plain, and apostrophes of one kind."""
+    straight = _APOSTROPHES.sub("'", text)
+    return one_line(unicodedata.normalize("NFKC", straight)).lower()
 
 
 def words_of(text: str) -> Words:

@@ -12,11 +12,14 @@ from lark import Lark, UnexpectedInput
 from lark.exceptions import VisitError
 
 from executive.cache import cache_folder
+from executive.language import others
 from executive.language.building import Builder, Unfit
 from executive.language.meaning import Relation, Said, Unread
-from executive.text import LONGEST, one_line, too_long
+from executive.language.phrases import plain_letters
+from executive.text import LONGEST, too_long
 
 ASSETS = Path(__file__).parent / "assets"
+_PAUSES = re.compile(r"[.!?;:\"“”…)\]]+(?=\s|$|,)|(?<!\S)[-–—(\[\"“”]+")
 NOTHING = r"(?!)x"
 """A pattern that fits nothing."""
 
@@ -36,7 +39,7 @@ class Reader:
         """Words that ask for a deed."""
         self._short: dict[str, str] = words["short_forms"]
         self._short_form = re.compile(rf"\b(?:{_any_of(self._short)})(?!\w)")
-        self._endings: dict[str, str] = words["endings"]
+        self._spellings = [(re.compile(p), whole) for p, whole in words["spellings"]]
         self._denials = re.compile(rf"\b(?:{_any_of(words['denials'])})\b")
         self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
         self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
@@ -75,26 +78,34 @@ class Reader:
     def plain(self, words: str) -> str:
         """Lower case, one space between words, no punctuation but the comma, no short forms.
 
-        A full stop between sentences is a comma; what was no text is left out.
+        A full stop between sentences is a comma, and so are a dash and a bracket; what was no text
+        is left out.
         """
-        text = one_line(words[:LONGEST]).lower().replace("’", "'").replace("\ufffd", " ")
+        text = plain_letters(words[:LONGEST])[:LONGEST].replace("\ufffd", " ")
+        for spelling, whole in self._spellings:
+            text = spelling.sub(whole, text)
         text = self._short_form.sub(lambda match: self._short[match[0]], text)
-        for ending, whole in self._endings.items():
-            text = re.sub(rf"{ending}\b", whole, text)
-        text = re.sub(r"[.!?;:\"“”]+(?=\s|$)", ",", text)
+        text = _PAUSES.sub(",", text)
         text = re.sub(r"(?:\s*,)+(?!\S)\s*|(?:\s+,)+", ", ", text)
         return " ".join(text.split()).strip(", ")
 
     def denial(self, words: str) -> str:
         """A word among them that denies, or may; empty if there is none."""
-        apart = re.sub(r"[_\W]+", " ", self.plain(words))
+        plain = self.plain(words)
+        apart = re.sub(r"[_\W]+", " ", plain)
         found = self._denials.search(apart) or self._perhaps.search(apart)
-        return found[0] if found else ""
+        return found[0] if found else others.denial(plain)
 
     def denial_in_name(self, name: str) -> str:
         """A word in what was read as a name that denies; empty if there is none, or it is known."""
-        found = self._denials.search(name) if name not in self._names else None
-        return found[0] if found else ""
+        if name in self._names:
+            return ""
+        found = self._denials.search(name)
+        return found[0] if found else others.denial(name)
+
+    def is_other_language(self, words: str) -> bool:
+        """Whether the words are of a language that this is not, as far as that can be told."""
+        return others.is_other(self.plain(words), self.vocabulary)
 
     def declines(self, words: str) -> bool:
         """Whether there is something among them that people say who do not know."""

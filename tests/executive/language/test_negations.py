@@ -52,6 +52,23 @@ FORMS = (
     "{deed} {thing}, or rather not",
     "{deed} {thing} - no, don't",
     "{deed} {thing}? no",
+    "do n't {deed} {thing}",
+    "don t {deed} {thing}",
+    "don´t {deed} {thing}",
+    'don"t {deed} {thing}',
+    "you mustnt {deed} {thing}",
+    "you aint to {deed} {thing}",
+    "donot {deed} {thing}",
+    "dnt {deed} {thing}",
+    "nevr {deed} {thing}",
+    "d o n o t {deed} {thing}",
+    "do ｎｏｔ {deed} {thing}",
+    "quit holding {thing}",
+    "cease to {deed} {thing}",
+    "it is wrong to {deed} {thing}",
+    "steer clear of {thing}",
+    "let {thing} lie",
+    "{thing} may stay where it is",
 )
 EVERY = [f.format(deed=d, thing=t) for f, d, t in product(FORMS, DEEDS, THINGS)]
 read = EnglishInterpreter()
