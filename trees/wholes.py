@@ -1,9 +1,10 @@
 """A task that is done in parts: when it is settled, and what is told of it."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from executive.language.wording import listed
-from executive.situation import Whole
+from executive.situation import Task, Whole
 from executive.types import Command, CommandKind, MissionStatus, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds import deed_of
@@ -31,6 +32,14 @@ def settle(context: MissionContext) -> bool:
 def most(whole: Whole) -> int:
     """How many parts can be done: one hand takes one thing."""
     return 1 if whole.command.kind == CommandKind.TAKE else whole.wanted
+
+
+def left_to_do(context: MissionContext, tasks: Sequence[Task]) -> int:
+    """How many of the tasks that may come next are to be done: of parts, as many as are enough."""
+    wholes = context.situation.agenda.wholes
+    if not (wholes and tasks[0].depth == len(wholes)):
+        return len(tasks)
+    return min(most(wholes[-1]) - len(wholes[-1].done), len(tasks))
 
 
 def decide(context: MissionContext, whole: Whole) -> None:
