@@ -172,15 +172,14 @@ class GoalIsKnown(Step):
         return self.succeed(", ".join(self.situation.request.goals))
 
     def _beside(self, things: Sequence[str]) -> Status:
-        """Beside a thing is on the furniture where that most likely is; say which that is."""
-        known = [place for thing in things for place in likely_places(self.context, thing)]
-        if not known:
-            return self.fail(unknown(self.context))
+        """Beside a thing is on the furniture where that was last; say which that is."""
         say = self.context.say
-        thing = next(t for t in things if known[0] in likely_places(self.context, t))
-        tell(self.context, f"As far as I know, {say.are(thing)} {say.at(known[0])}.")
-        self.situation.request.goals = (known[0],)
-        return self.succeed(known[0])
+        for thing in things:
+            for place in known_at(self.context, thing):
+                tell(self.context, f"As far as I know, {say.are(thing)} {say.at(place)}.")
+                self.situation.request.goals = (place,)
+                return self.succeed(place)
+        return self.fail(unknown(self.context))
 
 
 class TakenFrom(Step):
@@ -299,10 +298,18 @@ def neighbours(context: MissionContext) -> tuple[str, ...]:
     return () if goes or thing == goal else context.knowledge.objects_named(thing)
 
 
-def likely_places(context: MissionContext, thing: str) -> tuple[str, ...]:
-    """Where a thing is believed to be, or else belongs."""
-    believed = (*context.facts.places_of(thing), *context.knowledge.usual_places(thing))
-    return tuple(p for p in believed if p == DELIVERY or context.knowledge.has_place(p))
+def known_at(context: MissionContext, thing: str) -> tuple[str, ...]:
+    """Where a thing is, as far as the robot remembers."""
+    known = context.facts.places_of(thing)
+    return tuple(p for p in known if p == DELIVERY or context.knowledge.has_place(p))
+
+
+def not_seen_yet(context: MissionContext) -> str:
+    """The words for what it is to be put beside, if that has to be found first; empty if not."""
+    things, hand = neighbours(context), context.situation.hand
+    if hand.in_hand in things or any(known_at(context, thing) for thing in things):
+        return ""
+    return goal_words(context).removeprefix(NEXT_TO) if things else ""
 
 
 def goals_in(context: MissionContext) -> tuple[str, ...]:

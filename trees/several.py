@@ -6,10 +6,11 @@ from dataclasses import replace
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import ALL, Command
+from executive.types import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.meant import things_meant
 from trees.nodes import Check, EachOf, Step, fallback, sequence
+from trees.places import not_seen_yet, taken_from
 from trees.survey import not_seen, nothing_there, survey
 from trees.unknown import nearest, unresolved
 from trees.wholes import without_condition
@@ -29,9 +30,7 @@ def several(context: MissionContext) -> Behaviour:
 
     return sequence(
         "several",
-        Check(
-            "several things", context, lambda: bool(request.command and request.command.is_plural)
-        ),
+        Check("several things", context, lambda: is_in_parts(context)),
         EachOf("if it is somewhere", somewhere, lambda _: None, survey(context)),
         fallback(
             "in parts",
@@ -41,8 +40,16 @@ def several(context: MissionContext) -> Behaviour:
     )
 
 
+def is_in_parts(context: MissionContext) -> bool:
+    """Whether the task at hand has to be done in parts."""
+    command = context.situation.request.command
+    return command is not None and (command.is_plural or bool(not_seen_yet(context)))
+
+
 class OnACondition(Step):
     """Succeeds if it is a deed on a condition; that is looked into first.
+
+    So it is with a thing beside which another one is to be put: it has to be found first.
 
     Reads request.command; writes agenda.wholes and agenda.tasks.
     """
@@ -51,6 +58,10 @@ class OnACondition(Step):
         """Without a place where to look first, trying to do it shows whether there is one."""
         command = self.situation.request.command
         assert command
+        if beside := not_seen_yet(self.context):
+            find = Command(CommandKind.FIND, beside, command.words)
+            command = replace(command, conditional=True, sought=find)
+            self.situation.request.command = command
         if not command.conditional:
             return Status.FAILURE
         first = command.sought or without_condition(command)
@@ -76,13 +87,19 @@ class EachThing(Step):
         elif command.among:
             parts = [part_of(command, name, command.source) for name in command.among]
         else:
-            parts = [part_of(command, n, "") for n in things_meant(self.context, command)]
+            parts = [part_of(command, name, "") for name in self._meant(command)]
         if not parts:
             near = nearest(self.context, command.target)
             return self.fail(unresolved(self.context, command.target, near))
         wanted = len(parts) if command.number == ALL else max(command.number, 1)
         self.situation.agenda.split(command, parts, min(wanted, len(parts)))
         return self.succeed(", ".join(part.target for part in parts))
+
+    def _meant(self, command: Command) -> Sequence[str]:
+        """All that the words mean; of what is to be put back, what was taken, if any of it was."""
+        names = things_meant(self.context, command)
+        taken = [name for name in names if taken_from(self.context, name)]
+        return taken if taken and command.kind == CommandKind.PUT_BACK else names
 
 
 def part_of(command: Command, name: str, place: str) -> Command:

@@ -214,10 +214,12 @@ def nothing_there(context: MissionContext) -> str:
 
 
 def lengths_of(seen: Detection) -> tuple[float, ...]:
-    """How long a thing is along its own axes, by its visible surface (m); empty if not located."""
-    if len(seen.points) < 3:
+    """How long a thing is along its own axes, by its visible surface (m); empty if not located.
+
+    A length is that of a bar whose points are spread as far: a square's is the same by any axes.
+    """
+    count = len(seen.points)
+    if count < 3:
         return ()
-    centred = seen.points - seen.points.mean(axis=0)
-    _, _, axes = np.linalg.svd(centred, full_matrices=False)
-    spans = np.ptp(centred @ axes.T, axis=0)
-    return tuple(sorted((float(span) for span in spans), reverse=True))
+    spread = np.linalg.svd(seen.points - seen.points.mean(axis=0), compute_uv=False)
+    return tuple(float(length) for length in spread * np.sqrt(12 / count))

@@ -55,7 +55,8 @@ class PutEachAway(Step):
         parts = []
         for name, here in found.items():
             usual = self.context.knowledge.usual_places(name)
-            goal = command.goal or " or ".join(place for place in usual if place != here)
+            elsewhere = (place for place in usual if place not in self.situation.survey.seen)
+            goal = command.goal or " or ".join(elsewhere)
             part = replace(command, kind=CommandKind.PUT, target=name, source=here, goal=goal)
             parts.append(replace(part, exceptions=(), purpose=""))
         self.situation.agenda.split(command, parts, len(parts))
