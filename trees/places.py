@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -77,6 +78,29 @@ def destination(context: MissionContext) -> Behaviour:
             ),
         ),
         AskWhereTo("ask where to", context),
+    )
+
+
+def destination_of_all(context: MissionContext) -> Behaviour:
+    """The same for several things, if it was said: asked once, and each of them goes there."""
+    request = context.situation.request
+
+    def goal() -> list[str]:
+        return [request.command.goal] if request.command and request.command.goal else []
+
+    return EachOf(
+        "if they go somewhere",
+        goal,
+        lambda _: None,
+        fallback(
+            "to where",
+            GoalIsKnown("the goal is known", context),
+            sequence(
+                "ask once",
+                AskWhereTo("ask where to", context),
+                EachGoesThere("each of them", context),
+            ),
+        ),
     )
 
 
@@ -239,7 +263,8 @@ class AskWhereTo(Ask):
         if options:
             text = f"Which {goal} do you mean: {say.any_of(options)}?"
             return Question(kind, about, text, options)
-        text = "Where shall I go?" if goes else f"Where shall I put {say.the(about)}?"
+        what = say.the(about) if about else "them"
+        text = "Where shall I go?" if goes else f"Where shall I put {what}?"
         if self._tries:
             text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         elif goal:
@@ -264,6 +289,20 @@ class AskWhereTo(Ask):
             goal = self.context.as_said(goal_words(self.context))
             return f"'{goal}' may be {self.context.say.any_of(options)}"
         return unknown(self.context)
+
+
+class EachGoesThere(Step):
+    """What was answered takes the place of the words that nobody knows.
+
+    Reads request.goals; writes request.command.
+    """
+
+    def update(self) -> Status:
+        """So nobody is asked for each thing anew."""
+        request = self.situation.request
+        assert request.command
+        request.command = replace(request.command, goal=" or ".join(request.goals))
+        return self.succeed(request.command.goal)
 
 
 def taken_from(context: MissionContext, name: str | None) -> tuple[str, ...]:

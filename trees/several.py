@@ -10,7 +10,7 @@ from executive.types import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.meant import things_meant
 from trees.nodes import Check, EachOf, Step, fallback, sequence
-from trees.places import not_seen_yet, taken_from
+from trees.places import destination_of_all, not_seen_yet, taken_from
 from trees.survey import not_seen, nothing_there, survey
 from trees.unknown import nearest, unresolved
 from trees.wholes import without_condition
@@ -19,23 +19,27 @@ from trees.wholes import without_condition
 def several(context: MissionContext) -> Behaviour:
     """A task with more than one thing -> the parts of it, on the agenda.
 
-    Where a place is named, the robot goes there to see which things there are.
+    Where they are to go has to be known before anything is done. Where a place is named that they
+    are at, the robot goes there to see which things there are.
     """
     request = context.situation.request
 
     def somewhere() -> Sequence[str]:
         command = request.command
-        named = command and command.source and not (command.conditional or command.among)
-        return [command.source] if command and named else []
+        return [command.source] if command and command.source and not command.among else []
 
     return sequence(
         "several",
         Check("several things", context, lambda: is_in_parts(context)),
-        EachOf("if it is somewhere", somewhere, lambda _: None, survey(context)),
         fallback(
             "in parts",
             OnACondition("on a condition", context),
-            EachThing("each thing", context),
+            sequence(
+                "each of them",
+                destination_of_all(context),
+                EachOf("if it is somewhere", somewhere, lambda _: None, survey(context)),
+                EachThing("each thing", context),
+            ),
         ),
     )
 

@@ -136,6 +136,15 @@ def test_which_is_the_largest_is_not_said_of_things_that_look_alike() -> None:
     assert alike.outcome.reason.endswith("I cannot tell by looking which is the largest")
 
 
+def test_where_all_of_them_are_to_go_is_asked_once_and_before_anything_is_done() -> None:
+    words = "Take all the fruit from the dining table to the moon"
+    asked = run(words, answers=["I don't know"])
+    assert (asked.outcome.status, asked.outcome.inquiries, asked.goals) == (NOT_DONE, 1, [])
+    told = run(words, answers=["on the sofa"])
+    assert (told.outcome.status, told.outcome.inquiries) == (DONE, 1)
+    assert on(told, "sofa") == {"apple", "banana", "strawberry"}
+
+
 def test_furniture_is_cleared_of_all_that_is_seen_on_it() -> None:
     table = run("Clear the coffee table")
     assert (table.outcome.status, on(table, "coffee_table")) == (DONE, set())

@@ -10,6 +10,7 @@ from executive.types import CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Step, fallback, sequence
+from trees.places import destination_of_all
 from trees.survey import not_seen, nothing_there, survey
 from trees.telling import tell
 
@@ -25,6 +26,7 @@ class Clear(Deed):
         yield sequence(
             "clear",
             asked_to(context, self.kind),
+            destination_of_all(context),
             survey(context),
             fallback(
                 "clear it",
