@@ -97,8 +97,8 @@ class MissionContext:
     The `sources` know where things are without looking; they are asked in this order, after memory.
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
     the delivery table has no room; `handiest` is all furniture, that where things are put down most
-    easily first. `distance` is how far apart two places are (metres). `pending` is what the
-    behaviours wait for: the loop that ticks them has to be given the same.
+    easily first. `pending` is what the behaviours wait for: the loop that ticks them has to be
+    given the same.
     """
 
     situation: Situation
@@ -117,7 +117,6 @@ class MissionContext:
     place_at: Callable[[Vector3], str | None] = lambda point: None
     near_person: tuple[str, ...] = ()
     handiest: tuple[str, ...] = ()
-    distance: Callable[[str, str], float] = lambda one, other: 0.0
     blind_to: tuple[str, ...] = ()
     has_arm: bool = True
     pending: Pending = field(default_factory=Pending)

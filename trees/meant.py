@@ -1,8 +1,7 @@
 """Which things and places words mean, as far as nobody has to be asked."""
 
 from executive.interfaces import Knowledge
-from executive.situation import Situation
-from executive.types import PERSON, Command
+from executive.types import Command
 from trees.context import MissionContext
 from trees.person import without_exceptions
 
@@ -21,11 +20,4 @@ def things_meant(context: MissionContext, command: Command) -> tuple[str, ...]:
         if command.among
         else meant(context.knowledge, command)
     )
-    return without_exceptions(context, tuple(dict.fromkeys(names)))
-
-
-def robot_at(situation: Situation) -> str:
-    """The place that the robot went to last, as far as this task tells; else the person."""
-    if not situation.dialogue.away:
-        return PERSON
-    return situation.hand.put_at or next(reversed(situation.search.looks.visited), PERSON)
+    return without_exceptions(context.knowledge, command, tuple(dict.fromkeys(names)))

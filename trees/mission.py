@@ -15,7 +15,6 @@ Of several tasks each goes through all of it (`trees/tasks.py`): none is lost by
 
 from py_trees.behaviour import Behaviour
 
-from executive.situation import Situation
 from executive.types import PERSON
 from trees.act import act, without_a_search
 from trees.by_plan import search
@@ -29,7 +28,7 @@ from trees.person import Apologise
 from trees.places import named_places
 from trees.robot import DriveBack
 from trees.search import eyes_for_it
-from trees.several import several
+from trees.several import is_in_parts, several
 from trees.tasks import EachTask
 from trees.understand import understand
 
@@ -39,7 +38,6 @@ def mission(context: MissionContext) -> Behaviour:
 
     It always ends in success; how the mission ended is in the situation.
     """
-    situation = context.situation
     return EachTask(
         "mission",
         context,
@@ -47,7 +45,7 @@ def mission(context: MissionContext) -> Behaviour:
             "serve",
             understand(context),
             *arm_for_it(context),
-            Check("about a thing to look for", context, lambda: is_about_one(situation)),
+            Check("about a thing to look for", context, lambda: is_about_one(context)),
             resolve_object(context),
             *eyes_for_it(context),
             named_places(context),
@@ -63,10 +61,9 @@ def mission(context: MissionContext) -> Behaviour:
     )
 
 
-def is_about_one(situation: Situation) -> bool:
+def is_about_one(context: MissionContext) -> bool:
     """Whether there is one thing to look for."""
-    assert situation.request.command
-    return meaning(situation).searches and not situation.request.command.is_plural
+    return meaning(context.situation).searches and not is_in_parts(context)
 
 
 def come_back(context: MissionContext) -> Behaviour:

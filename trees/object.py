@@ -123,7 +123,8 @@ class OntologyKnowsObject(Step):
         """Look the words up."""
         command = self.situation.request.command
         assert command
-        named = without_exceptions(self.context, meant(self.context.knowledge, command))
+        knowledge = self.context.knowledge
+        named = without_exceptions(knowledge, command, meant(knowledge, command))
         if len(named) == 1:
             self.situation.request.object = named[0]
             return self.succeed(named[0])

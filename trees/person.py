@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from py_trees.common import Status
 
+from executive.interfaces import Knowledge
 from executive.language.answers import named, picked
 from executive.language.meaning import Answer, Refusal, Request, Said, Unread
 from executive.language.wording import Wording
@@ -13,7 +14,7 @@ from executive.records import Activity, Utterance
 from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.situation import candidates_from
 from executive.text import printable, too_long
-from executive.types import DELIVERY, Answered, Question, QuestionKind, Result, Source
+from executive.types import DELIVERY, Answered, Command, Question, QuestionKind, Result, Source
 from trees.attention import attend_to
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
@@ -227,7 +228,8 @@ class AskWhichObject(Ask):
             meant = find(answer) or self._named(said)
         if options:
             meant = tuple(one for one in meant if one in options)
-        meant = without_exceptions(self.context, meant)
+        assert self.situation.request.command
+        meant = without_exceptions(self.context.knowledge, self.situation.request.command, meant)
         if len(meant) > 1:
             self.situation.request.options = meant
         elif meant:
@@ -389,14 +391,13 @@ def who_says(context: MissionContext, source: str, **others: tuple[str, str]) ->
     return printable(says.get(source, f"so says the {source}"))
 
 
-def without_exceptions(context: MissionContext, names: tuple[str, ...]) -> tuple[str, ...]:
+def without_exceptions(
+    knowledge: Knowledge, command: Command, names: tuple[str, ...]
+) -> tuple[str, ...]:
     """Those of the objects that the command does not leave out: "anything but a banana"."""
-    assert context.situation.request.command
-    exceptions = context.situation.request.command.exceptions
-    knowledge = context.knowledge
-    names_left_out = (name for but in exceptions for name in (but, *knowledge.names_in(but)))
-    left_out = {one for name in names_left_out for one in knowledge.objects_named(name)}
-    return tuple(name for name in names if name not in left_out)
+    left_out = (name for but in command.exceptions for name in (but, *knowledge.names_in(but)))
+    not_meant = {one for name in left_out for one in knowledge.objects_named(name)}
+    return tuple(name for name in names if name not in not_meant)
 
 
 def full_hand(held: str, say: Wording) -> str:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -77,6 +78,29 @@ def destination(context: MissionContext) -> Behaviour:
             ),
         ),
         AskWhereTo("ask where to", context),
+    )
+
+
+def destination_of_all(context: MissionContext) -> Behaviour:
+    """The same for several things, if it was said: asked once, and each of them goes there."""
+    request = context.situation.request
+
+    def goal() -> list[str]:
+        return [request.command.goal] if request.command and request.command.goal else []
+
+    return EachOf(
+        "if they go somewhere",
+        goal,
+        lambda _: None,
+        fallback(
+            "to where",
+            GoalIsKnown("the goal is known", context),
+            sequence(
+                "ask once",
+                AskWhereTo("ask where to", context),
+                EachGoesThere("each of them", context),
+            ),
+        ),
     )
 
 
@@ -172,15 +196,14 @@ class GoalIsKnown(Step):
         return self.succeed(", ".join(self.situation.request.goals))
 
     def _beside(self, things: Sequence[str]) -> Status:
-        """Beside a thing is on the furniture where that most likely is; say which that is."""
-        known = [place for thing in things for place in likely_places(self.context, thing)]
-        if not known:
-            return self.fail(unknown(self.context))
+        """Beside a thing is on the furniture where that was last; say which that is."""
         say = self.context.say
-        thing = next(t for t in things if known[0] in likely_places(self.context, t))
-        tell(self.context, f"As far as I know, {say.are(thing)} {say.at(known[0])}.")
-        self.situation.request.goals = (known[0],)
-        return self.succeed(known[0])
+        for thing in things:
+            for place in known_at(self.context, thing):
+                tell(self.context, f"As far as I know, {say.are(thing)} {say.at(place)}.")
+                self.situation.request.goals = (place,)
+                return self.succeed(place)
+        return self.fail(unknown(self.context))
 
 
 class TakenFrom(Step):
@@ -240,7 +263,8 @@ class AskWhereTo(Ask):
         if options:
             text = f"Which {goal} do you mean: {say.any_of(options)}?"
             return Question(kind, about, text, options)
-        text = "Where shall I go?" if goes else f"Where shall I put {say.the(about)}?"
+        what = say.the(about) if about else "them"
+        text = "Where shall I go?" if goes else f"Where shall I put {what}?"
         if self._tries:
             text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         elif goal:
@@ -265,6 +289,20 @@ class AskWhereTo(Ask):
             goal = self.context.as_said(goal_words(self.context))
             return f"'{goal}' may be {self.context.say.any_of(options)}"
         return unknown(self.context)
+
+
+class EachGoesThere(Step):
+    """What was answered takes the place of the words that nobody knows.
+
+    Reads request.goals; writes request.command.
+    """
+
+    def update(self) -> Status:
+        """So nobody is asked for each thing anew."""
+        request = self.situation.request
+        assert request.command
+        request.command = replace(request.command, goal=" or ".join(request.goals))
+        return self.succeed(request.command.goal)
 
 
 def taken_from(context: MissionContext, name: str | None) -> tuple[str, ...]:
@@ -299,10 +337,18 @@ def neighbours(context: MissionContext) -> tuple[str, ...]:
     return () if goes or thing == goal else context.knowledge.objects_named(thing)
 
 
-def likely_places(context: MissionContext, thing: str) -> tuple[str, ...]:
-    """Where a thing is believed to be, or else belongs."""
-    believed = (*context.facts.places_of(thing), *context.knowledge.usual_places(thing))
-    return tuple(p for p in believed if p == DELIVERY or context.knowledge.has_place(p))
+def known_at(context: MissionContext, thing: str) -> tuple[str, ...]:
+    """Where a thing is, as far as the robot remembers."""
+    known = context.facts.places_of(thing)
+    return tuple(p for p in known if p == DELIVERY or context.knowledge.has_place(p))
+
+
+def not_seen_yet(context: MissionContext) -> str:
+    """The words for what it is to be put beside, if that has to be found first; empty if not."""
+    things, hand = neighbours(context), context.situation.hand
+    if hand.in_hand in things or any(known_at(context, thing) for thing in things):
+        return ""
+    return goal_words(context).removeprefix(NEXT_TO) if things else ""
 
 
 def goals_in(context: MissionContext) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from py_trees.common import Status
 from executive.belief import ANYWHERE, PLAN, Belief, Likely, Statement, in_order
 from executive.plan import Chance, Plan, Prices, best_plan
 from executive.records import Planned, WaysTold
-from executive.types import PERSON, Candidate, Source
+from executive.types import Candidate, Source
 from trees.context import MissionContext
 from trees.hearing import PERSON_TRUST, believed
 from trees.nodes import Step
@@ -37,14 +37,19 @@ class Ways:
 
     def seconds(self, start: str, places: Iterable[str]) -> list[float]:
         """Of the ways from here, and of looking at all of each place (s)."""
-        told = self._told.setdefault(start, {})
         robot, look_s = self._context.robot, self._context.parameters.look_s
         wanted = tuple(places)
+        ways = self.driving(start, wanted)
+        return [way + look_s * robot.views(p) for p, way in zip(wanted, ways, strict=True)]
+
+    def driving(self, start: str, places: Iterable[str]) -> list[float]:
+        """Of the ways alone (s)."""
+        told, wanted = self._told.setdefault(start, {}), tuple(places)
         if new := tuple(place for place in wanted if place not in told):
-            told |= {place: robot.seconds(start, place) for place in new}
+            told |= {place: self._context.robot.seconds(start, place) for place in new}
             ways = tuple(told[p] if isfinite(told[p]) else -1.0 for p in new)
             self._context.recorder.record(WaysTold(start, new, ways))
-        return [told[place] + look_s * robot.views(place) for place in wanted]
+        return [told[place] for place in wanted]
 
 
 class PlanNext(Step):
@@ -87,16 +92,11 @@ class PlanNext(Step):
         helps = not (self.situation.dialogue.no_help or whereabouts.answered)
         return best_plan(
             [Chance(one.place, one.probability) for one in likely],
-            self._ways.seconds(self._here(), places),
+            self._ways.seconds(self.situation.dialogue.at, places),
             [self._ways.seconds(place, places) for place in places],
             Prices(parameters.question_s if helps else inf, parameters.visit_s),
             elsewhere=max(0.0, 1 - sum(one.probability for one in likely)),
         )
-
-    def _here(self) -> str:
-        """The place where the robot is, or was last."""
-        visited = self.situation.search.looks.visited
-        return visited[-1] if self.situation.dialogue.away and visited else PERSON
 
 
 def decision(plan: Plan, belief: Belief) -> str:

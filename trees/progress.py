@@ -13,6 +13,8 @@ def on_to_the_next(context: MissionContext) -> str:
     if at == 0:
         return ""
     there, before = say.the(places[at]), places[at - 1]
+    if before in context.situation.survey.found.values():
+        return f"On to {there}."
     if search.looks.all_without(before) and before not in search.looks.unreached:
         return f"Not here; on to {there}."
     name = context.situation.request.object or ""

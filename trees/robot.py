@@ -68,8 +68,8 @@ class BodyAction(Action):
 class RobotAction(BodyAction):
     """Pursues one goal of the robot.
 
-    Writes ending.restless, and hand.lost if it lost what it held; what failed goes to search.looks
-    or hand.unplaced.
+    Writes ending.restless, dialogue.at where it drove to, and hand.lost if it lost what it held;
+    what failed goes to search.looks or hand.unplaced.
     """
 
     searches = False
@@ -101,6 +101,8 @@ class RobotAction(BodyAction):
         """Succeed as the robot did; note if it lost what it held."""
         self.situation.ending.restless = not isinstance(result, Succeeded)
         if isinstance(result, Succeeded):
+            if isinstance(self._goal, DriveTo):
+                self.situation.dialogue.at = self._goal.place
             return Status.SUCCESS
         if isinstance(result, Failed) and result.lost:
             self.situation.hand.lost, self.situation.hand.in_hand = self.why(result), None

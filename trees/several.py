@@ -6,10 +6,11 @@ from dataclasses import replace
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import ALL, Command
+from executive.types import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.meant import things_meant
 from trees.nodes import Check, EachOf, Step, fallback, sequence
+from trees.places import destination_of_all, not_seen_yet, taken_from
 from trees.survey import not_seen, nothing_there, survey
 from trees.unknown import nearest, unresolved
 from trees.wholes import without_condition
@@ -18,31 +19,41 @@ from trees.wholes import without_condition
 def several(context: MissionContext) -> Behaviour:
     """A task with more than one thing -> the parts of it, on the agenda.
 
-    Where a place is named, the robot goes there to see which things there are.
+    Where they are to go has to be known before anything is done. Where a place is named that they
+    are at, the robot goes there to see which things there are.
     """
     request = context.situation.request
 
     def somewhere() -> Sequence[str]:
         command = request.command
-        named = command and command.source and not (command.conditional or command.among)
-        return [command.source] if command and named else []
+        return [command.source] if command and command.source and not command.among else []
 
     return sequence(
         "several",
-        Check(
-            "several things", context, lambda: bool(request.command and request.command.is_plural)
-        ),
-        EachOf("if it is somewhere", somewhere, lambda _: None, survey(context)),
+        Check("several things", context, lambda: is_in_parts(context)),
         fallback(
             "in parts",
             OnACondition("on a condition", context),
-            EachThing("each thing", context),
+            sequence(
+                "each of them",
+                destination_of_all(context),
+                EachOf("if it is somewhere", somewhere, lambda _: None, survey(context)),
+                EachThing("each thing", context),
+            ),
         ),
     )
 
 
+def is_in_parts(context: MissionContext) -> bool:
+    """Whether the task at hand has to be done in parts."""
+    command = context.situation.request.command
+    return command is not None and (command.is_plural or bool(not_seen_yet(context)))
+
+
 class OnACondition(Step):
     """Succeeds if it is a deed on a condition; that is looked into first.
+
+    So it is with a thing beside which another one is to be put: it has to be found first.
 
     Reads request.command; writes agenda.wholes and agenda.tasks.
     """
@@ -51,6 +62,10 @@ class OnACondition(Step):
         """Without a place where to look first, trying to do it shows whether there is one."""
         command = self.situation.request.command
         assert command
+        if beside := not_seen_yet(self.context):
+            find = Command(CommandKind.FIND, beside, command.words)
+            command = replace(command, conditional=True, sought=find)
+            self.situation.request.command = command
         if not command.conditional:
             return Status.FAILURE
         first = command.sought or without_condition(command)
@@ -76,13 +91,19 @@ class EachThing(Step):
         elif command.among:
             parts = [part_of(command, name, command.source) for name in command.among]
         else:
-            parts = [part_of(command, n, "") for n in things_meant(self.context, command)]
+            parts = [part_of(command, name, "") for name in self._meant(command)]
         if not parts:
             near = nearest(self.context, command.target)
             return self.fail(unresolved(self.context, command.target, near))
         wanted = len(parts) if command.number == ALL else max(command.number, 1)
         self.situation.agenda.split(command, parts, min(wanted, len(parts)))
         return self.succeed(", ".join(part.target for part in parts))
+
+    def _meant(self, command: Command) -> Sequence[str]:
+        """All that the words mean; of what is to be put back, what was taken, if any of it was."""
+        names = things_meant(self.context, command)
+        taken = [name for name in names if taken_from(self.context, name)]
+        return taken if taken and command.kind == CommandKind.PUT_BACK else names
 
 
 def part_of(command: Command, name: str, place: str) -> Command:

@@ -1,6 +1,7 @@
 """Look around at places: what is there? For questions, and for tasks with what is somewhere."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 from py_trees.behaviour import Behaviour
@@ -11,7 +12,8 @@ from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Detection, Result, Saw, Source
 from trees.context import MissionContext
-from trees.meant import robot_at, things_meant
+from trees.expected import seen_soonest, whereabouts
+from trees.meant import things_meant
 from trees.nodes import EachOf, Optionally, Step, sequence
 from trees.person import is_place, places_in
 from trees.robot import LookAtCandidate, SeeTarget, Visit
@@ -151,22 +153,15 @@ class KnowsWhereToLook(Step):
     source = Source.USER
 
     def update(self) -> Status:
-        """The likeliest first, of those the nearest."""
+        """In the order in which what is asked about is seen soonest."""
         context, command = self.context, self.situation.request.command
         assert command
         places = places_in(context, command.source) if command.source else ()
         if command.source and not (places and is_place(context, command.source)):
             return self.fail(f"I know no '{context.as_said(command.source)}'")
         everywhere = tuple(place.name for place in context.knowledge.places())
-        likely = [
-            place
-            for name in self.situation.survey.about or ()
-            for place in (*context.facts.places_of(name), *context.knowledge.usual_places(name))
-        ]
-        here = robot_at(self.situation)
-        order = sorted(
-            places or everywhere, key=lambda p: (p not in likely, context.distance(here, p))
-        )
+        anywhere = whereabouts(context, replace(command, source=""))
+        order = seen_soonest(context, [anywhere.of(place) for place in places or everywhere])
         self.situation.search.candidates = candidates_from(order, Source.USER)
         where = listed(context.say.at_each(order)) if places else "everywhere"
         tell(context, f"I look {where}.")
@@ -219,10 +214,12 @@ def nothing_there(context: MissionContext) -> str:
 
 
 def lengths_of(seen: Detection) -> tuple[float, ...]:
-    """How long a thing is along its own axes, by its visible surface (m); empty if not located."""
-    if len(seen.points) < 3:
+    """How long a thing is along its own axes, by its visible surface (m); empty if not located.
+
+    A length is that of a bar whose points are spread as far: a square's is the same by any axes.
+    """
+    count = len(seen.points)
+    if count < 3:
         return ()
-    centred = seen.points - seen.points.mean(axis=0)
-    _, _, axes = np.linalg.svd(centred, full_matrices=False)
-    spans = np.ptp(centred @ axes.T, axis=0)
-    return tuple(sorted((float(span) for span in spans), reverse=True))
+    spread = np.linalg.svd(seen.points - seen.points.mean(axis=0), compute_uv=False)
+    return tuple(float(length) for length in spread * np.sqrt(12 / count))

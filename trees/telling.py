@@ -24,7 +24,7 @@ def sentence(text: str) -> str:
 
 def in_one_sentence(context: MissionContext, command: Command) -> str:
     """All that a command asks for, in words: "bring the mug from the desk"."""
-    what, goal = _things(context, command), _goal(context, command)
+    what, goal = _things(context, command), to_where(context, command)
     source = f"from {_place(context, command, command.source)}" if command.source else ""
     match command.kind:
         case CommandKind.PUT_DOWN:
@@ -66,7 +66,7 @@ def _place(context: MissionContext, command: Command, words: str) -> str:
     return f"the {said}" if named and said.islower() else said
 
 
-def _goal(context: MissionContext, command: Command) -> str:
+def to_where(context: MissionContext, command: Command) -> str:
     """Where it is to go, with a preposition."""
     if not command.goal or command.goal in TO_THE_PERSON:
         return "to you" if command.goal else ""

@@ -1,13 +1,14 @@
 """A task that is done in parts: when it is settled, and what is told of it."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from executive.language.wording import listed
-from executive.situation import Whole
+from executive.situation import Task, Whole
 from executive.types import Command, CommandKind, MissionStatus, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds import deed_of
-from trees.telling import tell
+from trees.telling import tell, to_where
 
 NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
@@ -33,6 +34,14 @@ def most(whole: Whole) -> int:
     return 1 if whole.command.kind == CommandKind.TAKE else whole.wanted
 
 
+def left_to_do(context: MissionContext, tasks: Sequence[Task]) -> int:
+    """How many of the tasks that may come next are to be done: of parts, as many as are enough."""
+    wholes = context.situation.agenda.wholes
+    if not (wholes and tasks[0].depth == len(wholes)):
+        return len(tasks)
+    return min(most(wholes[-1]) - len(wholes[-1].done), len(tasks))
+
+
 def decide(context: MissionContext, whole: Whole) -> None:
     """Of a condition: what follows from the part that has ended."""
     agenda, command = context.situation.agenda, whole.command
@@ -40,7 +49,8 @@ def decide(context: MissionContext, whole: Whole) -> None:
         return
     [last] = whole.parts
     if command.sought:
-        holds = bool(last.things) if last.status == MissionStatus.DONE else None
+        seen = bool(last.things) or last.location is not None
+        holds = seen if last.status == MissionStatus.DONE else None
     else:
         holds = last.status == MissionStatus.DONE or last.location is not None
     if holds and command.sought:
@@ -50,8 +60,10 @@ def decide(context: MissionContext, whole: Whole) -> None:
 
 
 def what_follows(command: Command, answer: TaskOutcome) -> Command:
-    """The deed, with the thing that was seen, if it was about such a thing."""
+    """The deed, with the thing that was seen if it was about such a thing, and where that is."""
     deed = without_condition(command)
+    if answer.location:  # of what it is to be put beside
+        return replace(deed, goal=answer.location)
     if command.sought and deed.target == command.sought.target:
         return replace(deed, target=answer.things[0], purpose="", number=0)
     return deed
@@ -65,12 +77,13 @@ def without_condition(command: Command) -> Command:
 def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
     """What came of the whole; told, if its parts alone do not tell it."""
     command, last = whole.command, whole.parts[-1]
-    if command.conditional or (command.among and not command.number):
+    wanted = max(whole.wanted, command.number)
+    if command.conditional or wanted == 1:
         done = last.status == MissionStatus.DONE
         reason = last.reason if done else sentences(whole.parts)
     else:
-        done = len(whole.done) >= whole.wanted and whole.wanted >= command.number
-        reason = how_many(context, whole)
+        done = len(whole.done) >= wanted
+        reason = how_many(context, whole, wanted)
         tell(context, reason)
     return TaskOutcome(
         kind=command.kind,
@@ -90,18 +103,19 @@ def sentences(parts: list[TaskOutcome]) -> str:
     return "; ".join(dict.fromkeys(part.reason.rstrip(".") for part in parts))
 
 
-def how_many(context: MissionContext, whole: Whole) -> str:
+def how_many(context: MissionContext, whole: Whole, wanted: int) -> str:
     """Of how many it was done, of which, and why not of the others."""
-    did, wanted = deed_of(whole.command.kind).did, max(whole.wanted, whole.command.number)
-    names = [context.say.the(part.object or part.target) for part in whole.done]
-    why = sentences([part for part in whole.parts if part.status != MissionStatus.DONE])
-    if len(names) == wanted:
-        count, why = {1: "", 2: "both: "}.get(wanted, f"all {number(wanted)}: "), ""
+    command, done = whole.command, len(whole.done)
+    if done == wanted:
+        count, why = "both" if wanted == 2 else f"all {number(wanted)}", ""
     else:
-        count = f"{number(len(names))} of {number(wanted)}" + ": " * bool(names)
-        one_hand = whole.command.kind == CommandKind.TAKE
-        why = why or ("I can hold one thing at a time" if one_hand else "I know of no more")
-    return f"I {did} {count}{listed(names)}" + f"; {why}" * bool(why) + "."
+        one_hand = command.kind == CommandKind.TAKE
+        count = f"{number(done)} of {number(wanted)}"
+        why = "I can hold one thing at a time" if one_hand else "I know of no more"
+        why = sentences([p for p in whole.parts if p.status != MissionStatus.DONE]) or why
+    did = filter(None, ("I", deed_of(command.kind).did, count, to_where(context, command)))
+    which = listed([context.say.the(part.object or part.target) for part in whole.done])
+    return " ".join(did) + f": {which}" * bool(which) + f"; {why}" * bool(why) + "."
 
 
 def number(count: int) -> str:

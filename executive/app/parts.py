@@ -173,7 +173,6 @@ def build_context(parts: Parts, situation: Situation) -> MissionContext:
         place_at=place_at(parts),
         near_person=near_person(parts.home),
         handiest=handiest(parts.home),
-        distance=distance(parts.home),
         blind_to=parts.blind_to,
         has_arm=parts.has_arm,
     )
@@ -225,8 +224,3 @@ def handiest(home: Home) -> tuple[str, ...]:
         return surface.clearance < math.inf, not at_hand, -surface.length_x * surface.length_y
 
     return tuple(piece.name for piece in sorted(home.furniture, key=hard))
-
-
-def distance(home: Home) -> Callable[[str, str], float]:
-    """How far apart two places are where the robot stands before them, as the crow flies (m)."""
-    return lambda one, other: math.dist(home.stand(one)[:2], home.stand(other)[:2])

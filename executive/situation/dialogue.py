@@ -4,7 +4,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from executive.language.spoken import NOTHING, Spoken
-from executive.situation.snapshot import logged_as
+from executive.situation.snapshot import NOT_LOGGED, logged_as
+from executive.types import PERSON
 
 
 def _spoken(spoken: Spoken) -> dict[str, Any]:
@@ -18,6 +19,8 @@ class Dialogue:
 
     away: bool = False
     """Whether the robot has left the person."""
+    at: str = field(default=PERSON, metadata=NOT_LOGGED)
+    """The place that the robot has driven to last."""
     inquiries: int = 0
     no_help: str = ""
     """Why the person cannot or will not help, as a clause; empty if they may."""

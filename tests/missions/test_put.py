@@ -163,9 +163,24 @@ def test_beside_a_thing_is_where_that_is_believed_to_be(serve: Serve) -> None:
     assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "sofa")
 
 
-def test_beside_what_nobody_knows_it_is_asked_where_to(serve: Serve) -> None:
-    session, world = serve("on the desk", defaults=False)
+def test_what_it_is_to_be_put_beside_is_found_first(serve: Serve) -> None:
+    session, world = serve()
     outcome = session.run("Take the hammer from the shelf in the lobby and put it next to the mug")
+    assert "The mug is on the coffee table in the living room." in told(session)
+    assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "coffee_table")
+    assert outcome.reason == "I put the hammer on the coffee table."
+
+
+def test_beside_what_cannot_be_found_nothing_is_put(serve: Serve) -> None:
+    session, world = serve("I don't know")
+    outcome = session.run("Put the hammer next to the unicorn")
+    assert (outcome.status, world.resting_place("hammer")) == ("not_done", "shelf_lobby")
+
+
+def test_beside_what_the_robot_holds_it_is_asked_where_to(serve: Serve) -> None:
+    session, world = serve("on the desk", "on the desk")
+    session.run("Take the mug")
+    outcome = session.run("Put the hammer next to the mug")
     assert "I do not know where the mug is. Where shall I put the hammer?" in told(session)
     assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "desk")
 

@@ -117,6 +117,34 @@ def test_of_several_that_are_there_a_certain_one_is_asked_for() -> None:
     assert asked.options == ("apple", "banana", "strawberry")
 
 
+def test_of_everything_that_is_put_back_it_is_what_the_robot_took() -> None:
+    back = run("Put the hammer on the desk. Put the pear on the sofa. Then put everything back.")
+    assert back.world.things == back.world.home.placement
+    assert back.outcome.tasks[-1].reason == "I put back both: the pear and the hammer."
+
+
+def test_what_is_cleared_away_goes_to_nothing_that_is_cleared() -> None:
+    places = {"apple": "counter_wagon", "mug": "high_table"}
+    clear = run("Clear the kitchen", place=places)
+    kitchen = {p.name for p in clear.world.home.furniture if p.room == "kitchen"}
+    assert not any(clear.world.things[name] in kitchen for name in places)
+
+
+def test_which_is_the_largest_is_not_said_of_things_that_look_alike() -> None:
+    alike = run("What is the largest object on the dining table?")
+    assert alike.outcome.status == NOT_DONE
+    assert alike.outcome.reason.endswith("I cannot tell by looking which is the largest")
+
+
+def test_where_all_of_them_are_to_go_is_asked_once_and_before_anything_is_done() -> None:
+    words = "Take all the fruit from the dining table to the moon"
+    asked = run(words, answers=["I don't know"])
+    assert (asked.outcome.status, asked.outcome.inquiries, asked.goals) == (NOT_DONE, 1, [])
+    told = run(words, answers=["on the sofa"])
+    assert (told.outcome.status, told.outcome.inquiries) == (DONE, 1)
+    assert on(told, "sofa") == {"apple", "banana", "strawberry"}
+
+
 def test_furniture_is_cleared_of_all_that_is_seen_on_it() -> None:
     table = run("Clear the coffee table")
     assert (table.outcome.status, on(table, "coffee_table")) == (DONE, set())

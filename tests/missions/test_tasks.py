@@ -54,16 +54,6 @@ def test_a_single_task_is_told_as_ever() -> None:
     assert run.outcome.reason == "The mug is on the coffee table in the living room."
 
 
-def test_of_things_named_in_one_breath_the_nearest_comes_first() -> None:
-    facts = FactStore()
-    facts.saw(["pear"], "shelf_lobby")
-    facts.saw(["apple"], "sofa")
-    run = run_mission("Find the pear and the apple", llm=False, facts=facts)
-    assert [task.target for task in run.outcome.tasks] == ["apple", "pear"]
-    in_order = run_mission("Find the pear, then find the apple", llm=False, facts=facts)
-    assert [task.target for task in in_order.outcome.tasks] == ["pear", "apple"]
-
-
 def test_what_is_it_and_there_was_said_in_the_task_before() -> None:
     run = run_mission("Put the mug on the sofa, go to the desk and put it there", llm=False)
     assert run.outcome.status == DONE

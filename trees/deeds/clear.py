@@ -10,6 +10,7 @@ from executive.types import CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Step, fallback, sequence
+from trees.places import destination_of_all
 from trees.survey import not_seen, nothing_there, survey
 from trees.telling import tell
 
@@ -25,6 +26,7 @@ class Clear(Deed):
         yield sequence(
             "clear",
             asked_to(context, self.kind),
+            destination_of_all(context),
             survey(context),
             fallback(
                 "clear it",
@@ -55,7 +57,8 @@ class PutEachAway(Step):
         parts = []
         for name, here in found.items():
             usual = self.context.knowledge.usual_places(name)
-            goal = command.goal or " or ".join(place for place in usual if place != here)
+            elsewhere = (place for place in usual if place not in self.situation.survey.seen)
+            goal = command.goal or " or ".join(elsewhere)
             part = replace(command, kind=CommandKind.PUT, target=name, source=here, goal=goal)
             parts.append(replace(part, exceptions=(), purpose=""))
         self.situation.agenda.split(command, parts, len(parts))

@@ -1,0 +1,104 @@
+"""How many seconds tasks may take, as far as anyone can tell without asking or looking."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from math import inf
+
+from executive.belief import Belief, Likely, Statement, believe, in_order
+from executive.plan import FAR_S, Chance, Plan, Prices, best_plan
+from executive.types import HELD, Command, CommandKind, Source
+from trees.context import MissionContext
+from trees.hearing import MEMORY_TRUST, ONTOLOGY_TRUST, PERSON_TRUST
+from trees.meant import things_meant
+from trees.person import places_in
+from trees.places import best_first
+from trees.planning import Ways
+
+LIKELIEST = 4
+"""Of the places where a thing may be, so many count: their best order is found in no time."""
+ALONE = Prices(question_s=inf)
+"""Nobody is asked."""
+
+
+class Expected:
+    """What tasks take by the beliefs and the ways of this moment."""
+
+    def __init__(self, context: MissionContext) -> None:
+        """Ask the robot for no way yet."""
+        self._context = context
+        self._ways = Ways(context)
+        self._told: dict[tuple[Command, str], float] = {}
+
+    def done_after(self, commands: Iterable[Command], start: str) -> Iterator[float]:
+        """Done one after the other, when each of them is done (seconds from now)."""
+        passed = 0.0
+        for command in commands:
+            passed += self.seconds(command, start)
+            yield passed
+            start = self._end(command) or start
+
+    def seconds(self, command: Command, start: str) -> float:
+        """From there, until the thing is found and is where it is to go, or the robot is."""
+        if (command, start) not in self._told:
+            self._told[command, start] = min(self._seconds(command, start), FAR_S)
+        return self._told[command, start]
+
+    def _seconds(self, command: Command, start: str) -> float:
+        plan = looking(self._ways, start, self._likely(command, start))
+        if not plan.order:
+            return FAR_S
+        end = self._end(command)
+        carrying = self._ways.driving(plan.order[0], [end]) if end else [0.0]
+        return plan.expected.seconds + carrying[0]
+
+    def _end(self, command: Command) -> str | None:
+        """Where the robot is in the end; None if that is where the thing was."""
+        if not command.kind.means.at_goal:
+            return command.kind.means.ends_at
+        named = places_in(self._context, command.goal or command.target)
+        return best_first(self._context, named)[0] if named else None
+
+    def _likely(self, command: Command, start: str) -> Sequence[Likely]:
+        """Where the thing may be, or what the robot goes to."""
+        context = self._context
+        if command.kind == CommandKind.GO:
+            return [Likely(self._end(command) or start, 1.0)]
+        if is_in_hand(context, command):
+            return [Likely(start, 1.0)]
+        return whereabouts(context, command).places[:LIKELIEST]
+
+
+def is_in_hand(context: MissionContext, command: Command) -> bool:
+    """Whether a task is about what the robot holds."""
+    held = context.situation.hand.in_hand
+    return command.target == HELD or held in things_meant(context, command)
+
+
+def looking(ways: Ways, start: str, likely: Sequence[Likely]) -> Plan:
+    """The order in which it takes the fewest seconds, by expectation, until the thing is seen."""
+    places = [one.place for one in likely]
+    return best_plan(
+        [Chance(one.place, one.probability) for one in likely],
+        ways.seconds(start, places),
+        [ways.seconds(place, places) for place in places],
+        ALONE,
+    )
+
+
+def seen_soonest(context: MissionContext, likely: Sequence[Likely]) -> tuple[str, ...]:
+    """All of these places, in that order; those that cannot be reached come last."""
+    order = looking(Ways(context), context.situation.dialogue.at, likely).order
+    return tuple(dict.fromkeys((*order, *(one.place for one in likely))))
+
+
+def whereabouts(context: MissionContext, command: Command) -> Belief:
+    """Where one of the things of a task may be, by the words, by memory and by the ontology."""
+    named = places_in(context, command.source) if command.source else ()
+    things = things_meant(context, command)
+    remembered = [place for thing in things for place in context.facts.places_of(thing)]
+    usual = [place for thing in things for place in context.knowledge.usual_places(thing)]
+    said = (
+        Statement(Source.USER, in_order(named, factor=1.0), PERSON_TRUST),
+        Statement(Source.MEMORY, in_order(remembered), MEMORY_TRUST),
+        Statement(Source.ONTOLOGY, in_order(usual, factor=1.0), ONTOLOGY_TRUST),
+    )
+    return believe(said, (place.name for place in context.knowledge.places()))
