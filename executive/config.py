@@ -141,6 +141,11 @@ class Settings(BaseSettings):
     memory: Annotated[Path | None, Option("FILE")] = Field(
         None, description="SQLite file of what was seen and said; without, this session only"
     )
+    home_state: Annotated[Path | None, Option("FILE")] = Field(
+        None,
+        description="TOML file that keeps where the simulated home's things were left; "
+        "without, the home is put in order whenever a program starts",
+    )
     learn: Annotated[
         bool, Option(help="whether to remember what is seen and said (default: it does)")
     ] = Field(True, description="whether to remember what is seen and said")
