@@ -11,6 +11,7 @@ from executive.errors import InputError
 from executive.interfaces import Clock
 from executive.text import printable
 from sim.home.arrangement import Spot
+from sim.home.habits import load_habits, moves
 from sim.home.home import Home
 from sim.home.state import RIGHT, HomeState, read_state, write_state
 
@@ -19,6 +20,9 @@ log = logging.getLogger(__name__)
 
 class LivingHome:
     """The things and the time of a home, from one mission to the next and to the next program.
+
+    Between two missions things are taken elsewhere as the habits of those who live there have it;
+    while the robot is at it, nobody takes anything.
 
     What is on no furniture when a mission ends, in the hand or on the floor, is put back to where
     it was before by whoever lives there, once the program has ended.
@@ -37,6 +41,9 @@ class LivingHome:
         """What is elsewhere than the home file and `--place` say."""
         self.home = home.as_left(self.left)
         self._spots = dict(self.home.objects)
+        self._habits = load_habits(settings.habits, home) if settings.habits else None
+        self._seed, self._hours = settings.seed, settings.hours_between
+        self._lived_s = before.time_s if before else None
         self._time_s = max(time.time(), before.time_s if before else 0.0)
         self._world: Furnished | None = None
         self._during: Clock | None = None
@@ -53,25 +60,41 @@ class LivingHome:
         Raises:
             InputError: if the body is in no world of ours, or the file cannot be written.
         """
-        if self._file is None:
+        asked = [name for name, on in (("home_state", self._file), ("habits", self._habits)) if on]
+        if not asked:
             return embodiment
         if embodiment.keeps is None:
             right = "use --world physics or fake, or leave it out"
             what = "a world that is not ours is left as it is, and nothing of it can be kept"
-            raise InputError("setting 'home_state'", what, right)
+            raise InputError(f"setting '{asked[0]}'", what, right)
         self._world = embodiment.keeps
-        self._write(self._file)
+        if self._file:
+            self._write(self._file)
         begin, clock = embodiment.begin, embodiment.clock
 
         def begin_mission() -> None:
+            self._live_on()
             self._during = clock
             begin()
 
         return replace(embodiment, begin=begin_mission, end=self._end)
 
+    def _live_on(self) -> None:
+        """Let the time pass that nothing was asked for, and people do what they are used to."""
+        since = self._time_s if self._lived_s is None else self._lived_s
+        self._time_s += self._hours * 3600.0
+        if self._habits and self._world:
+            for move in moves(self._habits, self.home, since, self._time_s, self._seed):
+                spots = self._world.left()
+                here = spots[move.thing].furniture if move.thing in spots else ""
+                if move.fits(here):
+                    self._world.put(move.thing, move.to)
+        self._lived_s = self._time_s
+
     def _end(self) -> None:
         """Keep where things are now; that it cannot be written is no reason to end otherwise."""
         self._time_s, self._during = self.now(), None
+        self._lived_s = self._time_s
         if self._file is None:
             return
         try:

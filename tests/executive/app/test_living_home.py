@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 
 from executive import Session, load_settings
+from executive.app.embodiment import Embodiment
+from executive.app.living import LivingHome
 from executive.errors import InputError
 from executive.replay import replay
 from executive.testing.bench import four_rooms
@@ -153,3 +155,25 @@ def test_what_has_no_room_is_put_where_there_is_some() -> None:
     placement = with_room(full).placement
     assert list(placement.values()).count("delivery") > 1
     assert len(set(placement.values())) > 1
+
+
+def test_things_wander_between_commands_by_the_hours_that_pass(state: Path, tmp_path: Path) -> None:
+    daily = tmp_path / "habits.toml"
+    daily.write_text('[[habits]]\nthings = "mug"\nto = "sideboard"\nhours = [12.0, 12.1]\n')
+    noon_s = 12 * 3600.0 + 200_000 * 86400.0
+    write_state(state, HomeState(home="four_rooms", time_s=noon_s - 2 * 3600))
+    given = {"world": "fake", "llm": "none", "user": "oracle", "home_state": state}
+    settings = load_settings(**given, habits=str(daily), hours_between=1.5)
+    found = []
+    with Session(settings, out=io.StringIO(), recorded=False) as session:
+        found += [session.run("Find the mug").location for _ in range(2)]
+    assert found == ["coffee_table", "sideboard"]
+    assert tomllib.loads(state.read_text())["objects"]["mug"] == "sideboard"
+
+
+def test_habits_in_a_world_that_is_not_ours_are_refused() -> None:
+    settings = load_settings(home_state="x", habits="household")
+    living = LivingHome(settings, four_rooms())
+    nobody: Any = None
+    with pytest.raises(InputError, match="'home_state': .*use --world physics or fake"):
+        living.move_in(Embodiment(nobody, nobody, nobody))
