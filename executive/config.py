@@ -141,6 +141,17 @@ class Settings(BaseSettings):
     memory: Annotated[Path | None, Option("FILE")] = Field(
         None, description="SQLite file of what was seen and said; without, this session only"
     )
+    home_state: Annotated[Path | None, Option("FILE")] = Field(
+        None,
+        description="TOML file that keeps where the simulated home's things were left; "
+        "without, the home is put in order whenever a program starts",
+    )
+    habits: Annotated[str | None, Option("NAME or FILE.toml")] = Field(
+        None, description="what those who live in the simulated home do with their things"
+    )
+    hours_between: Annotated[float, Option("HOURS")] = Field(
+        0.0, ge=0, le=1000, description="that pass in the simulated home before each command"
+    )
     learn: Annotated[
         bool, Option(help="whether to remember what is seen and said (default: it does)")
     ] = Field(True, description="whether to remember what is seen and said")

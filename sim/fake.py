@@ -33,6 +33,7 @@ from executive.types import (
     Succeeded,
 )
 from sim.goals import GoTo
+from sim.home.arrangement import Spot
 from sim.home.home import Home, PlanarPose
 from sim.objects.objects import why_not_taken
 
@@ -145,6 +146,20 @@ class FakeWorld:
     def resting_place(self, name: str) -> str | None:
         """The furniture that a thing is on, by the world's truth; None if held or not here."""
         return self.things.get(name)
+
+    def left(self) -> dict[str, Spot]:
+        """Where things are that are on furniture."""
+        pieces = {piece.name for piece in (*self.home.furniture, self.home.delivery)}
+        on_furniture = ((name, place) for name, place in self.things.items() if place in pieces)
+        return {name: Spot(furniture=place) for name, place in on_furniture}
+
+    def put(self, name: str, furniture: str) -> bool:
+        """Have somebody put a thing on other furniture; whether it could be done."""
+        there = list(self.things.values()).count(furniture)
+        if name not in self.things or (self.spots is not None and there >= self.spots):
+            return False
+        self.things[name] = furniture
+        return True
 
     def describe(self) -> None:
         """Record where the robot is."""

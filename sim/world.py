@@ -1,6 +1,6 @@
 """The home, its things and the robot in PyBullet: advances physics and writes down what moves."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from itertools import count
 
 import numpy as np
@@ -15,7 +15,13 @@ from sim.body.description import describe_robot, robot_entities
 from sim.body.hardware import Hardware
 from sim.body.laser import Laser
 from sim.body.skill import CONTROL_S, Thinker
-from sim.bullet.bodies import build_home, frame_pose, home_entities, place_objects
+from sim.bullet.bodies import (
+    SETTLING_STEPS,
+    build_home,
+    frame_pose,
+    home_entities,
+    place_objects,
+)
 from sim.bullet.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
 from sim.bullet.client import aim_window, connect
 from sim.bullet.contacts import FreshContacts
@@ -23,7 +29,9 @@ from sim.engine import pybullet
 from sim.faults.hardware import FaultyHardware
 from sim.faults.injector import FaultInjector, FaultyCamera
 from sim.faults.world import WorldFaults
+from sim.home.arrangement import NoRoomError, Spot
 from sim.home.home import Home
+from sim.home.state import spot_on
 from sim.manipulation.manipulator import Manipulator
 from sim.manipulation.planning import PlanningWorld
 from sim.navigation.durations import durations_in
@@ -61,6 +69,7 @@ class PhysicsWorld:
         gui: bool = False,
         camera_hz: float = 1.0,
         injector: FaultInjector | None = None,
+        left: Collection[str] = (),
     ) -> None:
         """Build the home with the robot in it.
 
@@ -73,6 +82,7 @@ class PhysicsWorld:
             gui: show PyBullet's window.
             camera_hz: pictures for the log per second while something moves; 0 for none.
             injector: what goes wrong by order.
+            left: things that are where they were left, so that the seed leaves them there.
         """
         self._home = home
         self._models = models
@@ -83,7 +93,7 @@ class PhysicsWorld:
         if gui:
             aim_window(self._client, home.extent())
         self._things = place_objects(self._client, home, models)
-        self._disturb(seed)
+        self._disturb(seed, left)
         self._let_sleep()
         self._planning = PlanningWorld(home)
         self._hardware, self._world_faults = self._with_faults(injector)
@@ -191,6 +201,36 @@ class PhysicsWorld:
         assert body is not None
         return frame_pose(self._client, body)
 
+    def left(self) -> dict[str, Spot]:
+        """Where things stand that are on furniture."""
+        spots = {}
+        for body, name in self._things.items():
+            if (place := self.resting_place(name)) and name != self.held:
+                pose = frame_pose(self._client, body)
+                yaw = Rotation.from_quat(pose.orientation).as_euler("zyx")[0]
+                spots[name] = spot_on(self._home.furniture_named(place), pose.position, yaw)
+        return spots
+
+    def put(self, name: str, furniture: str) -> bool:
+        """Have somebody put a thing on other furniture; whether there is room for it."""
+        body = self._body(name)
+        if body is None or name == self.held:
+            return False
+        others = {other: spot for other, spot in self.left().items() if other != name}
+        full = self._home.as_left({**others, name: Spot(furniture=furniture)})
+        here = {n: spot for n, spot in full.objects.items() if n == name or n in others}
+        try:
+            pose = full.model_copy(update={"objects": here}).object_pose(name)
+        except NoRoomError:
+            return False
+        offset = self._client.getDynamicsInfo(body, -1)[3]
+        middle = Rotation.from_quat(pose.orientation).apply(offset) + pose.position
+        self._client.resetBasePositionAndOrientation(body, middle, pose.orientation)
+        self._client.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))
+        for _ in range(SETTLING_STEPS):
+            self._client.stepSimulation()
+        return True
+
     # --- physics ---
 
     def _control(self) -> None:
@@ -261,12 +301,14 @@ class PhysicsWorld:
         hardware = FaultyHardware(self._client, start, injector)
         return hardware, WorldFaults(self._client, self._home, self._things, hardware, injector)
 
-    def _disturb(self, seed: int) -> None:
+    def _disturb(self, seed: int, left: Collection[str]) -> None:
         """Move and turn the things a little, once, before anything begins."""
         if seed == 0:
             return
         chance = np.random.default_rng(seed)
-        for body in self._things:
+        for body, name in self._things.items():
+            if name in left:
+                continue
             origin = np.asarray(frame_pose(self._client, body).position)
             position, orientation = self._client.getBasePositionAndOrientation(body)
             turn = Rotation.from_euler("z", chance.uniform(-_TURN, _TURN))

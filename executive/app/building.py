@@ -9,6 +9,7 @@ from contextlib import ExitStack
 from typing import TextIO
 
 from executive.app.embodiment import Embodiment, Setup
+from executive.app.living import LivingHome
 from executive.app.parts import Parts, build_advice, parameters_of
 from executive.app.worlds import embody
 from executive.config import Settings
@@ -49,20 +50,22 @@ def build_parts(
     Raises:
         ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
     """
-    home = load_home(settings.home).with_placement(settings.place)
+    living = LivingHome(settings, load_home(settings.home).with_placement(settings.place))
+    home = living.home
     prompts = Prompts.load(settings.prompts)
     if model is None and (model := model_for_missions(settings, inbox)):
         opened.callback(model.close)
     knowledge = read_ontology(settings, home)
-    facts = FactStore(settings.memory, learns=settings.learn)
+    facts = FactStore(settings.memory, learns=settings.learn, now=living.now)
     opened.callback(facts.close)
     advice = None
     if model:
         guarded = GuardedModel(model, inbox, recorder)
         advice = build_advice(settings, knowledge, guarded, prompts, facts)
         guarded.prepare(anything(settings, advice))
-    embodiment = embody(Setup(settings, home, inbox, recorder, knowledge, gui))
+    embodiment = embody(Setup(settings, home, inbox, recorder, knowledge, gui, living.left))
     opened.callback(close_safely, embodiment)
+    embodiment = living.move_in(embodiment)
     if embodiment.blind_to:
         log.warning("%s", blindness(embodiment.blind_to))
     parts = Parts(

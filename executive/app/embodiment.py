@@ -4,9 +4,10 @@
 `Embodiment`; docs/own-robot.md shows one.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 from executive.config import Settings
 from executive.errors import InputError
@@ -20,7 +21,20 @@ from executive.interfaces import (
     Robot,
     SimulatedHome,
 )
+from sim.home.arrangement import Spot
 from sim.home.home import Home
+
+
+class Furnished(Protocol):
+    """A simulated world whose things may be kept where they are, and moved by others."""
+
+    def left(self) -> Mapping[str, Spot]:
+        """Where each thing is that is on furniture."""
+        ...
+
+    def put(self, name: str, furniture: str) -> bool:
+        """Have somebody put a thing on other furniture; whether that could be done."""
+        ...
 
 
 def nothing() -> None:
@@ -38,6 +52,7 @@ class Setup:
         recorder: where pictures and movements go.
         knowledge: which labels a detector may use.
         gui: whether a simulator's own window is wanted.
+        left: things that are just where they were left, which no seed moves.
     """
 
     settings: Settings
@@ -46,6 +61,7 @@ class Setup:
     recorder: Recorder
     knowledge: Knowledge
     gui: bool = False
+    left: Collection[str] = ()
 
     def detector(self) -> Detector:
         """The detector that the settings name, for pictures of any camera.
@@ -79,7 +95,9 @@ class Embodiment:
         blind_to: objects of the home that perception would not recognise.
         has_arm: whether it can take things; one without finds them, and declines the rest in words.
         jumps: whether the robot is where it drives to without having been in between.
+        keeps: the simulated world, if its things can be kept where they are (`--home-state`).
         begin: called when a mission begins, to record what is to be seen of the world.
+        end: called when a mission has ended.
         close: called once, at the end of the session.
     """
 
@@ -91,7 +109,9 @@ class Embodiment:
     blind_to: tuple[str, ...] = ()
     has_arm: bool = True
     jumps: bool = False
+    keeps: Furnished | None = None
     begin: Callable[[], None] = nothing
+    end: Callable[[], None] = nothing
     close: Callable[[], None] = nothing
 
 

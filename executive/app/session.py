@@ -185,6 +185,7 @@ class Session:
             self._carry_out_safely(situation, folder, started)
         finally:
             self._in_hand, self._restless = situation.hand.in_hand, situation.ending.restless
+            self._leave()
             self._last = outcome = situation.outcome(
                 mission_time_s=self._mission_time(),
                 wall_time_s=time.monotonic() - began,
@@ -200,6 +201,13 @@ class Session:
                 self._close_logs()
         self._remember(words, outcome)
         return outcome
+
+    def _leave(self) -> None:
+        """The body hears that the mission has ended."""
+        try:
+            self.embodiment.end()
+        except Exception as error:
+            log.warning("the world cannot be left in order: %s", in_words(error))
 
     def _close_logs(self) -> None:
         """Finish the recording; someone impatient ends the program, but not the recording."""

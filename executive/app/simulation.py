@@ -11,6 +11,7 @@ from sim.faults.fake import FaultyFakeRobot
 from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import Fault, parse_faults, refuse_physical
 from sim.home.home import Home
+from sim.home.state import with_room
 from sim.objects.ycb import with_scans
 
 
@@ -36,6 +37,7 @@ def fake(setup: Setup) -> Embodiment:
         in_map=False,
         truth=world,
         jumps=True,
+        keeps=world,
         begin=_begin(world, injector),
         close=world.close,
     )
@@ -53,8 +55,9 @@ def physics(setup: Setup) -> Embodiment:
     faults = parse_faults(settings.fault, setup.home)
     injector = _injector(setup, faults, lambda: clock.now())
     models = setup.home.drawn_models()
+    home = with_room(setup.home)
     world = PhysicsWorld(
-        setup.home,
+        home,
         with_scans(models, settings.ycb) if settings.ycb else models,
         setup.inbox,
         setup.recorder,
@@ -62,6 +65,7 @@ def physics(setup: Setup) -> Embodiment:
         gui=setup.gui,
         camera_hz=settings.camera_hz,
         injector=injector,
+        left=setup.left,
     )
     clock = SimulatedClock(setup.inbox, world)
     detector = world.detector if settings.detector == "simulated" else setup.detector()
@@ -70,6 +74,7 @@ def physics(setup: Setup) -> Embodiment:
         _perception(setup, world.camera, detector, injector),
         clock,
         truth=world,
+        keeps=world,
         blind_to=blind_to(setup.home, detector),
         begin=_begin(world, injector),
         close=world.close,

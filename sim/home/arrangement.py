@@ -2,7 +2,7 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Self
 
@@ -41,6 +41,11 @@ class Spot(BaseModel):
         """The same on other furniture, wherever there is room."""
         there = {"furniture": furniture, "surface": None, "at": None, "yaw": 0.0}
         return self.model_copy(update=there)
+
+    def at_spot(self, spot: "Spot") -> Self:
+        """The same at another spot."""
+        there = {"furniture": spot.furniture, "surface": spot.surface}
+        return self.model_copy(update={**there, "at": spot.at, "yaw": spot.yaw})
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,12 +99,14 @@ def arrange(
     spots: Mapping[str, Spot],
     surfaces: Mapping[str, tuple[Surface, ...]],
     models: Mapping[str, ObjectModel],
+    left: Collection[str] = (),
 ) -> dict[str, Standing]:
     """Give every object its place.
 
-    Objects with `at` stand there. The others follow in their order: each takes the free spot that
-    is nearest to the middle of the front of the first surface that has one, so that moving one
-    object leaves those before it where they are.
+    Objects with `at` stand there; those that were `left` there do, however little room there is.
+    The others follow in their order: each takes the free spot that is nearest to the middle of the
+    front of the first surface that has one, so that moving one object leaves those before it where
+    they are.
 
     Raises:
         NoRoomError: if an object does not fit.
@@ -110,10 +117,11 @@ def arrange(
         outline = _outline(models[name], spot.yaw)
         height = models[name].size[2]
         gap = GAP_M if spot.at is None else 0.0
-        for place in _candidates(spot, surfaces[spot.furniture], outline, height):
+        as_left = name in left and spot.at is not None
+        for place in _candidates(spot, surfaces[spot.furniture], outline, height, as_left):
             row = taken[spot.furniture, place.surface]
             there = outline.moved(place.x, place.y)
-            if all(there.is_apart(other, gap) for other in row):
+            if as_left or all(there.is_apart(other, gap) for other in row):
                 row.append(there)
                 standing[name] = place
                 break
@@ -124,11 +132,13 @@ def arrange(
 
 
 def _candidates(
-    spot: Spot, surfaces: tuple[Surface, ...], outline: _Outline, height: float
+    spot: Spot, surfaces: tuple[Surface, ...], outline: _Outline, height: float, as_left: bool
 ) -> Iterator[Standing]:
     """Where an object may stand if nothing else did, best first."""
     for index, surface in enumerate(surfaces):
-        if spot.surface not in (None, index) or surface.clearance < height + HEADROOM_M:
+        if spot.surface not in (None, index):
+            continue
+        if surface.clearance < height + HEADROOM_M and not as_left:
             continue
         x, y, z = surface.center
         half_x, half_y = surface.length_x / 2, surface.length_y / 2 - MARGIN_M
@@ -139,7 +149,7 @@ def _candidates(
             inset = max(FRONT_M, outline.front + MARGIN_M)
             positions = [(area.front - inset, offset) for offset in _middle_out(outline)]
         for position in positions:
-            if area.holds(outline.moved(*position)):
+            if as_left or area.holds(outline.moved(*position)):
                 yield Standing(index, *position, z, spot.yaw)
 
 

@@ -65,6 +65,8 @@ class Home(BaseModel):
     _folder: Path | None = PrivateAttr(None)
     """Where its meshes are; None: nowhere, and things look like their forms."""
     _file: str = PrivateAttr("")
+    _left: frozenset[str] = PrivateAttr(frozenset())
+    """Things that were left just where they are: so there is room for them."""
 
     @property
     def file(self) -> str:
@@ -200,7 +202,14 @@ class Home(BaseModel):
     def arrangement(self) -> dict[str, Standing]:
         """Where each object's frame is in the frame of its furniture at the start."""
         surfaces = {f.name: f.surfaces() for f in (*self.furniture, self.delivery)}
-        return arrange(self.objects, surfaces, self.models())
+        return arrange(self.objects, surfaces, self.models(), self._left)
+
+    def as_left(self, spots: Mapping[str, Spot]) -> Self:
+        """This home with things where they were left; those not named stay where they are."""
+        moved = {name: self.objects.get(name, spot).at_spot(spot) for name, spot in spots.items()}
+        home = self.model_copy(update={"objects": {**self.objects, **moved}})
+        home._left = self._left | spots.keys()
+        return home
 
 
 def load_home(name_or_path: str) -> Home:

@@ -1,0 +1,167 @@
+"""Where the things of a simulated home were left, kept in a file between two programs.
+
+The file is TOML: whose home it is, what time it is there, and `objects` as a home file has them.
+"""
+
+import math
+import os
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated
+
+import tomli_w
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+
+from executive.errors import InputError
+from executive.text import printable
+from executive.toml_file import read_toml
+from executive.types import Vector3
+from sim.home.arrangement import NoRoomError, Spot
+from sim.home.furniture import Furniture
+from sim.home.home import Home
+
+RIGHT = "name a file that --home-state made, or one that does not exist yet"
+STANDS_M = 0.02
+"""What stands on a board is no farther above or below it."""
+_SHOWN = 80
+
+
+def _as_spot(value: object) -> object:
+    return {"furniture": value} if isinstance(value, str) else value
+
+
+class HomeState(BaseModel):
+    """Where the things of one home are, and when that was."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    home: str
+    """Its name."""
+    time_s: Annotated[float, Field(strict=True, ge=0, le=1e11)]
+    """By the home's own clock: UTC (seconds since 1970)."""
+    objects: Annotated[
+        dict[str, Annotated[Spot, BeforeValidator(_as_spot)]], Field(max_length=200)
+    ] = Field(default_factory=dict)
+
+    def to_toml(self) -> str:
+        """As the file has it."""
+        spots = {name: _written(spot) for name, spot in self.objects.items()}
+        return tomli_w.dumps({"home": self.home, "time_s": self.time_s, "objects": spots})
+
+
+def read_state(file: Path, home: Home) -> HomeState | None:
+    """What a file says of this home; None if there is no such file yet.
+
+    Raises:
+        InputError: if it cannot be read, is none of ours, or does not fit to the home.
+    """
+    if not os.path.lexists(file):
+        return None
+    where, tables = printable(file), read_toml(file, RIGHT)
+    try:
+        state = HomeState.model_validate(tables)
+    except ValidationError as error:
+        fault = error.errors(include_url=False)[0]
+        key = printable(".".join(map(str, fault["loc"])))[:_SHOWN]
+        raise InputError(where, f"is no state of a home: {key}: {fault['msg']}", RIGHT) from None
+    if state.home != home.name:
+        what = f"is the state of the home {printable(state.home)[:_SHOWN]}, not of {home.name}"
+        raise InputError(where, what, "give each home a file of its own")
+    _fit_to(home, state, where)
+    return state
+
+
+def _fit_to(home: Home, state: HomeState, where: str) -> None:
+    """Everything in it has to be something of this home.
+
+    Raises:
+        InputError: if a thing or a piece of furniture is unknown.
+    """
+    models, pieces = (
+        home.models(),
+        {piece.name: piece for piece in (*home.furniture, home.delivery)},
+    )
+    right = "take the line out, or name another file"
+    for name, spot in state.objects.items():
+        if name not in models:
+            raise InputError(where, f"there is no object {printable(name)[:_SHOWN]}", right)
+        piece = pieces.get(spot.furniture)
+        if piece is None:
+            what = f"{name}: there is no furniture {printable(spot.furniture)[:_SHOWN]}"
+            raise InputError(where, what, right)
+        if spot.surface is not None and spot.surface >= len(piece.surfaces()):
+            what = f"{name}: {piece.name} has no surface {spot.surface}"
+            raise InputError(where, what, f"it has {len(piece.surfaces())}, counted from 0")
+
+
+def write_state(file: Path, state: HomeState) -> None:
+    """Write the file, whole or not at all.
+
+    Raises:
+        OSError: if that fails; what was in the file is there still.
+    """
+    new = file.with_name(f".{file.name}.{os.getpid()}.new")
+    try:
+        with new.open("w", encoding="utf-8") as stream:
+            stream.write(state.to_toml())
+            stream.flush()
+            os.fsync(stream.fileno())
+        new.replace(file)
+    except BaseException:
+        with suppress(OSError):
+            new.unlink()
+        raise
+
+
+def spot_on(piece: Furniture, position: Vector3, yaw: float) -> Spot:
+    """The spot of what stands on a piece of furniture; only the piece, if it stands on no board.
+
+    Args:
+        piece: the furniture.
+        position: of the thing's frame in `map` (metres).
+        yaw: of the thing in `map` (radians).
+    """
+    x, y, facing = piece.pose
+    east, north = position[0] - x, position[1] - y
+    ahead = math.cos(facing) * east + math.sin(facing) * north
+    left = math.cos(facing) * north - math.sin(facing) * east
+    for index, surface in enumerate(piece.surfaces()):
+        at = ahead - surface.center[0], left - surface.center[1]
+        inside = abs(at[0]) <= surface.length_x / 2 and abs(at[1]) <= surface.length_y / 2
+        if inside and abs(position[2] - surface.center[2]) < STANDS_M:
+            turn = math.remainder(yaw - facing, math.tau)
+            return Spot(furniture=piece.name, surface=index, at=at, yaw=math.degrees(turn))
+    return Spot(furniture=piece.name)
+
+
+def with_room(home: Home) -> Home:
+    """The home with each thing where there is room for it.
+
+    What has none at its spot is put elsewhere on the same furniture, else on the first that has.
+
+    Raises:
+        InputError: if there is room for it nowhere.
+    """
+    tried: dict[str, int] = {}
+    while True:
+        try:
+            home.arrangement()
+            return home
+        except NoRoomError as error:
+            name = error.name
+        here = home.objects[name]
+        choices = [here.furniture, *(piece.name for piece in home.furniture)]
+        number = tried.get(name, 0)
+        if number == len(choices):
+            right = "take something out of its objects"
+            raise InputError(f"home {home.name}", f"there is no room for the {name}", right)
+        tried[name] = number + 1
+        home = home.as_left({name: here.moved(choices[number])})
+
+
+def _written(spot: Spot) -> str | dict[str, object]:
+    if spot.at is None:
+        return spot.furniture
+    at = [round(length, 4) for length in spot.at]
+    yaw = round(math.degrees(spot.yaw), 2)
+    return {"furniture": spot.furniture, "surface": spot.surface or 0, "at": at, "yaw": yaw}
