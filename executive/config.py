@@ -10,7 +10,12 @@ from urllib.parse import urlsplit
 import tomli_w
 from pydantic import Field, ValidationError, field_validator
 from pydantic_core import ErrorDetails
-from pydantic_settings import BaseSettings, SettingsConfigDict, SettingsError
+from pydantic_settings import (
+    BaseSettings,
+    PydanticBaseSettingsSource,
+    SettingsConfigDict,
+    SettingsError,
+)
 
 from executive.errors import InputError
 from executive.toml_file import read_toml
@@ -179,6 +184,18 @@ class Settings(BaseSettings):
     camera_hz: Annotated[float, Option("RATE", after="detector")] = Field(
         1.0, ge=0, description="pictures a second for the log while the robot moves"
     )
+
+    @classmethod
+    def settings_customise_sources(
+        cls,
+        settings_cls: type[BaseSettings],
+        init_settings: PydanticBaseSettingsSource,
+        env_settings: PydanticBaseSettingsSource,
+        dotenv_settings: PydanticBaseSettingsSource,
+        file_secret_settings: PydanticBaseSettingsSource,
+    ) -> tuple[PydanticBaseSettingsSource, ...]:
+        """What is given, then the environment: pydantic's other files are none of ours."""
+        return init_settings, env_settings
 
     @field_validator("kb", "fault", mode="before")
     @classmethod

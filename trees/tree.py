@@ -1,6 +1,6 @@
 """A py_trees tree as the executive and the logs see it: paths, statuses, one tick at a time."""
 
-from collections.abc import Iterator
+from functools import cache
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import BlackBoxLevel, Status
@@ -11,7 +11,7 @@ from executive.records import NodeShape, NodeState, TreeShape
 from trees.nodes import Action
 
 _INVALID = Status.INVALID
-"""At hand, because each tick asks each behaviour for its status."""
+"""At hand, because each tick asks many behaviours for their status."""
 
 
 class MissionTree:
@@ -24,11 +24,28 @@ class MissionTree:
     def __init__(self, root: Behaviour) -> None:
         """Wrap a tree that was not ticked yet."""
         self._root = root
-        self._nodes = dict(_walk(root, root.name))
-        self._paths = {node.id: path for path, node in self._nodes.items()}
-        self._statuses = [_INVALID for _ in self._nodes]
-        self._states = [NodeState(path, _INVALID.name) for path in self._nodes]
+        self._nodes: list[Behaviour] = []
+        """Parents before children, as all that follows."""
+        self._names: list[str] = []
+        self._ends: list[int] = []
+        """Of each behaviour the index of the first one behind it that is not inside of it."""
+        self._list(root, root.name)
+        self._paths = dict(zip(self._nodes, self._names, strict=True))
+        self._statuses = [_INVALID] * len(self._nodes)
+        self._states = [NodeState(path, _INVALID.name) for path in self._names]
         """As `states` last found them: most are the same again, and then the same object."""
+
+    def _list(self, node: Behaviour, path: str) -> None:
+        index = len(self._nodes)
+        self._nodes.append(node)
+        self._names.append(path)
+        self._ends.append(0)
+        named: dict[str, int] = {}
+        for child in node.children:
+            number = named[child.name] = named.get(child.name, 0) + 1
+            name = child.name if number == 1 else f"{child.name} {number}"
+            self._list(child, f"{path}/{name}")
+        self._ends[index] = len(self._nodes)
 
     def shape(self) -> TreeShape:
         """All behaviours, parents before children."""
@@ -36,15 +53,15 @@ class MissionTree:
             tuple(
                 NodeShape(
                     path=path,
-                    parent=self._paths[node.parent.id] if node.parent else "",
+                    parent=self._paths[node.parent] if node.parent else "",
                     name=node.name,
-                    kind=_kind(node),
+                    kind=_kind(type(node)),
                     class_name=type(node).__name__,
                     source=getattr(node, "source", ""),
                     activity=getattr(node, "activity", ""),
                     stage=node.blackbox_level == BlackBoxLevel.BIG_PICTURE,
                 )
-                for path, node in self._nodes.items()
+                for path, node in zip(self._names, self._nodes, strict=True)
             )
         )
 
@@ -61,17 +78,27 @@ class MissionTree:
     def tip(self) -> str:
         """Path of the behaviour that decided the last tick; empty before the first."""
         tip = self._root.tip()
-        return self._paths[tip.id] if tip else ""
+        return self._paths[tip] if tip else ""
 
     def states(self) -> tuple[NodeState, ...]:
-        """Every behaviour as the last tick left it; its message only where it was active."""
-        states, statuses = self._states, self._statuses
-        for index, (path, node) in enumerate(self._nodes.items()):
-            status = node.status
-            message = "" if status is _INVALID else node.feedback_message
+        """Every behaviour as the last tick left it; its message only where it was active.
+
+        Of what was not active and is not, nothing inside can be: so most of the tree is not asked.
+        """
+        nodes, states, statuses, ends = self._nodes, self._states, self._statuses, self._ends
+        index = 0
+        while index < len(nodes):
+            node = nodes[index]
+            status, message = node.status, ""
+            if status is not _INVALID:
+                message = node.feedback_message
+            elif statuses[index] is _INVALID:
+                index = ends[index]
+                continue
             if status is not statuses[index] or message != states[index].message:
                 statuses[index] = status
-                states[index] = NodeState(path, status.name, message)
+                states[index] = NodeState(self._names[index], status.name, message)
+            index += 1
         return tuple(states)
 
     def stop(self) -> None:
@@ -81,7 +108,7 @@ class MissionTree:
             Exception: the first that a behaviour raised; the others were interrupted all the same.
         """
         raised: list[Exception] = []
-        for node in reversed(self._nodes.values()):  # children before parents
+        for node in reversed(self._nodes):  # children before parents
             if node.status == Status.RUNNING or (isinstance(node, Action) and node.is_under_way):
                 try:
                     node.stop(Status.INVALID)
@@ -92,17 +119,9 @@ class MissionTree:
             raise raised[0]
 
 
-def _walk(node: Behaviour, path: str) -> Iterator[tuple[str, Behaviour]]:
-    yield path, node
-    names = [child.name for child in node.children]
-    for index, child in enumerate(node.children):
-        earlier = names[:index].count(child.name)
-        name = child.name if not earlier else f"{child.name} {earlier + 1}"
-        yield from _walk(child, f"{path}/{name}")
-
-
-def _kind(node: Behaviour) -> str:
+@cache
+def _kind(of: type[Behaviour]) -> str:
     for kind in (Sequence, Selector, Decorator):
-        if isinstance(node, kind):
+        if issubclass(of, kind):
             return kind.__name__.lower()
     return "behaviour"

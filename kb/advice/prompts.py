@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -127,8 +128,11 @@ class Prompts(_Part):
         Raises:
             InputError: names the text and what is wrong with it.
         """
-        texts = read_toml(TEXTS)
-        own = read_toml(path) if path else {}
+        return _ours() if path is None else cls._with_those_of(path)
+
+    @classmethod
+    def _with_those_of(cls, path: Path) -> "Prompts":
+        texts, own = read_toml(TEXTS), read_toml(path)
         for name, table in own.items():
             if isinstance(table, dict) and isinstance(texts.get(name), dict):
                 own[name] = {**texts[name], **table}
@@ -161,6 +165,11 @@ class Prompts(_Part):
         """The system prompt for a home with more furniture than a prompt has room for."""
         form = json.dumps(Reply.model_json_schema())
         return _fill(self.system_rooms, {"rooms": ", ".join(rooms), "format": form})
+
+
+@cache
+def _ours() -> Prompts:
+    return Prompts.model_validate(read_toml(TEXTS))
 
 
 def _pattern(names: Iterable[str]) -> re.Pattern[str]:

@@ -1,6 +1,7 @@
 """The ontology: which things there are, what they are called, and where they usually are."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
 
 from rapidfuzz import fuzz, process
@@ -104,6 +105,8 @@ class Ontology:
         self._graph.expect_bounded([_class(root) for root in ROOTS])
         self._home = f"{printable(home)}: " if home else ""
         self._places = {place.name: place for place in places}
+        self._usual_places: dict[str, tuple[str, ...]] = {}
+        """As far as somebody asked."""
         self._order = {name: number for number, name in enumerate(self._places)}
         self._kinds = {
             root: _by_name(self._graph.downwards(_class(root)))
@@ -135,6 +138,10 @@ class Ontology:
 
     def names(self) -> tuple[str, ...]:
         """Everything that somebody may call a thing or a place."""
+        return self._names
+
+    @cached_property
+    def _names(self) -> tuple[str, ...]:
         things = (name for thing in self._things for name in self._graph.names(thing))
         furniture = (name for names in self._called().values() for name in names)
         places = (name for place in self.places() for name in (place.name, place.room))
@@ -200,8 +207,10 @@ class Ontology:
 
     def usual_places(self, name: str) -> tuple[str, ...]:
         """Default locations of the object or its nearest class; those in this home only."""
-        here = filter(self.has_place, self.among(name))
-        return tuple(sorted(here, key=self._order.__getitem__))
+        if name not in self._usual_places:
+            here = filter(self.has_place, self.among(name))
+            self._usual_places[name] = tuple(sorted(here, key=self._order.__getitem__))
+        return self._usual_places[name]
 
     def places_named(self, words: str) -> tuple[str, ...]:
         """Furniture that the words name, in their order; a room stands for its furniture."""

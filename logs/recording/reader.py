@@ -77,6 +77,7 @@ class Run:
         self.attachments: dict[str, bytes] = {}
         """Files kept with it, by name: configuration, home, ontology. No name leads anywhere."""
         self._tree: TreeShape | None = None
+        self._outcome: Outcome | None = None
         self._check()
 
     def config(self) -> dict[str, Any]:
@@ -155,7 +156,9 @@ class Run:
 
     def outcome(self) -> Outcome | None:
         """How it ended, or None if the recording ends before the mission did."""
-        return next((at.value.outcome for at in self.records(Finished)), None)
+        if self._outcome is None:
+            self._outcome = next((at.value.outcome for at in self.records(Finished)), None)
+        return self._outcome
 
     def last_time_s(self) -> float:
         """Mission time of the last message of all (s)."""

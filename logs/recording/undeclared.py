@@ -37,11 +37,15 @@ def told_from_names(node: NodeShape) -> NodeShape:
     searches = node.path.endswith(SEARCHES)
     return replace(
         node,
-        source=_row_of(node.class_name, SOURCES),
-        activity=Activity.SEARCHING if searches else _row_of(node.class_name, ACTIVITIES),
+        source=_SOURCE_OF.get(node.class_name, ""),
+        activity=Activity.SEARCHING if searches else _ACTIVITY_OF.get(node.class_name, ""),
         stage=node.path.count("/") == STAGE_DEPTH,
     )
 
 
-def _row_of(name: str, table: dict[str, str] | dict[Activity, str]) -> str:
-    return next((row for row, names in table.items() if name in names.split()), "")
+def _rows(table: dict[str, str] | dict[Activity, str]) -> dict[str, str]:
+    """The table the other way round; of a name that is in two rows the first counts."""
+    return {name: row for row, names in reversed(table.items()) for name in names.split()}
+
+
+_SOURCE_OF, _ACTIVITY_OF = _rows(SOURCES), _rows(ACTIVITIES)

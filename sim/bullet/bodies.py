@@ -127,9 +127,8 @@ def place_objects(
     Returns:
         Each object's name by its body id.
     """
-    names = {}
-    for name in home.objects:
-        names[create_object(client, models[name], home.object_pose(name))] = name
+    poses = home.object_poses()
+    names = {create_object(client, models[name], pose): name for name, pose in poses.items()}
     for _ in range(SETTLING_STEPS):
         client.stepSimulation()
     return names

@@ -163,8 +163,15 @@ class Home(BaseModel):
         if name not in self.objects:
             known = "it has " + ", ".join(self.objects)
             raise InputError(f"home {self.name}", f"there is no object {name!r}", known)
+        return self._pose(name, self.arrangement()[name])
+
+    def object_poses(self) -> dict[str, Pose]:
+        """Where each object's frame is in `map` at the start, in the file's order."""
+        standing = self.arrangement()
+        return {name: self._pose(name, standing[name]) for name in self.objects}
+
+    def _pose(self, name: str, standing: Standing) -> Pose:
         piece = self.furniture_named(self.objects[name].furniture)
-        standing = self.arrangement()[name]
         yaw = piece.pose[2] + standing.yaw
         position = piece.to_map((standing.x, standing.y, standing.z))
         return Pose(position, (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
@@ -192,6 +199,8 @@ class Home(BaseModel):
         Raises:
             InputError: if an object or a piece of furniture is unknown, or there is no room for it.
         """
+        if not placement:
+            return self
         nowhere = Spot(furniture="")
         spots = {n: self.objects.get(n, nowhere).moved(place) for n, place in placement.items()}
         home = self.model_copy(update={"objects": {**self.objects, **spots}})
