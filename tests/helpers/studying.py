@@ -1,14 +1,19 @@
 """Participants who are simulated: they go through a study in a real browser, as people would."""
 
 import random
+import re
+import subprocess
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
-from browsing import wait_until_ready
+import tomli_w
+from browsing import said, say, wait_until_ready
 from paging import TOKEN
 from playwright.sync_api import Page as Tab
 from playwright.sync_api import expect
@@ -90,9 +95,10 @@ def led(data: StudyData, code: str, *, to_the_end: bool = True) -> Iterator[Led]
 
 def task_done(tab: Tab, chance: random.Random) -> None:
     """Have the robot do one thing, and say that the task is done."""
-    tab.locator("#words").fill(COMMAND)
-    tab.locator("#words").press("Enter")
-    expect(tab.locator("#said")).to_contain_text("The peach is on the high table")
+    before = len(said(tab))
+    say(tab, COMMAND)
+    after = tab.locator(f"#said > li.robot:nth-child(n+{before + 1})")
+    expect(after.filter(has_text="The peach is on the").first).to_be_visible()
     wait_until_ready(tab)
     end_task(tab, "I have done it")
 
@@ -167,3 +173,28 @@ def go_through(
 def data_in(folder: Path, study: Study) -> StudyData:
     """The data of a study, in a folder of its own."""
     return StudyData(folder / "data", study)
+
+
+@contextmanager
+def begun(
+    file: Path, data: Path, *more: str
+) -> Iterator[tuple["subprocess.Popen[str]", SimpleNamespace]]:
+    """The program as it is started by hand, and its page."""
+    command = [sys.executable, "-m", "executive.page", "study", str(file), "--data", str(data)]
+    with subprocess.Popen(
+        [*command, "--page", "0", *more], stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stderr is not None
+        found = re.search(r"open (http\S+)", process.stderr.readline())
+        assert found
+        try:
+            yield process, SimpleNamespace(url=found[1])
+        finally:
+            process.kill()
+
+
+def written(study: Study, folder: Path) -> Path:
+    """The study as a file."""
+    file = folder / "study.toml"
+    file.write_text(tomli_w.dumps(study.model_dump(mode="json", exclude_none=True)))
+    return file

@@ -44,6 +44,7 @@ def add_to(commands: Any) -> None:
         "--participant", metavar="P07", help="who (default: the lowest number that is free)"
     )
     what.add_argument("--check", action="store_true", help="read the file, tell the orders")
+    what.add_argument("--report", action="store_true", help="write what came of it so far")
     what.add_argument("--withdraw", metavar="P07", help="erase a participant, and search for them")
     add_page(p)
     p.set_defaults(run=run, page=PORT)
@@ -59,6 +60,11 @@ def run(options: argparse.Namespace) -> int:
     data = StudyData(options.data or Path("studies") / options.file.stem, study)
     if options.withdraw:
         return erase(data, options.withdraw)
+    if options.report:
+        from executive.page.study.report import write_report  # heavy
+
+        print(printable(write_report(data)))
+        return DONE
     return lead(data, options.participant or next_of(data), address)
 
 

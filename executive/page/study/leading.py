@@ -14,12 +14,11 @@ from executive.page.study.file import settings_of
 from executive.page.study.page import StudyPage
 from executive.page.study.showing import declined, shown
 from executive.page.study.steps import Kind, Step, steps
-from executive.page.study.tables import write_tables
+from executive.page.study.tables import FINISHED, GAVE_UP, TIME, write_tables
 from executive.page.study.watching import Watch
 from executive.types import Outcome
 
 AGREED, DECLINED, READ = "agreed", "declined", "read"
-FINISHED, GAVE_UP, TIME = "finished", "gave_up", "time"
 
 
 class Leader:

@@ -4,6 +4,7 @@ from executive.events import Inbox
 from executive.language.control import Control, control
 from executive.page.board import Board
 from executive.page.person import PagePerson
+from executive.page.study.tables import GAVE_UP
 from executive.types import Failed
 
 OVER = "the task is over"
@@ -41,7 +42,7 @@ class Participant(PagePerson):
     def says(self, words: str) -> None:
         """They sent words."""
         if control(words) is Control.QUIT:
-            self.leave("gave_up")
+            self.leave(GAVE_UP)
         else:
             super().says(words)
 

@@ -27,7 +27,7 @@ class TaskRow:
     turn: int
     """The how-manieth task of its condition, from 1."""
     ended: str
-    """finished, gave_up, or time."""
+    """finished, gave_up or time."""
     began_at: str
     ended_at: str
     duration_s: float
@@ -115,6 +115,8 @@ class Tables:
 
 
 THE_STOP = "stop"
+FINISHED, GAVE_UP, TIME = "finished", "gave_up", "time"
+"""How tasks end: the participant says so, or gives up, or has had the time."""
 
 
 def tables(data: StudyData) -> Tables:

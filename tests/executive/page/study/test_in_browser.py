@@ -1,22 +1,15 @@
 """Participants go through a study in a real browser."""
 
 import random
-import re
 import signal
-import subprocess
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
-import tomli_w
 from axe_playwright_python.sync_playwright import Axe
-from browsing import DESKTOP, PHONE, SMALLEST, opened, wait_until_ready
+from browsing import DESKTOP, PHONE, SMALLEST, opened, say, wait_until_ready
 from playwright.sync_api import Browser, expect
 from playwright.sync_api import Page as Tab
-from studying import data_in, end_task, led, next_step, study_of, take_part
+from studying import begun, data_in, end_task, led, next_step, study_of, take_part, written
 
 from executive.page.study.tables import read_rows, tables
 
@@ -73,13 +66,11 @@ def test_a_task_is_given_up_while_the_robot_asks_and_the_next_one_begins(
     data = data_in(tmp_path, study_of(1, tasks=2))
 
     def give_up(tab: Tab, chance: random.Random) -> None:
-        tab.locator("#words").fill("Bring a fruit")
-        tab.locator("#words").press("Enter")
+        say(tab, "Bring a fruit")
         expect(tab.locator("#answers")).to_be_visible()
         tab.keyboard.press("Escape")
         wait_until_ready(tab)
-        tab.locator("#words").fill("Bring a fruit")
-        tab.locator("#words").press("Enter")
+        say(tab, "Bring a fruit")
         expect(tab.locator("#answers")).to_be_visible()
         end_task(tab, "I give up")
 
@@ -154,30 +145,11 @@ def test_axe_finds_no_fault_and_nothing_is_cut_off(
     assert not wrong
 
 
-@contextmanager
-def begun(
-    file: Path, data: Path, *more: str
-) -> Iterator[tuple["subprocess.Popen[str]", SimpleNamespace]]:
-    """The program as it is started by hand, and its page."""
-    command = [sys.executable, "-m", "executive.page", "study", str(file), "--data", str(data)]
-    with subprocess.Popen(
-        [*command, "--page", "0", *more], stderr=subprocess.PIPE, text=True
-    ) as process:
-        assert process.stderr is not None
-        found = re.search(r"open (http\S+)", process.stderr.readline())
-        assert found
-        try:
-            yield process, SimpleNamespace(url=found[1])
-        finally:
-            process.kill()
-
-
 def test_one_who_is_killed_in_the_middle_goes_on_and_no_row_is_lost(
     browser: Browser, tmp_path: Path
 ) -> None:
     study, chance = study_of(2), random.Random(0)
-    file = tmp_path / "s.toml"
-    file.write_text(tomli_w.dumps(study.model_dump(mode="json", exclude_none=True)))
+    file = written(study, tmp_path)
     with begun(file, tmp_path / "data") as (process, page), opened(browser, page) as tab:
         take_part(tab, chance, until="questionnaire")
         tab.locator("input[type=radio]").first.check()
