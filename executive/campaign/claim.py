@@ -13,8 +13,12 @@ _FLAGS = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_NONBLOCK
 """To open it: a named pipe there, which nobody may read, is an error and not waited for."""
 
 
-def lock_folder(folder: Path, option: str) -> TextIO:
+def lock_folder(
+    folder: Path, option: str, taken: str = "another campaign is running in it"
+) -> TextIO:
     """Have the folder until the file that is returned is closed, or this process ends.
+
+    That somebody else has it is told as `taken`.
 
     Raises:
         InputError: if another process has it, or it cannot be written to.
@@ -29,7 +33,7 @@ def lock_folder(folder: Path, option: str) -> TextIO:
     except BlockingIOError:
         stream.close()
         right = "wait until it has ended, or name another folder"
-        raise InputError(f"{option} {folder}", "another campaign is running in it", right) from None
+        raise InputError(f"{option} {folder}", taken, right) from None
     except OSError as error:
         stream.close()
         right = "name a folder on a disk of this machine"

@@ -58,6 +58,12 @@ class Board:
         self.flush()
         return number
 
+    def forget(self) -> None:
+        """Show nothing any more, as at the beginning; pages forget what they show, too."""
+        with self._lock:
+            self._said.clear()
+            self._notices = {"fresh": Change(self._next(), "fresh", "{}")}
+
     def since(self, number: int) -> list[Change]:
         """What has changed after this number (0: everything), in the order in which it did."""
         with self._lock:

@@ -5,6 +5,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from starlette.applications import Starlette
+
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.language.phrases import spoken
@@ -46,7 +48,7 @@ class Page:
         self.person = PagePerson(inbox, self.board)
         self._portraits = Portraits({})
         self._runs: Path | None = None
-        self._server.start(Guard(site(self), token, address.host, PUBLIC))
+        self._server.start(Guard(self._site(), token, address.host, PUBLIC))
 
     def __enter__(self) -> Self:
         """Nothing more to open."""
@@ -67,6 +69,10 @@ class Page:
         self.board.put("question", None)
         self.board.end()
         self._server.close()
+
+    def _site(self) -> Starlette:
+        """What is served."""
+        return site(self)
 
     def follow(self, session: "Session") -> None:
         """Show the home and the missions of this session."""

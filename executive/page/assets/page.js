@@ -53,6 +53,7 @@ const show = {
   path: showWay,
   places: showPlaces,
   camera: showCamera,
+  study: (step) => document.dispatchEvent(new CustomEvent("study", { detail: step })),
 };
 
 function showDoing(state) {

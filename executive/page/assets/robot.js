@@ -39,7 +39,7 @@ async function wasRefused() {
   }
 }
 
-async function send(path, body) {
+export async function send(path, body) {
   const answer = await fetch(address(path), {
     method: "POST",
     headers: { "content-type": "application/json" },

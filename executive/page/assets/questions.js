@@ -1,0 +1,83 @@
+// The items of a questionnaire: points to choose from, a slider, or words.
+
+import { element } from "./elements.js";
+import { text } from "./texts.js";
+
+const MOST_BUTTONS = 11; // more points are a slider
+
+export function asked(item, { points, left, right }) {
+  const ends = { left: item.left || left, right: item.right || right };
+  const words = item.text || `${ends.left} – ${ends.right}`;
+  const optional = item.needed ? null : element("span", { class: "optional" }, ` ${text("study.optional")}`);
+  const legend = element("legend", { class: item.text ? null : "unseen" }, words, optional);
+  const choice = item.answer === "words" ? written(item, words)
+    : points > MOST_BUTTONS ? slid(item, words, points, ends)
+    : chosen(item, points, ends);
+  const missing = element("p", { class: "missing", hidden: true }, text("study.missing"));
+  return element("fieldset", { class: item.text ? "item" : "item pair" }, legend, ...choice, missing);
+}
+
+function written(item, words) {
+  return [element("textarea", { name: item.name, rows: 3, maxlength: 4000, "aria-label": words })];
+}
+
+function chosen(item, points, ends) {
+  const choices = Array.from({ length: points }, (_, index) => {
+    const value = index + 1;
+    const end = value === 1 ? ends.left : value === points ? ends.right : "";
+    return element("label", {},
+      element("input", {
+        type: "radio", name: item.name, value, "aria-label": end ? `${value}, ${end}` : `${value}`,
+      }),
+      element("span", { "aria-hidden": "true" }, `${value}`));
+  });
+  return [shownEnds(ends), element("div", { class: "points" }, ...choices)];
+}
+
+function slid(item, words, points, ends) {
+  const slider = element("input", {
+    type: "range", name: item.name, min: 1, max: points, step: 1,
+    value: Math.ceil(points / 2), class: "unset", "aria-label": words,
+    "aria-valuetext": text("study.not_set"),
+  });
+  const state = element("span", {}, text("study.not_set"));
+  const set = () => {
+    slider.classList.remove("unset");
+    state.textContent = "";
+    slider.setAttribute("aria-valuetext", `${slider.value} / ${points}`);
+  };
+  for (const kind of ["input", "change", "click"]) slider.addEventListener(kind, set);
+  slider.addEventListener("keydown", (event) => {
+    if (event.key === "Enter" || event.key === " ") {
+      event.preventDefault(); // the middle is an answer, too
+      set();
+    }
+  });
+  return [shownEnds(ends, state), slider];
+}
+
+function shownEnds({ left, right }, between = null) {
+  return element("div", { class: "ends", "aria-hidden": "true" },
+    element("span", {}, left), between, element("span", {}, right));
+}
+
+/** What was answered, and the items that still have to be. */
+export function answersIn(fields, items) {
+  const answers = {};
+  const missing = [];
+  items.forEach((item, index) => {
+    const value = valueOf(fields[index]);
+    if (value !== null) answers[item.name] = value;
+    const lacks = value === null && item.needed;
+    fields[index].querySelector(".missing").hidden = !lacks;
+    if (lacks) missing.push(fields[index]);
+  });
+  return { answers, missing };
+}
+
+function valueOf(field) {
+  const words = field.querySelector("textarea");
+  if (words) return words.value.trim() || null;
+  const found = field.querySelector("input:checked, input[type=range]:not(.unset)");
+  return found ? Number(found.value) : null;
+}

@@ -1,0 +1,119 @@
+"""A study's file is read whole, or it is said where and what is wrong."""
+
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomli_w
+from hypothesis import given
+from hypothesis import strategies as st
+
+from executive.errors import InputError
+from executive.page.study.file import read_study, settings_of
+from executive.page.study.steps import steps
+
+EXAMPLE = Path(__file__).parents[4] / "docs/examples/study.toml"
+
+LEAST: dict[str, Any] = {
+    "title": "T",
+    "consent": "Yes?",
+    "instructions": "Talk.",
+    "conditions": [{"name": "a"}],
+    "tasks": [{"name": "t", "text": "Do."}],
+}
+
+
+def written(folder: Path, **changed: Any) -> Path:
+    file = folder / "study.toml"
+    file.write_text(tomli_w.dumps({**LEAST, **changed}), encoding="utf-8")
+    return file
+
+
+def test_the_example_of_the_docs_is_whole() -> None:
+    study = read_study(EXAMPLE)
+    assert [step.key for step in steps(study, 1)] == [
+        "consent",
+        "instructions",
+        "part/plans",
+        "task/plans/fruit",
+        "task/plans/mug",
+        "questionnaire/plans/sus",
+        "questionnaire/plans/trust",
+        "part/lists",
+        "task/lists/fruit",
+        "task/lists/mug",
+        "questionnaire/lists/sus",
+        "questionnaire/lists/trust",
+        "questionnaire/comparison",
+        "thanks",
+    ]
+    assert [step.condition for step in steps(study, 2) if step.kind == "part"] == ["lists", "plans"]
+
+
+def test_each_condition_has_its_own_settings_over_those_of_all(tmp_path: Path) -> None:
+    conditions = [
+        {"name": "a", "settings": {"search": "paper"}},
+        {"name": "b", "settings": {"world": "physics"}},
+    ]
+    file = written(tmp_path, settings={"world": "fake", "llm": "none"}, conditions=conditions)
+    study = read_study(file)
+    a, b = (settings_of(study, one, str(file)) for one in study.conditions)
+    assert (a.world, a.search, b.world, b.search) == ("fake", "paper", "physics", "plan")
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"tilte": "T"}, "there is no key tilte; see docs/study.md"),
+        ({"conditions": []}, "conditions is '[]'; tuple should have at least 1 item"),
+        ({"conditions": [{"name": "a"}] * 2}, "has two conditions called 'a'"),
+        ({"conditions": [{"name": "../a"}]}, "conditions.0.name is '../a'; use up to 40 letters"),
+        ({"tasks": [{"name": "t"}]}, "tasks.0.text is missing"),
+        ({"tasks": [{"name": "t", "text": "Do.", "limit_s": 0}]}, "tasks.0.limit_s is '0'"),
+        ({"order": "random"}, "order is 'random'; input should be 'balanced' or 'as written'"),
+        ({"after_each": ["suz"]}, "has no questionnaire 'suz': there are sus, nasa_tlx, godspeed"),
+        ({"settings": {"serach": "plan"}}, "setting 'serach': is no setting; known are home"),
+        ({"settings": {"search": "plans"}}, "settings of condition 'a': setting 'search'"),
+        ({"settings": {"runs": "x"}}, "runs is not for a study: the study keeps recordings"),
+        ({"settings": {"user": "oracle"}}, "user is not for a study: the participant is"),
+        ({"conditions": [{"name": "a", "settings": {"memory": "m"}}]}, "memory is not for a study"),
+    ],
+)
+def test_what_is_wrong_is_said_with_where_and_what_would_be_right(
+    tmp_path: Path, changed: dict[str, Any], said: str
+) -> None:
+    file = written(tmp_path, **changed)
+    with pytest.raises(InputError) as raised:
+        read_study(file)
+    assert str(raised.value).startswith(str(file))
+    assert said in str(raised.value)
+
+
+KEYS = st.sampled_from([*LEAST, "settings", "after_each", "questionnaires", "order", "x"])
+VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers(-(2**62), 2**62) | st.text(max_size=8),
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=4), inner, max_size=3)
+    ),
+    max_leaves=6,
+)
+
+
+@given(st.dictionaries(KEYS, VALUES, max_size=3))
+def test_whatever_is_in_it_is_a_study_or_an_error_in_a_sentence(
+    tmp_path_factory: pytest.TempPathFactory, changed: dict[str, Any]
+) -> None:
+    file = tmp_path_factory.mktemp("study") / "study.toml"
+    try:
+        file.write_text(tomli_w.dumps({**LEAST, **changed}), encoding="utf-8", errors="replace")
+    except (TypeError, ValueError):
+        return  # no TOML
+    with suppress(InputError):  # whose message is one line by itself
+        assert steps(read_study(file), 1)
+
+
+def test_the_same_said_in_other_lines_is_the_same_study(tmp_path: Path) -> None:
+    one = read_study(written(tmp_path)).canonical()
+    assert read_study(written(tmp_path, order="balanced")).canonical() == one
+    assert read_study(written(tmp_path, consent="No?")).canonical() != one

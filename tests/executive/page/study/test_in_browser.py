@@ -1,0 +1,165 @@
+"""Participants go through a study in a real browser."""
+
+import random
+import signal
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from browsing import DESKTOP, PHONE, SMALLEST, opened, say, wait_until_ready
+from playwright.sync_api import Browser, expect
+from playwright.sync_api import Page as Tab
+from studying import begun, data_in, end_task, led, next_step, study_of, take_part, written
+
+from executive.page.study.tables import read_rows, tables
+
+pytestmark = pytest.mark.browser
+
+RULES = {
+    "runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
+    "resultTypes": ["violations"],
+}
+
+
+def faults(tab: Tab) -> list[str]:
+    response = Axe().run(tab, options=RULES).response
+    return [
+        f"{fault['id']}: {node['html'][:120]} {node.get('failureSummary', '')[:300]}"
+        for fault in response["violations"]
+        for node in fault["nodes"]
+    ]
+
+
+def test_two_participants_go_through_two_conditions(browser: Browser, tmp_path: Path) -> None:
+    data, chance = data_in(tmp_path, study_of(2)), random.Random(0)
+    for code in ("P01", "P02"):
+        with led(data, code) as one, opened(browser, one.page) as tab:
+            steps = take_part(tab, chance)
+            expect(tab.locator("#sheet-title")).to_have_text("Thank you")
+        assert steps[2:5] == ["part/1/", "task/1/t0", "questionnaire/1/sus"]
+        assert one.took_part
+    made = read_rows(data.folder / "results.parquet")
+    assert [(r["participant"], r["condition"], r["ended"], r["done"]) for r in made] == [
+        ("P01", "a", "finished", 1),
+        ("P01", "b", "finished", 1),
+        ("P02", "b", "finished", 1),
+        ("P02", "a", "finished", 1),
+    ]
+    assert len(read_rows(data.folder / "answers.parquet")) == 2 * 2 * 10
+    assert all(
+        (data.folder / folder / "mission.mcap").exists() for r in made for folder in r["recordings"]
+    )
+
+
+def test_who_declines_sees_no_robot(browser: Browser, tmp_path: Path) -> None:
+    data = data_in(tmp_path, study_of(1))
+    with led(data, "P01") as one, opened(browser, one.page) as tab:
+        tab.get_by_role("button", name="I do not take part").click()
+        expect(tab.locator("#sheet")).to_contain_text("Nothing of you is kept.")
+    assert one.took_part is False
+    assert not tables(data).results
+
+
+def test_a_task_is_given_up_while_the_robot_asks_and_the_next_one_begins(
+    browser: Browser, tmp_path: Path
+) -> None:
+    data = data_in(tmp_path, study_of(1, tasks=2))
+
+    def give_up(tab: Tab, chance: random.Random) -> None:
+        say(tab, "Bring a fruit")
+        expect(tab.locator("#answers")).to_be_visible()
+        tab.keyboard.press("Escape")
+        wait_until_ready(tab)
+        say(tab, "Bring a fruit")
+        expect(tab.locator("#answers")).to_be_visible()
+        end_task(tab, "I give up")
+
+    with led(data, "P01") as one, opened(browser, one.page) as tab:
+        take_part(tab, random.Random(0), give_up)
+    assert [(r.ended, r.missions, r.stopped, r.stops) for r in tables(data).results] == [
+        ("gave_up", 2, 2, 2)
+    ] * 2
+
+
+def test_when_the_time_is_over_the_participant_is_led_on(browser: Browser, tmp_path: Path) -> None:
+    data = data_in(tmp_path, study_of(1, limit_s=0.5))
+    with led(data, "P01") as one, opened(browser, one.page) as tab:
+        take_part(tab, random.Random(0), lambda tab, chance: None)
+    assert [row.ended for row in tables(data).results] == ["time"]
+
+
+def test_two_pages_of_a_participant_show_the_same_and_do_a_thing_once(
+    browser: Browser, tmp_path: Path
+) -> None:
+    data = data_in(tmp_path, study_of(1))
+    with (
+        led(data, "P01") as one,
+        opened(browser, one.page) as tab,
+        opened(browser, one.page) as other,
+    ):
+        take_part(tab, random.Random(0), until="questionnaire")
+        assert next_step(other, "consent/0/")[1] == "questionnaire"
+        assert one.page.sends("task/1/t0", "finished") == (409, "This is over.")
+        take_part(other, random.Random(0))
+        expect(tab.locator("#sheet-title")).to_have_text("Thank you")
+    assert len(tables(data).answers) == 10
+
+
+def test_what_is_left_out_is_told_and_focused(browser: Browser, tmp_path: Path) -> None:
+    data = data_in(tmp_path, study_of(1, at_start=["nasa_tlx"], after_each=[]))
+    with led(data, "P01", to_the_end=False) as one, opened(browser, one.page) as tab:
+        take_part(tab, random.Random(0), until="questionnaire")
+        tab.locator("input[type=range]").first.press("Enter")
+        tab.get_by_role("button", name="Send my answers").click()
+        expect(tab.get_by_role("alert").last).to_have_text("Still to be answered: 5.")
+        expect(tab.locator("input[type=range]").nth(1)).to_be_focused()
+        take_part(tab, random.Random(0), until="part")
+    assert [row.points for row in tables(data).answers] == [11] * 6
+
+
+@pytest.mark.parametrize(
+    ("size", "colors"),
+    [(DESKTOP, "light"), (PHONE, "dark"), (SMALLEST, "light")],
+    ids=["desktop", "phone", "smallest"],
+)
+def test_axe_finds_no_fault_and_nothing_is_cut_off(
+    browser: Browser, tmp_path: Path, size: dict[str, int], colors: str
+) -> None:
+    free = {"title": "Words", "items": [{"name": "w", "text": "Why?", "answer": "words"}]}
+    asked = ["sus", "nasa_tlx", "godspeed", "free"]
+    study = study_of(1, after_each=asked, questionnaires={"free": free})
+    wrong: list[str] = []
+
+    def look(tab: Tab) -> None:
+        if tab.get_by_role("button", name="Send my answers").count():
+            tab.get_by_role("button", name="Send my answers").click()  # what is missing is told
+        wrong.extend(faults(tab))
+        wide = tab.evaluate("document.documentElement.scrollWidth")
+        wrong.extend([f"{wide} pixels wide"] * (wide > size["width"]))
+
+    with (
+        led(data_in(tmp_path, study), "P01") as one,
+        opened(browser, one.page, viewport=size, color_scheme=colors) as tab,
+    ):
+        take_part(tab, random.Random(0), look=look)
+    assert not wrong
+
+
+def test_one_who_is_killed_in_the_middle_goes_on_and_no_row_is_lost(
+    browser: Browser, tmp_path: Path
+) -> None:
+    study, chance = study_of(2), random.Random(0)
+    file = written(study, tmp_path)
+    with begun(file, tmp_path / "data") as (process, page), opened(browser, page) as tab:
+        take_part(tab, chance, until="questionnaire")
+        tab.locator("input[type=radio]").first.check()
+        process.send_signal(signal.SIGKILL)
+    with (
+        begun(file, tmp_path / "data", "--participant", "P01") as (process, page),
+        opened(browser, page) as tab,
+    ):
+        steps = take_part(tab, chance)
+        assert process.wait(60) == 0
+    assert steps == ["questionnaire/1/sus", "part/2/", "task/2/t0", "questionnaire/2/sus"]
+    made = read_rows(tmp_path / "data/results.parquet")
+    assert [(row["condition"], row["attempts"]) for row in made] == [("a", 1), ("b", 1)]
