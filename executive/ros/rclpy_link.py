@@ -19,7 +19,9 @@ from executive.ros.rclpy_messages import fill, to_table, type_named
 NODE = "robot_executive"
 SERVER_S = 3.0
 """So long an action's server may take to be found."""
-DISCOVERY_S, QUIET_S = 10.0, 1.0
+MATCHING_S = 0.5
+"""A server that is found may find who asks it this much later: a goal in between would be lost."""
+DISCOVERY_S, QUIET_S = 15.0, 2.0
 """So long a graph may take to be discovered; one to which nothing is added for so long is whole."""
 LOOK_S = 0.02
 DEPTH = 10
@@ -55,6 +57,8 @@ class RclpyLink:
         self._spinning.start()
         self._greeter: asyncio.Task[None] | None = None
         self._actions: dict[str, Any] = {}
+        self._new: set[str] = set()
+        """Actions to which no goal was sent yet."""
         self._clients: dict[str, Any] = {}
         self._publishers: dict[str, Any] = {}
 
@@ -132,12 +136,16 @@ class RclpyLink:
         made = type_named(kind)
         if action not in self._actions:
             self._actions[action] = ActionClient(self._node, made, action)
+            self._new.add(action)
         client = self._actions[action]
         latest = self._loop.time() + SERVER_S
         while not client.server_is_ready():
             if self._loop.time() > latest:
                 raise LinkError(f"nobody serves {action}")
             await asyncio.sleep(LOOK_S)
+        if action in self._new:
+            await asyncio.sleep(MATCHING_S)
+            self._new.discard(action)
         return client, made
 
     async def _awaited(self, future: Any) -> Any:

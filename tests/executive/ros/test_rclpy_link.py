@@ -15,6 +15,7 @@ from executive.ros.rclpy_link import RclpyLink
 from executive.ros.thread import WireThread
 
 pytestmark = [pytest.mark.ros2, pytest.mark.filterwarnings("ignore::DeprecationWarning")]
+PATIENCE_S = 60.0
 KIND, ACTION = "test_msgs/action/Fibonacci", "/count"
 
 
@@ -93,12 +94,12 @@ def wire(node: Node) -> Iterator[tuple[WireThread, RclpyLink]]:
 
     link = thread.run(join())
     yield thread, link
-    thread.start(link.close()).result(10)
+    thread.start(link.close()).result(PATIENCE_S)
     thread.close()
 
 
 def until(happens: Callable[[], object]) -> None:
-    latest = time.monotonic() + 10.0
+    latest = time.monotonic() + PATIENCE_S
     while not happens():
         assert time.monotonic() < latest
         time.sleep(0.02)
@@ -133,7 +134,7 @@ def test_the_hidden_service_cancels_all_goals(
     service, kind = f"{ACTION}/_action/cancel_goal", "action_msgs/srv/CancelGoal"
     answer = thread.run(link.call(service, kind, everything(), within_s=5.0, urgent=True))
     assert answer["return_code"] == 0
-    assert pursuit.result(10).status == GoalStatus.CANCELED
+    assert pursuit.result(PATIENCE_S).status == GoalStatus.CANCELED
 
 
 def test_what_is_cancelled_here_is_cancelled_there(

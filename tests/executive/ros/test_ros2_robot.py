@@ -1,0 +1,128 @@
+"""The profile `nav2` drives a node of ROS 2 with Nav2's own interfaces: `pytest -m ros2`."""
+
+import json
+import math
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from executive.__main__ import main
+from executive.events import Inbox
+from executive.replay import replay
+from executive.ros.__main__ import main as ros
+from executive.ros.address import ROS2, Address
+from executive.ros.connection import Connection, connect
+from executive.ros.profile import load_profile
+from executive.testing.bench import four_rooms
+from executive.testing.contracts.robot import Bench
+from executive.types import DriveTo, Failed, Halt, LookAt, Succeeded
+from sim.fake import straight_s
+
+pytestmark = [pytest.mark.ros2, pytest.mark.filterwarnings("ignore::DeprecationWarning")]
+
+PATIENCE_S = 60.0
+
+
+@pytest.fixture(scope="module")
+def robot() -> Iterator[Any]:
+    pytest.importorskip("rclpy")
+    pytest.importorskip("nav2_msgs")
+    from ros2.nav2_robot import Nav2Robot
+
+    made = Nav2Robot(four_rooms().robot_start)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def here(robot: Any) -> Iterator[tuple[Connection, Bench]]:
+    home, inbox = four_rooms(), Inbox()
+
+    def ways(start: str, place: str) -> float:
+        return straight_s(home, start, place)
+
+    def advance(at_most: float) -> float:
+        began = time.monotonic()
+        inbox.wait(min(at_most, 0.1))
+        return time.monotonic() - began
+
+    made = connect(Address(ROS2), load_profile("nav2"), home, inbox, "nav2", ways)
+    yield made, Bench(made.robot, inbox, advance)
+    made.close()
+
+
+def until(happens: Callable[[], object]) -> None:
+    latest = time.monotonic() + PATIENCE_S
+    while not happens():
+        assert time.monotonic() < latest
+        time.sleep(0.02)
+
+
+def test_it_drives_in_legs_and_looks_by_turning(here: tuple[Connection, Bench], robot: Any) -> None:
+    _, bench = here
+    robot.goals.clear()
+    assert bench.do(DriveTo("desk")) == Succeeded()
+    assert robot.at[:2] == pytest.approx(four_rooms().stand("desk")[:2], abs=0.01)
+    assert len(robot.goals) > 1
+    bench.wait(0.5)  # until its frames are told
+    x, y, yaw = robot.at
+    assert (
+        bench.do(LookAt("desk", point=(x - math.sin(yaw), y + math.cos(yaw), 0.0))) == Succeeded()
+    )
+    assert robot.at[2] == pytest.approx(yaw + math.pi / 2, abs=0.1)
+
+
+def test_a_picture_is_of_colour_and_depth_where_the_camera_is(
+    here: tuple[Connection, Bench], robot: Any
+) -> None:
+    frame = here[0].camera.capture()
+    assert frame.color.shape[:2] == frame.depth.shape == (48, 64)
+    assert frame.pose.position == pytest.approx((*robot.at[:2], 1.0), abs=0.05)
+
+
+def test_a_halt_stops_it(here: tuple[Connection, Bench], robot: Any) -> None:
+    _, bench = here
+    bench.robot.start(DriveTo("person"))
+    until(lambda: robot.speed)
+    assert bench.do(Halt()) == Succeeded()
+    assert not robot.speed
+
+
+def test_why_it_does_not_get_there_is_told_in_its_own_words(
+    here: tuple[Connection, Bench], robot: Any
+) -> None:
+    robot.aborts = "the corridor is blocked"
+    result = here[1].do(DriveTo("shelf_lobby"))
+    robot.aborts = ""
+    assert result == Failed("the corridor is blocked")
+
+
+def test_a_goal_that_is_refused_ends_at_once(here: tuple[Connection, Bench], robot: Any) -> None:
+    robot.rejects = True
+    result = here[1].do(DriveTo("shelf_lobby"))
+    robot.rejects = False
+    assert isinstance(result, Failed)
+
+
+def test_the_profile_fits_and_look_proposes_one_that_does(
+    robot: Any, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert ros(["check", ROS2, "--profile", "nav2"]) == 0
+    assert ros(["look", ROS2]) == 0
+    proposed = tmp_path / "proposed.toml"
+    proposed.write_text(capsys.readouterr().out.partition("\n")[2])
+    assert ros(["check", ROS2, "--profile", str(proposed)]) == 0, capsys.readouterr().err
+
+
+def test_a_mission_looks_for_the_thing_and_replays(
+    robot: Any, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    told = ("--llm", "none", "--user", "none", "--json")
+    assert main(["--robot", ROS2, "--profile", "nav2", *told, "Find a power_drill"]) == 1
+    outcome = json.loads(capsys.readouterr().out)
+    assert outcome["visited"]
+    assert replay(tmp_path / outcome["run_dir"]).parting is None
