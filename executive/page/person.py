@@ -128,8 +128,10 @@ class PagePerson(Console):
     def _show_question(self) -> None:
         """Show the question as long as an answer would be taken for one; the lock is held."""
         asked, request = self._question, self._request
-        waits = asked is not None and request is not None
-        self._board.put("question", shown(asked, request) if waits else None)
+        if asked is None or request is None:
+            self._board.put("question", None)
+        else:
+            self._board.put("question", shown(asked, request))
 
 
 def shown(question: Question, number: int) -> dict[str, Any]:
