@@ -1,9 +1,10 @@
 """How the person is told things: on one line, and in words."""
 
+from executive.language.commands import THING
 from executive.language.wording import as_said, either
 from executive.records import Utterance
 from executive.text import printable
-from executive.types import HELD, PERSON, Command, CommandKind
+from executive.types import ALL, HELD, PERSON, Command, CommandKind
 from trees.context import MissionContext
 
 TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
@@ -47,6 +48,10 @@ def _things(context: MissionContext, command: Command) -> str:
     named = knowledge.objects_named(target)
     if target == HELD:
         what = target
+    elif target == THING:
+        what = (
+            "something" if command.kind.means.searches and command.number != ALL else "everything"
+        )
     elif names and " and ".join(names) == target:
         what = " and ".join(map(context.say.the, names))
     elif len(named) == 1:

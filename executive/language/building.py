@@ -122,6 +122,18 @@ class Builder(Transformer[Token, Said]):
         """As in "but a banana"."""
         return tuple(p for p in parts if isinstance(p, Thing))
 
+    def left_alone(self, parts: list[Part]) -> tuple[Thing, ...]:
+        """As in "and do not touch the banana", "but leave the apple and the pear alone"."""
+        return tuple(replace(p, alone=True) for p in parts if isinstance(p, Thing))
+
+    def rather(self, parts: list[Part]) -> Things:
+        """As in "not the hammer but the drill"."""
+        wrong = parts[-1]
+        if len(wrong.exceptions) != 1:
+            raise Unfit(str(parts[0]))
+        [meant] = wrong.exceptions
+        return Things((replace(meant, exceptions=(replace(wrong, exceptions=()),)),))
+
     def all_of(self, parts: list[Part]) -> Things:
         """As in "an apple and a banana"."""
         return Things(tuple(p for p in parts if isinstance(p, Thing)))
@@ -214,12 +226,12 @@ class Builder(Transformer[Token, Said]):
         place, things = (p for p in parts if isinstance(p, Things))
         return Task(Verb.FIND, things, source=Where(place.members[0].words), said=parts[0])
 
-    def leave(self, parts: list[Part]) -> Task | Refusal:
+    def leave(self, parts: list[Part]) -> "Task | Left":
         """As in "leave the hammer alone", "leave the hammer on the desk"; "leave it there" puts."""
         things = parts[1]
         if all(thing.pronoun for thing in things.members) and not _is(parts[2], "ALONE"):
             return _task(Verb.PUT, parts, goes=True)
-        return Refusal(" ".join(thing.said for thing in things.members))
+        return Left(self.left_alone([*things.members]))
 
     def wish(self, parts: list[Part]) -> Task:
         """As in "I need the mug"."""
@@ -254,9 +266,18 @@ class Builder(Transformer[Token, Said]):
         """As in "clear the table", "clear the mugs from the table"."""
         task = _task(Verb.CLEAR, parts)
         if task.source is None and task.things:
-            place = Where(task.things.members[0].words)
-            return replace(task, things=None, source=place)
+            if task.things.one_of:
+                raise Unfit(task.things.members[-1].words)
+            places = [Where(thing.words) for thing in task.things.members]
+            left_out = (but for thing in task.things.members for but in thing.exceptions)
+            return without(replace(task, things=None, source=_either(places)), tuple(left_out))
         return task
+
+    def excepting(self, parts: list[Part]) -> Task:
+        """As in "bring all the fruit from the table, except the pear"."""
+        task = _deed(next(p for p in parts if isinstance(p, Task | Left)))
+        left_out = tuple(p for p in parts if isinstance(p, Thing)) or _exceptions(parts)
+        return without(task, left_out)
 
     def count(self, parts: list[Part]) -> Task:
         """As in "how many fruits are on the table"."""
@@ -297,12 +318,11 @@ class Builder(Transformer[Token, Said]):
     # --- what is said ---
 
     def request(self, parts: list[Part]) -> Request | Refusal:
-        """Tasks, one after the other; one that is not to be done stands alone."""
-        if refused := next((p for p in parts if isinstance(p, Refusal)), None):
-            if any(isinstance(p, Task) for p in parts):
-                raise Unfit(refused.words)
-            return refused
-        tasks = tuple(p for p in parts if isinstance(p, Task))
+        """Tasks, one after the other; what is to be left alone is no part of any of them."""
+        left = tuple(thing for p in parts if isinstance(p, Left) for thing in p.things)
+        tasks = tuple(without(p, left) for p in parts if isinstance(p, Task))
+        if not tasks:
+            return Refusal(" ".join(thing.said for thing in left))
         in_order = any(_is(p, "FIRST", "THEN") for p in parts)
         return Request(
             tasks,
@@ -447,6 +467,13 @@ class To:
 
 
 @dataclass(frozen=True, slots=True)
+class Left:
+    """What is to stay where it is."""
+
+    things: tuple[Thing, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Otherwise:
     """What is to be done instead."""
 
@@ -456,8 +483,17 @@ class Otherwise:
 def _deed(part: Part) -> Task:
     """A task; what is not to be done ("leave it alone") depends on nothing, and nothing on it."""
     if not isinstance(part, Task):
-        raise Unfit(getattr(part, "words", ""))
+        raise Unfit(part.things[-1].said)
     return part
+
+
+def without(task: Task, left_out: tuple[Thing, ...]) -> Task:
+    """The same less some things; what has to do with none is done with all but these."""
+    if not left_out:
+        return task
+    things = task.things or Things((Thing(number=ALL, definite=True, said="everything"),))
+    members = (replace(t, exceptions=(*t.exceptions, *left_out)) for t in things.members)
+    return replace(task, things=replace(things, members=tuple(members)))
 
 
 def _said(parts: list[Part]) -> str:

@@ -44,6 +44,8 @@ THERE = ("there", "over there")
 """Words for the place that was spoken of."""
 _ALONE = (Verb.FIND, Verb.TAKE, Verb.BRING)
 """Deeds that another one with "it" may follow, which has them in it."""
+_ANYWHERE = (Verb.COUNT, Verb.CHECK)
+_LOOKING = (Verb.FIND, Verb.COUNT, Verb.CHECK, Verb.TELL)
 
 
 def commands_in(said: Said, words: str) -> Commands | str | None:
@@ -55,7 +57,7 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
         case Request():
             return _commands(_resolved(_folded(said.tasks)), words)
         case Refusal():
-            return "Then I will not."
+            return "Then I will not." + " Say once more what I am to do instead." * said.more
         case Again():
             return "There is nothing yet that I could do again."
         case Unable():
@@ -69,6 +71,12 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
         case Correction():
             return "I am doing nothing that this could change; say all that I am to do."
     return None
+
+
+def left_alone(said: Request) -> str:
+    """The names of what is not to be touched, whatever else is done."""
+    things = (thing for task in said.tasks if task.things for thing in task.things.members)
+    return " and ".join(but.words for thing in things for but in thing.exceptions if but.alone)
 
 
 def talk(said: Said, things: Sequence[str] = ()) -> str:
@@ -136,7 +144,7 @@ def _resolved(tasks: Sequence[Task]) -> Iterator[Task]:
             task = replace(task, things=things)
         if place and _is_there(task.source):
             task = replace(task, source=place)
-        elif task.verb in (Verb.COUNT, Verb.CHECK) and _is_there(task.source):
+        elif _is_there(task.source) and (task.verb in _ANYWHERE or _names_things(task)):
             task = replace(task, source=None)  # "how many fruits are there"
         if place and _is_there(task.goal):
             task = replace(task, goal=place)
@@ -183,7 +191,7 @@ def _command(task: Task, things: Things | None, words: str) -> Command:
         source=in_words(task.source) if task.source else "",
         goal=in_words(task.goal) if task.goal and not brings else "",
         purpose=" and ".join(thing.purpose for thing in members if thing.purpose),
-        exceptions=tuple(but.words for thing in members for but in thing.exceptions),
+        exceptions=tuple(but.words for thing in members for but in _left_out(task, thing)),
         number=_number(task, members),
         among=tuple(map(_name, members)) if len(members) > 1 else (),
         superlative=_superlative(task),
@@ -230,15 +238,28 @@ def _why_not(task: Task) -> str:
             return f"I do not know where '{place.words}' is; say the name of the place"
     if task.verb == Verb.PUT_DOWN and task.source:
         return "I put down only what I hold"
-    if task.verb in (Verb.TELL, Verb.CLEAR) and not task.source:
+    if task.verb in (Verb.TELL, Verb.CLEAR) and not (task.source or _names_things(task)):
         return f"I can {task.verb} only at a place; say which"
     things = task.things.members if task.things else ()
-    if any(but.pronoun for thing in things for but in thing.exceptions):
+    if any(but.pronoun for thing in things for but in _left_out(task, thing)):
         return "I do not know what is not meant; say its name"
     if task.conditional and len(things) > 1:
         return "I can do things on a condition only one by one"
     parts = (part for part in (task.sought, task.unless) if part)
     return next(filter(None, map(_why_not, parts)), "")
+
+
+def _names_things(task: Task) -> bool:
+    """Whether it is a question about certain things, which may be anywhere."""
+    members = task.things.members if task.things else ()
+    return task.verb == Verb.TELL and any(t.words and not t.superlative for t in members)
+
+
+def _left_out(task: Task, thing: Thing) -> tuple[Thing, ...]:
+    """What is not meant; who only looks takes nothing: "find the mug and do not touch it"."""
+    if task.verb not in _LOOKING:
+        return thing.exceptions
+    return tuple(but for but in thing.exceptions if not but.pronoun and but.words != thing.words)
 
 
 def _held(things: Things | None) -> str:
@@ -248,7 +269,7 @@ def _held(things: Things | None) -> str:
 
 
 def _names(things: Things | None, verb: Verb = Verb.FIND) -> str:
-    if things is None:
+    if things is None or verb == Verb.GO:
         return ""
     told = verb == Verb.TELL
     names = ((thing.words or THING) if told else _name(thing) for thing in things.members)

@@ -68,6 +68,7 @@ class Thing:
         pronoun: "it", "them", "another one": it has to be known from before.
         other: another one than before.
         exceptions: what it is not to be: "anything but a banana".
+        alone: of such an exception, whether it is not to be touched at all: "and leave the pear".
         definite: "the mug" is a certain one, "a mug" is any.
         superlative: which of them by a measure: "biggest"; empty if that was not said.
         said: all of this as it was said, but for articles and exceptions: "two mugs".
@@ -81,6 +82,7 @@ class Thing:
     exceptions: tuple["Thing", ...] = ()
     definite: bool = False
     superlative: str = ""
+    alone: bool = False
     said: str = field(default="", compare=False)
 
 
@@ -135,9 +137,15 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Something is not to be done: "do not touch the hammer"."""
+    """Something is not to be done: "do not touch the hammer".
+
+    Attributes:
+        words: what.
+        more: whether something else may be asked for behind it, which is not clear.
+    """
 
     words: str
+    more: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 import re
 import tomllib
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -14,7 +15,8 @@ from lark.exceptions import VisitError
 from executive.cache import cache_folder
 from executive.language import others
 from executive.language.building import Builder, Unfit
-from executive.language.meaning import Relation, Said, Unread
+from executive.language.contrasts import in_its_place
+from executive.language.meaning import Refusal, Relation, Said, Unread
 from executive.language.phrases import plain_letters
 from executive.text import LONGEST, too_long
 
@@ -59,16 +61,21 @@ class Reader:
         """What the words mean; what cannot be read is `Unread`, and says where."""
         if too_long(words):
             return Unread(words)
-        text = self.plain(words)
+        said = self._read(self.plain(words))
+        if isinstance(said, Refusal):
+            return in_its_place(said, self._read)
+        return replace(said, words=words) if isinstance(said, Unread) else said
+
+    def _read(self, text: str) -> Said:
+        """The same of words in plain form."""
         try:
             return self._builder.transform(self.parser.parse(text))
         except UnexpectedInput as error:
-            at = re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0]
-            return Unread(words, at)
+            return Unread(text, re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0])
         except VisitError as error:
             if not isinstance(error.orig_exc, Unfit):
                 raise
-            return Unread(words, str(error.orig_exc))
+            return Unread(text, str(error.orig_exc))
 
     def knows(self, words: str) -> bool:
         """Whether there is a word among them that may be more than a part of a name."""
