@@ -80,6 +80,14 @@ class EnglishInterpreter:
         """The answer to small talk, or to who asks for help; empty if it is neither."""
         return talk(self._reader.read(words), things)
 
+    def passed_over(self, words: str, commands: Sequence[Command]) -> tuple[str, ...]:
+        """Numbers and conditions in words that somebody else has read, and none of the commands."""
+        named = " ".join(name for one in commands for name in named_in(one)).split()
+        numbers = {one.number for one in commands}
+        conditions = self._reader.conditions(words) * (not any(one.conditional for one in commands))
+        counts = (said for said, n in self._reader.numbers(words) if n not in numbers)
+        return tuple(dict.fromkeys(w for w in (*counts, *conditions) if w not in named))
+
     def without_slips(self, words: str) -> Commands:
         """The tasks that the words are with the word for the deed spelled right; none if none."""
         for likely in without_slips(self._reader, words):

@@ -45,6 +45,8 @@ class Reader:
         self._denials = re.compile(rf"\b(?:{_any_of(words['denials'])})\b")
         self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
         self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
+        self._conditions = re.compile(rf"\b(?:{_any_of(words['conditions'])})\b")
+        self._numbers: dict[str, int] = words["numbers"]
         self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
         self._builder = _builder(words)
         grammar = (ASSETS / f"{language}.lark").read_text("utf-8")
@@ -114,6 +116,16 @@ class Reader:
         """Whether the words are of a language that this is not, as far as that can be told."""
         return others.is_other(self.plain(words), self.vocabulary)
 
+    def conditions(self, words: str) -> list[str]:
+        """Words among them that make it depend on something."""
+        return [found[0] for found in self._conditions.finditer(self.plain(words))]
+
+    def numbers(self, words: str) -> list[tuple[str, int]]:
+        """Numbers of things among them, as they were said, and as they are."""
+        each = self.plain(words).replace(",", " ").split()
+        said = ((w, int(w) if w.isdecimal() else self._numbers.get(w, 1)) for w in each)
+        return [(word, number) for word, number in said if number != 1]
+
     def declines(self, words: str) -> bool:
         """Whether there is something among them that people say who do not know."""
         return self._declines.search(self.plain(words)) is not None
@@ -128,7 +140,7 @@ def english(names: tuple[str, ...] = ()) -> Reader:
 def _builder(words: dict[str, Any]) -> Builder:
     relations = {said: Relation(name) for name, all_ in words["relations"].items() for said in all_}
     most = {said: name for name, all_ in words["superlatives"].items() for said in all_}
-    return Builder(words["numbers"], relations, most)
+    return Builder(words["numbers"] | words["ordinals"], relations, most)
 
 
 def _parser(grammar: str, **terminals: str) -> Lark:
