@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from executive.language.building import without
+from executive.language.deeds import without
 from executive.language.meaning import Answer, Refusal, Request, Said, Thing, Things
 
 _TURN = re.compile(r",? but (?:rather |instead )?|, ")

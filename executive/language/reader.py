@@ -14,9 +14,10 @@ from lark.exceptions import VisitError
 
 from executive.cache import cache_folder
 from executive.language import others
-from executive.language.building import Builder, Unfit
+from executive.language.building import Builder
 from executive.language.contrasts import in_its_place
 from executive.language.meaning import Refusal, Relation, Said, Unread
+from executive.language.parts import Unfit
 from executive.language.phrases import plain_letters
 from executive.text import LONGEST, too_long
 

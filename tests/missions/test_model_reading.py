@@ -79,7 +79,9 @@ def test_a_colour_that_the_thing_has_is_not_passed_over() -> None:
 
 def test_all_tasks_that_the_model_reads_are_asked_about_and_done() -> None:
     tasks = [json.loads(reply("bring", name))["tasks"][0] for name in ("hammer", "scissors")]
-    run = read("off to me with hammer and scissors", json.dumps({"tasks": tasks}), "yes", "on the desk")
+    run = read(
+        "off to me with hammer and scissors", json.dumps({"tasks": tasks}), "yes", "on the desk"
+    )
     assert said(run)[0] == "Do you mean: bring the hammer, then bring the scissors?"
     assert [task.object for task in run.outcome.tasks] == ["hammer", "scissors"]
     assert run.outcome.status == MissionStatus.DONE
