@@ -58,8 +58,13 @@ def _things(context: MissionContext, command: Command) -> str:
         what = context.say.the(named[0])
     else:
         what = as_said(command.words, target)
-    but = f" but not {either(command.exceptions)}" if command.exceptions else ""
-    return what + but
+    left_out = either([_one_thing(context, but) for but in command.exceptions])
+    return what + f" but not {left_out}" * bool(left_out)
+
+
+def _one_thing(context: MissionContext, words: str) -> str:
+    named = context.knowledge.objects_named(words)
+    return context.say.the(named[0]) if len(named) == 1 else words
 
 
 def _place(context: MissionContext, command: Command, words: str) -> str:
