@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from lark import Token
 
-from executive.language.meaning import ALL, ME, Task, Thing, Things, Verb, Where
+from executive.language.meaning import ALL, ME, Task, Thing, Things, Where
 from executive.language.nouns import Nouns
 from executive.language.parts import (
     From,
@@ -18,6 +18,7 @@ from executive.language.parts import (
     is_a,
     purpose_of,
 )
+from executive.types import CommandKind
 
 MOST_INNER = 4
 """Places that say where another place is; nobody says more in one breath."""
@@ -28,76 +29,76 @@ class Deeds(Nouns):
 
     def task(self, parts: list[Part]) -> Task:
         """As in "find the mug on the desk": the verb has the name of its terminal."""
-        return _task(Verb(parts[0].type.lower()), parts)
+        return _task(CommandKind(parts[0].type.lower()), parts)
 
     def find(self, parts: list[Part]) -> Task:
         """As in "tell me where the mug is"."""
-        return _task(Verb.FIND, parts)
+        return _task(CommandKind.FIND, parts)
 
     def take(self, parts: list[Part]) -> Task:
         """As in "take the mug"; with a goal it is brought there."""
-        task = _task(Verb.TAKE, parts)
-        return replace(task, verb=Verb.PUT) if task.goal else task
+        task = _task(CommandKind.TAKE, parts)
+        return replace(task, verb=CommandKind.PUT) if task.goal else task
 
     def bring(self, parts: list[Part]) -> Task:
         """As in "bring me the mug", "give the mug to Anna"."""
-        task = _task(Verb.BRING, parts)
-        return replace(task, verb=Verb.BRING if task.goal in (None, ME) else Verb.PUT)
+        task = _task(CommandKind.BRING, parts)
+        return replace(task, verb=CommandKind.BRING if task.goal in (None, ME) else CommandKind.PUT)
 
     def bring_to(self, parts: list[Part]) -> Task:
         """As in "bring Anna the mug"."""
         verb, person, *rest = parts
-        return _task(Verb.PUT, [verb, To(person), *rest])
+        return _task(CommandKind.PUT, [verb, To(person), *rest])
 
     def wish_for(self, parts: list[Part]) -> Task:
         """As in "I want to drink something": whatever serves for that."""
         thing = Thing(number=1, purpose=purpose_of(parts, "PURPOSE"), said=str(parts[-1]))
-        return Task(Verb.BRING, Things((thing,)), said=parts[0])
+        return Task(CommandKind.BRING, Things((thing,)), said=parts[0])
 
     def search_for(self, parts: list[Part]) -> Task:
         """As in "search the kitchen for the mug"."""
         place, things = (p for p in parts if isinstance(p, Things))
-        return Task(Verb.FIND, things, source=Where(place.members[0].words), said=parts[0])
+        return Task(CommandKind.FIND, things, source=Where(place.members[0].words), said=parts[0])
 
     def leave(self, parts: list[Part]) -> Task | Left:
         """As in "leave the hammer alone", "leave the hammer on the desk"; "leave it there" puts."""
         things = parts[1]
         if all(thing.pronoun for thing in things.members) and not is_a(parts[2], "ALONE"):
-            return _task(Verb.PUT, parts, goes=True)
+            return _task(CommandKind.PUT, parts, goes=True)
         return Left(self.left_alone([*things.members]))
 
     def wish(self, parts: list[Part]) -> Task:
         """As in "I need the mug"."""
-        return _task(Verb.BRING, parts)
+        return _task(CommandKind.BRING, parts)
 
     def put(self, parts: list[Part]) -> Task:
         """As in "put the mug on the desk"; where to may be left for the robot to ask."""
-        task = _task(Verb.PUT, parts, goes=True)
-        return replace(task, verb=Verb.BRING) if task.goal == ME else task
+        task = _task(CommandKind.PUT, parts, goes=True)
+        return replace(task, verb=CommandKind.BRING) if task.goal == ME else task
 
     def put_down(self, parts: list[Part]) -> Task:
         """As in "put it down", "put the mug down on the desk"."""
-        task = _task(Verb.PUT_DOWN, parts, goes=True)
-        return replace(task, verb=Verb.PUT) if task.goal else task
+        task = _task(CommandKind.PUT_DOWN, parts, goes=True)
+        return replace(task, verb=CommandKind.PUT) if task.goal else task
 
     def put_back(self, parts: list[Part]) -> Task:
         """As in "put it back", "take the mug back to the kitchen"."""
-        task = _task(Verb.PUT_BACK, parts, goes=True)
-        return replace(task, verb=Verb.PUT) if task.goal else task
+        task = _task(CommandKind.PUT_BACK, parts, goes=True)
+        return replace(task, verb=CommandKind.PUT) if task.goal else task
 
     def go(self, parts: list[Part]) -> Task:
         """As in "go to the kitchen"; "go back" is to the person."""
-        task = _task(Verb.GO, parts, goes=True)
+        task = _task(CommandKind.GO, parts, goes=True)
         back = any(is_a(p, "BACK") for p in parts)
         return replace(task, goal=ME) if back and not task.goal else task
 
     def come(self, parts: list[Part]) -> Task:
         """As in "come here"."""
-        return Task(Verb.GO, goal=ME, said=parts[0])
+        return Task(CommandKind.GO, goal=ME, said=parts[0])
 
     def clear(self, parts: list[Part]) -> Task:
         """As in "clear the table", "clear the mugs from the table"."""
-        task = _task(Verb.CLEAR, parts)
+        task = _task(CommandKind.CLEAR, parts)
         if task.source is None and task.things:
             if task.things.one_of:
                 raise Unfit(task.things.members[-1].words)
@@ -114,19 +115,19 @@ class Deeds(Nouns):
 
     def count(self, parts: list[Part]) -> Task:
         """As in "how many fruits are on the table"."""
-        return _task(Verb.COUNT, parts)
+        return _task(CommandKind.COUNT, parts)
 
     def tell(self, parts: list[Part]) -> Task:
         """As in "what is on the table"."""
-        return _task(Verb.TELL, parts)
+        return _task(CommandKind.TELL, parts)
 
     def check(self, parts: list[Part]) -> Task:
         """As in "is the mug on the sofa", "is there any milk"."""
-        return _task(Verb.CHECK, parts)
+        return _task(CommandKind.CHECK, parts)
 
     def if_there(self, parts: list[Part]) -> Task:
         """As in "if there is one", "if the apple is on the table"."""
-        return _task(Verb.CHECK, parts)
+        return _task(CommandKind.CHECK, parts)
 
     def otherwise(self, parts: list[Part]) -> Otherwise:
         """As in "otherwise a pear", "otherwise come back"."""
@@ -173,7 +174,7 @@ def _instead(deed: Task, rest: list[Part]) -> Task | None:
     return instead
 
 
-def _task(verb: Verb, parts: list[Part], *, goes: bool = False) -> Task:
+def _task(verb: CommandKind, parts: list[Part], *, goes: bool = False) -> Task:
     """A task of a verb, its things and its places.
 
     Args:

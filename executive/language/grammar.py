@@ -5,11 +5,11 @@ from functools import cache
 from itertools import chain
 
 from executive.language.commands import agrees, commands_in, talk
-from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread, Verb
+from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread
 from executive.language.reader import english
 from executive.language.slips import without_slips
 from executive.language.spoken import NOTHING, Spoken, resolved
-from executive.types import Command, Commands
+from executive.types import Command, CommandKind, Commands
 
 
 class EnglishInterpreter:
@@ -127,7 +127,7 @@ def _is_read(name: str) -> bool:
     if not english().knows(name):
         return True
     match english().read(f"find {name}"):
-        case Request(tasks=(Task(verb=Verb.FIND, things=things, source=None, goal=None),)):
+        case Request(tasks=(Task(verb=CommandKind.FIND, things=things, source=None, goal=None),)):
             assert things
             return [thing.said for thing in things.members] == [english().plain(name)]
     return False

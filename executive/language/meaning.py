@@ -7,26 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from executive.types import ALL as ALL  # as a number of things
-
-
-class Verb(StrEnum):
-    """What is to be done."""
-
-    FIND = "find"
-    TAKE = "take"
-    BRING = "bring"
-    """To the person, or to `Task.goal`."""
-    PUT = "put"
-    """Somewhere: `Task.goal` says where."""
-    PUT_BACK = "put_back"
-    PUT_DOWN = "put_down"
-    GO = "go"
-    CLEAR = "clear"
-    COUNT = "count"
-    TELL = "tell"
-    """What is at a place, or which of the things there is the biggest."""
-    CHECK = "check"
-    """Whether a thing is there."""
+from executive.types import CommandKind
 
 
 class Relation(StrEnum):
@@ -109,7 +90,7 @@ class Task:
         said: the verb as it was said.
     """
 
-    verb: Verb
+    verb: CommandKind
     things: Things | None = None
     source: Where | None = None
     goal: Where | None = None

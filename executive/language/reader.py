@@ -2,9 +2,9 @@
 
 import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,8 @@ from executive.text import LONGEST, too_long
 
 ASSETS = Path(__file__).parent / "assets"
 _PAUSES = re.compile(r"[.!?;:\"“”…)\]]+(?=\s|$|,)|(?<!\S)[-–—(\[\"“”]+")
+KEPT = 64
+"""Sentences whose meaning is kept: in a mission several ask for that of the same one."""
 NOTHING = r"(?!)x"
 """A pattern that fits nothing."""
 
@@ -40,10 +42,12 @@ class Reader:
         words = tomllib.loads((ASSETS / f"{language}.toml").read_text("utf-8"))
         self.deeds = tuple(words["deeds"].split())
         """Words that ask for a deed."""
+        self.read: Callable[[str], Said] = lru_cache(KEPT)(self._read_anew)
+        """What words mean; what cannot be read is `Unread`, and says where."""
         self._short: dict[str, str] = words["short_forms"]
         self._short_form = re.compile(rf"\b(?:{_any_of(self._short)})(?!\w)")
         self._spellings = [(re.compile(p), whole) for p, whole in words["spellings"]]
-        self._denials = re.compile(rf"\b(?:{_any_of(words['denials'])})\b")
+        self._denials = re.compile(rf"\b(?:{_any_of(words['negations'] + words['denials'])})\b")
         self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
         self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
         self._conditions = re.compile(rf"\b(?:{_any_of(words['conditions'])})\b")
@@ -60,8 +64,7 @@ class Reader:
             UNABLE=rf"(?:{_any_of(words['unable'].split())})(?=[ ,]|$)",
         )
 
-    def read(self, words: str) -> Said:
-        """What the words mean; what cannot be read is `Unread`, and says where."""
+    def _read_anew(self, words: str) -> Said:
         if too_long(words):
             return Unread(words)
         said = self._read(self.plain(words))
