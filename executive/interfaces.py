@@ -389,6 +389,10 @@ class Interpreter(Protocol):
         """Why nobody could read the words, as a clause: they are of another language, for one."""
         ...
 
+    def passed_over(self, words: str, commands: Sequence[Command]) -> tuple[str, ...]:
+        """Numbers and conditions in words that somebody else has read, and none of the commands."""
+        ...
+
     def without_slips(self, words: str) -> Commands:
         """The tasks that the words are with the word for the deed spelled right; none if none."""
         ...

@@ -4,7 +4,9 @@ A question is answered, and what is told is remembered; a further wish goes on t
 correction takes the place of the task at hand; what is taken back is not done.
 """
 
-from executive.language.commands import commands_in
+from dataclasses import replace
+
+from executive.language.commands import commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
 from executive.language.meaning import (
     Answer,
@@ -16,14 +18,16 @@ from executive.language.meaning import (
     Statement,
 )
 from executive.language.spoken import Spoken, resolved, with_names
+from executive.language.wording import either
 from executive.replies import Standing, about, reply
-from executive.situation import Situation
+from executive.situation import Situation, Task
 from executive.text import too_long
 from executive.types import Command, Commands
 from trees.context import MissionContext
 from trees.telling import in_one_sentence
 
 _IT = frozenset(("it", "that", "this", "them"))
+_ALL = frozenset(("anything", "everything", "all", "any"))
 
 
 def attend_to(context: MissionContext, words: str, now: str) -> str:
@@ -48,10 +52,13 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
             return context.interpreter.talk(words)
         case Question() | Statement():
             return _reply(context, said, now) or context.interpreter.talk(words)
-        case Refusal() if at_hand and _is_about(context, said, at_hand):
-            return _take_back(context, at_hand)
+        case Refusal() if answer := _refuse(context, said.words, at_hand):
+            return answer
         case Request():
-            return _add(context, commands_in(resolved(said, spoken), words), now)
+            commands = commands_in(resolved(said, spoken), words)
+            if (alone := left_alone(said)) and isinstance(commands, tuple):
+                return _instead_of(context, alone, commands, at_hand)
+            return _add(context, commands, now)
     if correction and at_hand:
         return _correct(context, correction, at_hand, words, now)
     why_not = context.interpreter.remark(words)
@@ -91,10 +98,25 @@ def _correct(
     commands = corrected(with_names(said, spoken), at_hand, words)
     if said.adds or not isinstance(commands, tuple):
         return _add(context, commands, now)
+    return _replace(context, commands)
+
+
+def _replace(context: MissionContext, commands: Commands) -> str:
+    """Do these at once in place of the task at hand."""
     first, *others = [command for group in commands for command in group]
     context.situation.agenda.replace(first, others)
     then = " and ".join(in_one_sentence(context, one) for one in (first, *others))
     return f"All right: I {then} instead."
+
+
+def _instead_of(
+    context: MissionContext, alone: str, commands: Commands, at_hand: Command | None
+) -> str:
+    """Do these, and leave alone what is named: it may be what the task at hand is about."""
+    if at_hand and _is_about(context, alone, at_hand):
+        return _replace(context, commands)
+    refused = _refuse(context, alone, None)
+    return " ".join(filter(None, (refused, _add(context, commands, ""))))
 
 
 def _add(context: MissionContext, commands: Commands | str | None, now: str) -> str:
@@ -106,18 +128,55 @@ def _add(context: MissionContext, commands: Commands | str | None, now: str) -> 
     return f"All right: I {' and '.join(wishes)} afterwards."
 
 
-def _take_back(context: MissionContext, at_hand: Command) -> str:
-    """Do not do it, nor any part of it."""
-    context.situation.agenda.take_back()
-    context.situation.request.command = at_hand
-    return f"Then I do not {in_one_sentence(context, at_hand)}."
+def _refuse(context: MissionContext, words: str, at_hand: Command | None) -> str:
+    """Do nothing that the words are about, now or later; empty if none of it was to be done."""
+    agenda, named = context.situation.agenda, _named(context, words)
+    everything = not named and bool(_ALL & _words(words))
+    waiting = [t for t in agenda.tasks if everything or named & _objects(context, t.command)]
+    is_part = any(task.depth for task in waiting) and not everything
+    left_out: list[Command] = []
+    is_now = not is_part or context.situation.request.object in named
+    if at_hand and is_now and _is_about(context, words, at_hand):
+        agenda.take_back()
+        context.situation.request.command = at_hand
+        left_out.append(at_hand)
+    for task in waiting:
+        if task in agenda.tasks:
+            left_out.append(_leave_out(context, task, named))
+    wishes = [in_one_sentence(context, command) for command in left_out]
+    return f"Then I do not {either(wishes)}." if wishes else ""
 
 
-def _is_about(context: MissionContext, said: Refusal, at_hand: Command) -> bool:
+def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:
+    """Strike out a task that waits, or what is not to be meant by it; what is not done then."""
+    command, others = task.command, _objects(context, task.command) - named
+    if not named or not others:
+        context.situation.agenda.strike_out(task)
+        return command
+    left_out = tuple(sorted(_objects(context, command) & named))
+    narrower = replace(command, exceptions=(*command.exceptions, *left_out))
+    context.situation.agenda.change(task, narrower)
+    return replace(command, target=" and ".join(left_out))
+
+
+def _is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
     """Whether it is the task at hand that is not to be done."""
-    knowledge, request = context.knowledge, context.situation.request
-    names = knowledge.names_in(said.words)
-    named = {one for name in names for one in knowledge.objects_named(name)}
-    if named:
-        return request.object in named or bool(named & set(knowledge.objects_named(at_hand.target)))
-    return bool(_IT & set(said.words.lower().split()))
+    request = context.situation.request
+    if named := _named(context, words):
+        return request.object in named or bool(named & _objects(context, at_hand))
+    return bool((_IT | _ALL) & _words(words))
+
+
+def _named(context: MissionContext, words: str) -> set[str]:
+    names = context.knowledge.names_in(words)
+    return {one for name in names for one in context.knowledge.objects_named(name)}
+
+
+def _objects(context: MissionContext, command: Command) -> set[str]:
+    """The things that it may be about."""
+    names = command.among or (command.target,)
+    return {one for name in names for one in context.knowledge.objects_named(name)}
+
+
+def _words(words: str) -> set[str]:
+    return set(words.lower().split())

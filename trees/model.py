@@ -191,8 +191,10 @@ class WriteCommand(ModelAction):
         if not isinstance(result, Replied):
             return self.failed(result)
         plain = self.advice.reader.read(result.text)
-        command = self.context.interpreter.command(plain) if plain else None
-        if command is None:
+        commands = self.context.interpreter.commands(plain) if plain else ()
+        if not commands:
             return self.fail("the language model named no command that can be carried out")
-        self.situation.request.command = replace(command, words=self.situation.request.words)
+        agenda, words = self.situation.agenda, self.situation.request.words
+        agenda.add(tuple(replace(one, words=words) for one in group) for group in commands)
+        self.situation.begin(agenda.take(agenda.tasks[0]))
         return self.succeed(plain)

@@ -1,9 +1,10 @@
 """How the person is told things: on one line, and in words."""
 
+from executive.language.commands import THING
 from executive.language.wording import as_said, either
 from executive.records import Utterance
 from executive.text import printable
-from executive.types import HELD, PERSON, Command, CommandKind
+from executive.types import ALL, HELD, PERSON, Command, CommandKind
 from trees.context import MissionContext
 
 TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
@@ -47,14 +48,23 @@ def _things(context: MissionContext, command: Command) -> str:
     named = knowledge.objects_named(target)
     if target == HELD:
         what = target
+    elif target == THING:
+        what = (
+            "something" if command.kind.means.searches and command.number != ALL else "everything"
+        )
     elif names and " and ".join(names) == target:
         what = " and ".join(map(context.say.the, names))
     elif len(named) == 1:
         what = context.say.the(named[0])
     else:
         what = as_said(command.words, target)
-    but = f" but not {either(command.exceptions)}" if command.exceptions else ""
-    return what + but
+    left_out = either([_one_thing(context, but) for but in command.exceptions])
+    return what + f" but not {left_out}" * bool(left_out)
+
+
+def _one_thing(context: MissionContext, words: str) -> str:
+    named = context.knowledge.objects_named(words)
+    return context.say.the(named[0]) if len(named) == 1 else words
 
 
 def _place(context: MissionContext, command: Command, words: str) -> str:

@@ -1,5 +1,6 @@
 """What is asked for? The grammar of commands says, else the language model and the person do."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
@@ -7,6 +8,7 @@ from itertools import chain
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.colors import COLORS, OTHER_SPELLINGS
 from executive.language.placed import placed
 from executive.records import Utterance
 from executive.types import HELD, Command, CommandKind, MissionStatus, Question, QuestionKind
@@ -177,7 +179,10 @@ def named(command: Command) -> str:
 
 
 def passed_over(context: MissionContext, commands: Sequence[Command]) -> list[str]:
-    """Things and places in the words of which nothing was made, as they were said."""
+    """What stands in the words, and nothing was made of, as it was said.
+
+    That is things and places, colours, numbers, and what it depends on.
+    """
     knowledge, words = context.knowledge, context.situation.request.words
     read = " and ".join(name for one in commands for name in (one.target, *one.exceptions))
     things = [name for name in knowledge.names_in(words) if name not in knowledge.names_in(read)]
@@ -187,7 +192,16 @@ def passed_over(context: MissionContext, commands: Sequence[Command]) -> list[st
         for place in placed(words, knowledge.is_place)
         if place and not {*places_in(context, place)} <= spoken_of
     ]
-    return [*(context.as_said(context.say.words(name)) for name in things), *places]
+    said = set(re.findall(r"[a-z]+", words.lower()))
+    colors = [
+        color
+        for color in (*COLORS, *OTHER_SPELLINGS)
+        if color in said
+        and not any(knowledge.objects_named(f"{color} {c.target}") for c in commands)
+    ]
+    others = context.interpreter.passed_over(words, commands)
+    things_said = (context.as_said(context.say.words(name)) for name in things)
+    return [*dict.fromkeys((*things_said, *places, *colors, *others))]
 
 
 def _places_of(context: MissionContext, command: Command) -> set[str]:

@@ -1,8 +1,9 @@
 """From what was said to a command that the tree can carry out, or to a word on why not."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from executive.language.folding import asks_for_things, is_it
 from executive.language.meaning import (
     ME,
     About,
@@ -20,7 +21,6 @@ from executive.language.meaning import (
     Thing,
     Things,
     Unable,
-    Verb,
     Where,
 )
 from executive.types import HELD, Command, CommandKind, Commands
@@ -40,10 +40,15 @@ COURTESIES = {
     Courtesy.GOODBYE: "Goodbye!",
 }
 THING = "thing"
-THERE = ("there", "over there")
-"""Words for the place that was spoken of."""
-_ALONE = (Verb.FIND, Verb.TAKE, Verb.BRING)
-"""Deeds that another one with "it" may follow, which has them in it."""
+_COUNTED = (
+    CommandKind.FIND,
+    CommandKind.TAKE,
+    CommandKind.BRING,
+    CommandKind.PUT,
+    CommandKind.PUT_BACK,
+)
+"""Deeds that are done with so many things."""
+_LOOKING = (CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL)
 
 
 def commands_in(said: Said, words: str) -> Commands | str | None:
@@ -53,9 +58,9 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
     """
     match said:
         case Request():
-            return _commands(_resolved(_folded(said.tasks)), words)
+            return _commands(said.tasks, words)
         case Refusal():
-            return "Then I will not."
+            return "Then I will not." + " Say once more what I am to do instead." * said.more
         case Again():
             return "There is nothing yet that I could do again."
         case Unable():
@@ -69,6 +74,12 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
         case Correction():
             return "I am doing nothing that this could change; say all that I am to do."
     return None
+
+
+def left_alone(said: Request) -> str:
+    """The names of what is not to be touched, whatever else is done."""
+    things = (thing for task in said.tasks if task.things for thing in task.things.members)
+    return " and ".join(but.words for thing in things for but in thing.exceptions if but.alone)
 
 
 def talk(said: Said, things: Sequence[str] = ()) -> str:
@@ -95,61 +106,6 @@ def agrees(said: Said) -> bool | None:
     return {Choice.YES: True, Choice.NO: False}.get(choice) if choice else None
 
 
-def _folded(tasks: Sequence[Task]) -> tuple[Task, ...]:
-    """As few tasks as say the same: "find the mug and bring it" is "bring the mug"."""
-    folded: list[Task] = []
-    for task in tasks:
-        before = folded[-1] if folded else None
-        if before and before.verb == Verb.GO and before.goal not in (None, ME) and _places(task):
-            folded[-1] = replace(task, source=before.goal)
-        elif before and before.verb in _ALONE and not before.goal and _goes_on(task):
-            folded[-1] = replace(before, verb=task.verb, goal=task.goal, said=task.said)
-        else:
-            folded.append(task)
-    return tuple(folded)
-
-
-def _places(task: Task) -> bool:
-    """Whether it has a thing that may be where the robot was told to go before."""
-    return task.verb in _ALONE and task.source is None and not _is_it(task.things)
-
-
-def _goes_on(task: Task) -> bool:
-    """Whether it is about the thing of the task before."""
-    further = task.verb in (Verb.TAKE, Verb.BRING, Verb.PUT)
-    return further and _is_it(task.things) and task.source is None and not task.conditional
-
-
-def _is_it(things: Things | None) -> bool:
-    if things is None or len(things.members) != 1:
-        return False
-    [thing] = things.members
-    return thing.pronoun and not thing.other and thing.number is None
-
-
-def _resolved(tasks: Sequence[Task]) -> Iterator[Task]:
-    """The tasks with "it" and "there" as what was spoken of before in the same breath."""
-    things: Things | None = None
-    place: Where | None = None
-    for task in tasks:
-        if things and _is_it(task.things) and task.verb != Verb.PUT_DOWN:
-            task = replace(task, things=things)
-        if place and _is_there(task.source):
-            task = replace(task, source=place)
-        elif task.verb in (Verb.COUNT, Verb.CHECK) and _is_there(task.source):
-            task = replace(task, source=None)  # "how many fruits are there"
-        if place and _is_there(task.goal):
-            task = replace(task, goal=place)
-        yield task
-        things = task.things if task.things and not _is_it(task.things) else things
-        named = next((p for p in (task.goal, task.source) if p and not p.pronoun and p != ME), None)
-        place = named or place
-
-
-def _is_there(where: Where | None) -> bool:
-    return where is not None and where.pronoun and where.words in THERE
-
-
 def _commands(tasks: Iterable[Task], words: str) -> Commands | str:
     """A command for each thing of each task; or why one of them cannot be done."""
     commands: list[tuple[Command, ...]] = []
@@ -166,7 +122,7 @@ def _each(task: Task) -> tuple[Things | None, ...]:
     A condition is about all of them; so is what one hand can do with but one.
     """
     things = task.things
-    if things is None or things.one_of or task.conditional or task.verb == Verb.TAKE:
+    if things is None or things.one_of or task.conditional or task.verb == CommandKind.TAKE:
         return (things,)
     return tuple(Things((thing,)) for thing in things.members)
 
@@ -175,15 +131,15 @@ def _command(task: Task, things: Things | None, words: str) -> Command:
     if task.conditional:
         return _conditional(task, words)
     members = things.members if things else ()
-    brings = task.verb == Verb.BRING or (task.verb == Verb.PUT and task.goal == ME)
+    brings = task.verb == CommandKind.BRING or (task.verb == CommandKind.PUT and task.goal == ME)
     return Command(
-        CommandKind.BRING if brings else CommandKind(task.verb),
-        _held(things) if task.verb == Verb.PUT_DOWN else _names(things, task.verb),
+        CommandKind.BRING if brings else task.verb,
+        _held(things) if task.verb == CommandKind.PUT_DOWN else _names(things, task.verb),
         words,
         source=in_words(task.source) if task.source else "",
         goal=in_words(task.goal) if task.goal and not brings else "",
         purpose=" and ".join(thing.purpose for thing in members if thing.purpose),
-        exceptions=tuple(but.words for thing in members for but in thing.exceptions),
+        exceptions=tuple(but.words for thing in members for but in _left_out(task, thing)),
         number=_number(task, members),
         among=tuple(map(_name, members)) if len(members) > 1 else (),
         superlative=_superlative(task),
@@ -192,13 +148,13 @@ def _command(task: Task, things: Things | None, words: str) -> Command:
 
 def _conditional(task: Task, words: str) -> Command:
     """What is to be done if there is such a thing; where a place is named, only there."""
-    sought = task.sought or Task(Verb.CHECK, task.things, task.source)
+    sought = task.sought or Task(CommandKind.CHECK, task.things, task.source)
     sought = replace(sought, things=sought.things or task.things)
-    if _is_it(task.things):
+    if is_it(task.things):
         task = replace(task, things=sought.things, source=task.source or sought.source)
     [deed] = (_command(replace(task, conditional=False), task.things, words),)
     unless = task.unless
-    if unless and _is_it(unless.things):
+    if unless and is_it(unless.things):
         unless = replace(unless, things=sought.things)
     return replace(
         deed,
@@ -212,14 +168,14 @@ def _number(task: Task, members: Sequence[Thing]) -> int:
     """How many, if it was said; that it is one, only counts where a place may have several."""
     if len(members) > 1:
         return len(members) if task.things and not task.things.one_of else 0
-    if not members or task.verb not in (*_ALONE, Verb.PUT, Verb.PUT_BACK):
+    if not members or not task.verb.means.searches:
         return 0
     number = members[0].number or 0
     return number if number != 1 or task.source else 0
 
 
 def _superlative(task: Task) -> str:
-    members = task.things.members if task.things and task.verb == Verb.TELL else ()
+    members = task.things.members if task.things and task.verb == CommandKind.TELL else ()
     return next((thing.superlative for thing in members), "")
 
 
@@ -228,12 +184,14 @@ def _why_not(task: Task) -> str:
     for place in (task.source, task.goal):
         if place and place.pronoun:
             return f"I do not know where '{place.words}' is; say the name of the place"
-    if task.verb == Verb.PUT_DOWN and task.source:
+    if task.verb == CommandKind.PUT_DOWN and task.source:
         return "I put down only what I hold"
-    if task.verb in (Verb.TELL, Verb.CLEAR) and not task.source:
+    if task.verb in (CommandKind.TELL, CommandKind.CLEAR) and not (
+        task.source or asks_for_things(task)
+    ):
         return f"I can {task.verb} only at a place; say which"
     things = task.things.members if task.things else ()
-    if any(but.pronoun for thing in things for but in thing.exceptions):
+    if any(but.pronoun for thing in things for but in _left_out(task, thing)):
         return "I do not know what is not meant; say its name"
     if task.conditional and len(things) > 1:
         return "I can do things on a condition only one by one"
@@ -241,16 +199,23 @@ def _why_not(task: Task) -> str:
     return next(filter(None, map(_why_not, parts)), "")
 
 
+def _left_out(task: Task, thing: Thing) -> tuple[Thing, ...]:
+    """What is not meant; who only looks takes nothing: "find the mug and do not touch it"."""
+    if task.verb not in _LOOKING:
+        return thing.exceptions
+    return tuple(but for but in thing.exceptions if not but.pronoun and but.words != thing.words)
+
+
 def _held(things: Things | None) -> str:
     """What is to be put down."""
-    held = things is None or _is_it(things) or _names(things) == THING
+    held = things is None or is_it(things) or _names(things) == THING
     return HELD if held or things is None else _names(things)
 
 
-def _names(things: Things | None, verb: Verb = Verb.FIND) -> str:
-    if things is None:
+def _names(things: Things | None, verb: CommandKind = CommandKind.FIND) -> str:
+    if things is None or verb == CommandKind.GO:
         return ""
-    told = verb == Verb.TELL
+    told = verb == CommandKind.TELL
     names = ((thing.words or THING) if told else _name(thing) for thing in things.members)
     return (" or " if things.one_of else " and ").join(names)
 

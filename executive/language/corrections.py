@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from executive.language.commands import commands_in, in_words
-from executive.language.meaning import Answer, Correction, Request, Said, Task, Thing, Things, Verb
+from executive.language.meaning import Answer, Correction, Request, Said, Task, Thing, Things
 from executive.types import Command, Commands
 
 
@@ -13,7 +13,7 @@ def corrected(said: Correction, at_hand: Command, words: str) -> Commands | str:
         case Request() as request:
             read = commands_in(request, words)
         case Things() as things:
-            task = Task(Verb(at_hand.kind), things, said=at_hand.kind)
+            task = Task(at_hand.kind, things, said=at_hand.kind)
             read = commands_in(Request((task,)), words)
         case _:
             return ((_elsewhere(said, at_hand, words),),)

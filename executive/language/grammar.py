@@ -5,11 +5,11 @@ from functools import cache
 from itertools import chain
 
 from executive.language.commands import agrees, commands_in, talk
-from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread, Verb
+from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread
 from executive.language.reader import english
 from executive.language.slips import without_slips
 from executive.language.spoken import NOTHING, Spoken, resolved
-from executive.types import Command, Commands
+from executive.types import Command, CommandKind, Commands
 
 
 class EnglishInterpreter:
@@ -80,6 +80,14 @@ class EnglishInterpreter:
         """The answer to small talk, or to who asks for help; empty if it is neither."""
         return talk(self._reader.read(words), things)
 
+    def passed_over(self, words: str, commands: Sequence[Command]) -> tuple[str, ...]:
+        """Numbers and conditions in words that somebody else has read, and none of the commands."""
+        named = " ".join(name for one in commands for name in named_in(one)).split()
+        numbers = {one.number for one in commands}
+        conditions = self._reader.conditions(words) * (not any(one.conditional for one in commands))
+        counts = (said for said, n in self._reader.numbers(words) if n not in numbers)
+        return tuple(dict.fromkeys(w for w in (*counts, *conditions) if w not in named))
+
     def without_slips(self, words: str) -> Commands:
         """The tasks that the words are with the word for the deed spelled right; none if none."""
         for likely in without_slips(self._reader, words):
@@ -119,7 +127,7 @@ def _is_read(name: str) -> bool:
     if not english().knows(name):
         return True
     match english().read(f"find {name}"):
-        case Request(tasks=(Task(verb=Verb.FIND, things=things, source=None, goal=None),)):
+        case Request(tasks=(Task(verb=CommandKind.FIND, things=things, source=None, goal=None),)):
             assert things
             return [thing.said for thing in things.members] == [english().plain(name)]
     return False

@@ -7,26 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from executive.types import ALL as ALL  # as a number of things
-
-
-class Verb(StrEnum):
-    """What is to be done."""
-
-    FIND = "find"
-    TAKE = "take"
-    BRING = "bring"
-    """To the person, or to `Task.goal`."""
-    PUT = "put"
-    """Somewhere: `Task.goal` says where."""
-    PUT_BACK = "put_back"
-    PUT_DOWN = "put_down"
-    GO = "go"
-    CLEAR = "clear"
-    COUNT = "count"
-    TELL = "tell"
-    """What is at a place, or which of the things there is the biggest."""
-    CHECK = "check"
-    """Whether a thing is there."""
+from executive.types import CommandKind
 
 
 class Relation(StrEnum):
@@ -68,6 +49,7 @@ class Thing:
         pronoun: "it", "them", "another one": it has to be known from before.
         other: another one than before.
         exceptions: what it is not to be: "anything but a banana".
+        alone: of such an exception, whether it is not to be touched at all: "and leave the pear".
         definite: "the mug" is a certain one, "a mug" is any.
         superlative: which of them by a measure: "biggest"; empty if that was not said.
         said: all of this as it was said, but for articles and exceptions: "two mugs".
@@ -81,6 +63,7 @@ class Thing:
     exceptions: tuple["Thing", ...] = ()
     definite: bool = False
     superlative: str = ""
+    alone: bool = False
     said: str = field(default="", compare=False)
 
 
@@ -107,7 +90,7 @@ class Task:
         said: the verb as it was said.
     """
 
-    verb: Verb
+    verb: CommandKind
     things: Things | None = None
     source: Where | None = None
     goal: Where | None = None
@@ -135,9 +118,15 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Something is not to be done: "do not touch the hammer"."""
+    """Something is not to be done: "do not touch the hammer".
+
+    Attributes:
+        words: what.
+        more: whether something else may be asked for behind it, which is not clear.
+    """
 
     words: str
+    more: bool = False
 
 
 @dataclass(frozen=True, slots=True)

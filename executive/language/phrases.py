@@ -1,7 +1,11 @@
 """Words and phrases as people write them: what counts in them, and where one ends."""
 
 import re
+import tomllib
 import unicodedata
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
 
 from executive.text import one_line
 
@@ -13,7 +17,11 @@ MOST_WORDS = 6
 PREPOSITIONS = frozenset(("at", "by", "from", "in", "inside", "of", "on", "over", "top", "under"))
 """Words before a place that do not say which one it is."""
 CLAUSE_ENDS = re.compile(r"[,;:.!?\n]|\b(?:or|and|then|but|maybe|perhaps)\b")
-NEGATION = re.compile(r"\b(?:not|no|never|nowhere|except|neither|nor|cannot)\b|n['’]t\b")
+ENGLISH: Mapping[str, Any] = tomllib.loads(
+    (Path(__file__).parent / "assets" / "english.toml").read_text("utf-8")
+)
+"""The words of English that have a value of their own."""
+NEGATION = re.compile(rf"\b(?:{'|'.join(ENGLISH['negations'])})\b|n['’]t\b")
 """A clause with one of these names nothing."""
 _DETERMINERS = frozenset(("a", "an", "any", "my", "our", "some", "that", "the", "this", "your"))
 

@@ -2,8 +2,9 @@
 
 import re
 import tomllib
-from collections.abc import Iterable
-from functools import cache
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from functools import cache, lru_cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -13,13 +14,17 @@ from lark.exceptions import VisitError
 
 from executive.cache import cache_folder
 from executive.language import others
-from executive.language.building import Builder, Unfit
-from executive.language.meaning import Relation, Said, Unread
+from executive.language.building import Builder
+from executive.language.contrasts import in_its_place
+from executive.language.meaning import Refusal, Relation, Said, Unread
+from executive.language.parts import Unfit
 from executive.language.phrases import plain_letters
 from executive.text import LONGEST, too_long
 
 ASSETS = Path(__file__).parent / "assets"
 _PAUSES = re.compile(r"[.!?;:\"“”…)\]]+(?=\s|$|,)|(?<!\S)[-–—(\[\"“”]+")
+KEPT = 64
+"""Sentences whose meaning is kept: in a mission several ask for that of the same one."""
 NOTHING = r"(?!)x"
 """A pattern that fits nothing."""
 
@@ -37,12 +42,16 @@ class Reader:
         words = tomllib.loads((ASSETS / f"{language}.toml").read_text("utf-8"))
         self.deeds = tuple(words["deeds"].split())
         """Words that ask for a deed."""
+        self.read: Callable[[str], Said] = lru_cache(KEPT)(self._read_anew)
+        """What words mean; what cannot be read is `Unread`, and says where."""
         self._short: dict[str, str] = words["short_forms"]
         self._short_form = re.compile(rf"\b(?:{_any_of(self._short)})(?!\w)")
         self._spellings = [(re.compile(p), whole) for p, whole in words["spellings"]]
-        self._denials = re.compile(rf"\b(?:{_any_of(words['denials'])})\b")
+        self._denials = re.compile(rf"\b(?:{_any_of(words['negations'] + words['denials'])})\b")
         self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
         self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
+        self._conditions = re.compile(rf"\b(?:{_any_of(words['conditions'])})\b")
+        self._numbers: dict[str, int] = words["numbers"]
         self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
         self._builder = _builder(words)
         grammar = (ASSETS / f"{language}.lark").read_text("utf-8")
@@ -55,20 +64,24 @@ class Reader:
             UNABLE=rf"(?:{_any_of(words['unable'].split())})(?=[ ,]|$)",
         )
 
-    def read(self, words: str) -> Said:
-        """What the words mean; what cannot be read is `Unread`, and says where."""
+    def _read_anew(self, words: str) -> Said:
         if too_long(words):
             return Unread(words)
-        text = self.plain(words)
+        said = self._read(self.plain(words))
+        if isinstance(said, Refusal):
+            return in_its_place(said, self._read)
+        return replace(said, words=words) if isinstance(said, Unread) else said
+
+    def _read(self, text: str) -> Said:
+        """The same of words in plain form."""
         try:
             return self._builder.transform(self.parser.parse(text))
         except UnexpectedInput as error:
-            at = re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0]
-            return Unread(words, at)
+            return Unread(text, re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0])
         except VisitError as error:
             if not isinstance(error.orig_exc, Unfit):
                 raise
-            return Unread(words, str(error.orig_exc))
+            return Unread(text, str(error.orig_exc))
 
     def knows(self, words: str) -> bool:
         """Whether there is a word among them that may be more than a part of a name."""
@@ -107,6 +120,16 @@ class Reader:
         """Whether the words are of a language that this is not, as far as that can be told."""
         return others.is_other(self.plain(words), self.vocabulary)
 
+    def conditions(self, words: str) -> list[str]:
+        """Words among them that make it depend on something."""
+        return [found[0] for found in self._conditions.finditer(self.plain(words))]
+
+    def numbers(self, words: str) -> list[tuple[str, int]]:
+        """Numbers of things among them, as they were said, and as they are."""
+        each = self.plain(words).replace(",", " ").split()
+        said = ((w, int(w) if w.isdecimal() else self._numbers.get(w, 1)) for w in each)
+        return [(word, number) for word, number in said if number != 1]
+
     def declines(self, words: str) -> bool:
         """Whether there is something among them that people say who do not know."""
         return self._declines.search(self.plain(words)) is not None
@@ -121,7 +144,7 @@ def english(names: tuple[str, ...] = ()) -> Reader:
 def _builder(words: dict[str, Any]) -> Builder:
     relations = {said: Relation(name) for name, all_ in words["relations"].items() for said in all_}
     most = {said: name for name, all_ in words["superlatives"].items() for said in all_}
-    return Builder(words["numbers"], relations, most)
+    return Builder(words["numbers"] | words["ordinals"], relations, most)
 
 
 def _parser(grammar: str, **terminals: str) -> Lark:

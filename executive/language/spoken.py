@@ -4,8 +4,10 @@ from dataclasses import dataclass, replace
 
 from pydantic import TypeAdapter
 
+from executive.language.folding import asks_for_things, folded, is_it
 from executive.language.meaning import (
     ALL,
+    ME,
     Again,
     Answer,
     Correction,
@@ -16,13 +18,16 @@ from executive.language.meaning import (
     Task,
     Thing,
     Things,
-    Verb,
     Where,
 )
+from executive.types import CommandKind
 
 _OF_ALL = ("them", "those", "these")
-_OF_THE_HAND = (Verb.PUT, Verb.PUT_BACK, Verb.PUT_DOWN)
+_OF_THE_HAND = (CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN)
 """What is put somewhere is first of all what the hand holds."""
+_THERE = ("there", "over there")
+_ANYWHERE = (CommandKind.COUNT, CommandKind.CHECK)
+"""Questions that need no place: "how many fruits are there"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +80,7 @@ def resolved(said: Said, spoken: Spoken, *, holds: bool = False) -> Said:
         case Request():
             return replace(said, tasks=_tasks(said.tasks, spoken, holds))
         case Statement():
-            where = _where(said.where, spoken)
+            where = _where(said.where, None, None, spoken)
             assert where
             return replace(said, things=_things(said.things, spoken), where=where)
         case Question(things=Things() as things):
@@ -83,7 +88,7 @@ def resolved(said: Said, spoken: Spoken, *, holds: bool = False) -> Said:
         case Correction():
             return _asked_anew(with_names(said, spoken), spoken)
         case Answer(where=(place,)) if spoken.things:  # "it is on the sofa", of what was not found
-            where = _where(place, spoken)
+            where = _where(place, None, None, spoken)
             assert where
             name = spoken.things[-1]
             return Statement(Things((Thing(name, definite=True, said=name),)), where)
@@ -140,16 +145,30 @@ def _asked_anew(said: Correction, spoken: Spoken) -> Said:
 
 
 def _tasks(tasks: tuple[Task, ...], spoken: Spoken, holds: bool) -> tuple[Task, ...]:
-    """Up to the first thing that is named: "it" after that is the thing of the sentence."""
+    """With names for what was named before in the same breath, else for what was spoken of."""
     done: list[Task] = []
-    for task in tasks:
-        things = task.things
-        if things and not any(one.things for one in done):
-            in_hand = holds and task.verb in _OF_THE_HAND
-            things = things if in_hand else _things(things, spoken)
-        places = (_where(task.source, spoken), _where(task.goal, spoken))
-        done.append(replace(task, things=things, source=places[0], goal=places[1]))
+    things: Things | None = None
+    place: Where | None = None
+    for task in folded(tasks):
+        meant = _meant_by(task, things, spoken, holds)
+        source, goal = (_where(where, things, place, spoken) for where in (task.source, task.goal))
+        if _is_there(source) and (task.verb in _ANYWHERE or asks_for_things(task)):
+            source = None  # "how many fruits are there"
+        done.append(replace(task, things=meant, source=source, goal=goal))
+        things = meant if meant and not is_it(meant) else things
+        place = next((p for p in (goal, source) if p and not p.pronoun and p != ME), place)
     return tuple(done)
+
+
+def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) -> Things | None:
+    """The things of a task, if some were named `before` in the same breath, or none were."""
+    if task.things is None:
+        return None
+    if before:
+        named = is_it(task.things) and task.verb != CommandKind.PUT_DOWN
+        return before if named else task.things
+    in_hand = holds and task.verb in _OF_THE_HAND
+    return task.things if in_hand else _things(task.things, spoken)
 
 
 def _things(things: Things, spoken: Spoken) -> Things:
@@ -177,13 +196,24 @@ def _another(thing: Thing, spoken: Spoken) -> Thing:
     return Thing(kind, 1, exceptions=(*thing.exceptions, *others), said=kind)
 
 
-def _where(where: Where | None, spoken: Spoken) -> Where | None:
+def _where(
+    where: Where | None, things: Things | None, place: Where | None, spoken: Spoken
+) -> Where | None:
     """The place that "there" stands for; beside "it" is beside the thing."""
     if where is None or not where.pronoun:
         return where
-    if where.words == "there":
-        return replace(where, words=spoken.place, pronoun=False) if spoken.place else where
-    return replace(where, words=spoken.things[-1], pronoun=False) if spoken.things else where
+    if _is_there(where):
+        return place or (_named(where, spoken.place) if spoken.place else where)
+    named = [thing.words for thing in things.members if thing.words] if things else spoken.things
+    return _named(where, named[-1]) if named else where
+
+
+def _named(where: Where, words: str) -> Where:
+    return replace(where, words=words, pronoun=False)
+
+
+def _is_there(where: Where | None) -> bool:
+    return where is not None and where.pronoun and where.words in _THERE
 
 
 def _called(things: Things | None) -> str:

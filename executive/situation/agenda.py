@@ -1,9 +1,10 @@
 """What there is to do, one task after the other, and what came of those that have ended."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
+from executive.situation.ending import TAKEN_BACK
 from executive.situation.request import command_as_logged
 from executive.situation.snapshot import NOT_LOGGED, logged_as
 from executive.types import Command, Commands, MissionStatus, TaskOutcome
@@ -100,6 +101,19 @@ class Agenda:
         """Do not do the task at hand after all."""
         self._leave_parts()
         self.taken_back = True
+
+    def strike_out(self, task: Task) -> None:
+        """Do not do a task that was not begun; if it is a part of one, the others are done."""
+        self.tasks.remove(task)
+        command = task.command
+        came_of_it = TaskOutcome(
+            command.kind, command.target, None, MissionStatus.NOT_DONE, TAKEN_BACK, None
+        )
+        (self.wholes[task.depth - 1].parts if task.depth else self.ended).append(came_of_it)
+
+    def change(self, task: Task, command: Command) -> None:
+        """Have a task that was not begun ask for something else."""
+        self.tasks[self.tasks.index(task)] = replace(task, command=command)
 
     def whole_of(self, at_hand: Command | None) -> Command | None:
         """What the task at hand is a part of, or itself."""

@@ -58,7 +58,7 @@ def belief(situation: dict[str, Any]) -> str:
     Args:
         situation: the snapshot that each tick carries.
     """
-    heading = f"### Where is {plain(situation.get('object') or 'the thing')}?\n\n"
+    heading = f"### Looking for: {plain(situation.get('object') or 'the thing')}\n\n"
     if planned := _planned(situation):
         return heading + planned
     candidates = [

@@ -58,6 +58,35 @@ def test_what_the_model_passes_over_is_said() -> None:
     assert said(run)[0] == "Do you mean: find the hammer? I make nothing of 'mug'."
 
 
+@pytest.mark.parametrize(
+    ("words", "left"),
+    [
+        ("my two hammers, off with them to me", "'two'"),
+        ("my green hammer, off with it to me", "'green'"),
+        ("my hammer, off to me with it when I am at home", "'when'"),
+        ("three white hammers to me if the weather is fine", "'white' and 'three' and 'if'"),
+    ],
+)
+def test_numbers_colours_and_conditions_that_the_model_passes_over_are_said(words, left) -> None:
+    run = read(words, reply("bring", "hammer"), "no")
+    assert said(run)[0] == f"Do you mean: bring the hammer? I make nothing of {left}."
+
+
+def test_a_colour_that_the_thing_has_is_not_passed_over() -> None:
+    run = read("my red mug, off to me with it", reply("bring", "mug"), "no")
+    assert said(run)[0] == "Do you mean: bring the mug?"
+
+
+def test_all_tasks_that_the_model_reads_are_asked_about_and_done() -> None:
+    tasks = [json.loads(reply("bring", name))["tasks"][0] for name in ("hammer", "scissors")]
+    run = read(
+        "off to me with hammer and scissors", json.dumps({"tasks": tasks}), "yes", "on the desk"
+    )
+    assert said(run)[0] == "Do you mean: bring the hammer, then bring the scissors?"
+    assert [task.object for task in run.outcome.tasks] == ["hammer", "scissors"]
+    assert run.outcome.status == MissionStatus.DONE
+
+
 @pytest.mark.parametrize("written", [reply("put", "hammer", "", "attic"), reply("find", "crown")])
 def test_what_does_not_exist_is_not_asked_about(written: str) -> None:
     run = read("my hammer belongs onto the sofa I guess", written)

@@ -131,6 +131,44 @@ def test_anything_else_is_answered_and_the_robot_goes_on(heard: str, answer: str
     assert list(map(type, mission.goals)) == list(map(type, plain.goals))
 
 
+@pytest.mark.parametrize("heard", ["leave the pear alone", "Don't bring the pear", "not the pear"])
+def test_a_task_that_waits_is_taken_back_before_it_begins(heard: str) -> None:
+    mission = run("Bring the hammer, then bring the pear", heard)
+    assert tasks(mission) == [("bring", None, NOT_DONE), ("bring", "hammer", DONE)]
+    assert "Then I do not bring the pear." in answers(mission)
+    assert mission.world.resting_place("pear") != "delivery"
+
+
+def test_of_several_things_one_is_left_out_that_was_not_begun() -> None:
+    mission = run("Bring all the fruit", "do not bring the pear")
+    [whole] = mission.outcome.tasks
+    assert {part.object or part.target for part in whole.parts if part.status != DONE} == {"pear"}
+
+
+def test_a_class_is_asked_for_without_what_is_refused() -> None:
+    mission = run("Bring the hammer, then bring a fruit", "don't bring the pear")
+    assert [one for _, one, _ in tasks(mission)] != ["hammer", "pear"]
+
+
+def test_nothing_at_all_is_nothing_of_all() -> None:
+    mission = run("Bring the hammer, then bring the pear", "don't bring anything")
+    assert all(status == NOT_DONE for _, _, status in tasks(mission))
+
+
+@pytest.mark.parametrize(
+    "heard",
+    [
+        "don't bring the hammer, bring the power drill",
+        "bring the power drill and don't touch the hammer",
+        "leave the hammer alone and bring the power drill",
+    ],
+)
+def test_what_is_to_be_left_alone_is_corrected(heard: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert tasks(mission) == [("bring", "power_drill", DONE)]
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+
+
 @pytest.mark.parametrize("heard", ["Do not bring it", "don't bring the hammer"])
 def test_what_is_taken_back_is_not_done(heard: str) -> None:
     mission = run("Bring the hammer", heard)

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
 
-from executive.types import PERSON, CommandKind, Outcome, TaskOutcome
+from executive.types import HAND, PERSON, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.nodes import sequence
@@ -29,7 +29,9 @@ class Find(Deed):
         )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
-        """The robot went to the furniture that it names, and the thing is there."""
+        """The robot went to the furniture that it names, and the thing is there; or it holds it."""
+        if outcome.location is None:
+            return whereabouts == HAND
         return whereabouts == outcome.location and whereabouts in outcome.visited
 
     def how_far(self, context: MissionContext, why: str) -> str:

@@ -30,6 +30,12 @@ def test_what_was_done_is_completed_where_each_command_wants_the_thing(
     assert not completed(run.outcome, lambda name: "")
 
 
+def test_what_is_found_in_the_hand_is_found() -> None:
+    outcome = replace(run_mission("Find an apple", llm=False).outcome, location=None, visited=())
+    assert completed(outcome, lambda name: "hand")
+    assert not completed(outcome, lambda name: "dining_table")
+
+
 def test_a_robot_that_only_says_so_has_completed_nothing() -> None:
     run = run_mission("Find an apple", llm=False)
     assert not completed(replace(run.outcome, location="sofa"), lambda name: "dining_table")

@@ -4,6 +4,8 @@ import random
 from itertools import product
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from executive.language.grammar import EnglishInterpreter
 
@@ -33,7 +35,6 @@ FORMS = (
     "under no circumstances {deed} {thing}",
     "if you can, don't {deed} {thing}",
     "bring the mug without {thing}",
-    "instead of {thing}, bring the mug",
     "leave {thing} alone",
     "leave {thing} where it is",
     "let {thing} be",
@@ -79,6 +80,81 @@ def test_a_negation_is_no_command_and_nobody_else_may_make_one_of_it(words: str)
     assert not read.commands(words)
     assert not read.without_slips(words)
     assert read.remark(words)
+
+
+MIXED = (
+    "bring {right}, not {wrong}",
+    "bring {right} and not {wrong}",
+    "bring not {wrong} but {right}",
+    "take {right} instead of {wrong}",
+    "instead of {wrong}, bring {right}",
+    "bring {right} and leave {wrong} alone",
+    "leave {wrong} alone and bring {right}",
+    "bring {right} and leave {wrong} where it is",
+    "take {right} off the desk but leave {wrong} there",
+    "bring {right} and don't touch {wrong}",
+    "bring {right}. Do not bring {wrong}.",
+    "find {right}, then never take {wrong}",
+    "don't bring {wrong}, bring {right}",
+    "Don't touch {wrong}! Bring {right}.",
+    "do not bring {wrong} but {right}",
+    "I don't want {wrong}, I want {right}",
+    "bring {right} from the desk except {wrong}",
+    "bring {right} from the desk except the pear and {wrong}",
+    "put {right} on the sofa, but not {wrong}",
+    "clear the desk but leave {wrong}",
+    "clear the desk except {wrong}",
+    "bring all the fruit except the pear, {wrong} and the banana",
+)
+RIGHT, WRONG = ("the apple", "two fruits", "a red mug"), ("the hammer", "my scissors", "any toy")
+
+
+@pytest.mark.parametrize(("form", "right", "wrong"), [*product(MIXED, RIGHT, WRONG)])
+def test_what_is_denied_beside_something_else_is_left_out_of_all(form, right, wrong) -> None:
+    commands = read.commands(form.format(right=right, wrong=wrong))
+    assert commands
+    denied = wrong.rpartition(" ")[2]
+    for command in (one for group in commands for one in group):
+        assert denied not in command.target
+        assert denied in command.exceptions
+
+
+DENIALS = st.sampled_from(("don't", "never", "do not", "please don't ever", "you must not"))
+SAID = st.lists(
+    st.sampled_from((*DEEDS, *THINGS, "and", "or", ",", "but", "then", "it", "to me", "from")),
+    min_size=1,
+    max_size=8,
+).map(" ".join)
+
+
+@given(DENIALS, SAID)
+def test_what_is_behind_a_negation_is_never_asked_for_again_nor_is_it(denial, said) -> None:
+    for group in read.commands(f"{denial} take the sugar_box, {said}"):
+        for command in group:
+            assert command.target not in ("sugar_box", "it")
+            assert "sugar_box" in command.exceptions
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (
+            "do not take the mug, bring it",
+            "Then I will not. Say once more what I am to do instead.",
+        ),
+        ("don't go to the kitchen, go to the bedroom", "Then I will not. Say once more"),
+        ("do not take the mug and bring the pear", "Then I will not."),
+    ],
+)
+def test_who_may_have_asked_for_something_else_is_told_to_say_it_again(words, says) -> None:
+    assert not read.commands(words)
+    assert read.remark(words).startswith(says)
+
+
+def test_who_only_looks_need_not_be_told_to_leave_it() -> None:
+    command = read.command("find the mug and do not touch it")
+    assert command
+    assert (command.kind, command.target, command.exceptions) == ("find", "mug", ())
 
 
 @pytest.mark.parametrize(

@@ -23,10 +23,10 @@ from executive.language.meaning import (
     Things,
     Unable,
     Unread,
-    Verb,
     Where,
 )
 from executive.language.reader import Reader, english
+from executive.types import CommandKind
 
 read = english().read
 
@@ -50,63 +50,65 @@ IT = Things((Thing("it", pronoun=True, definite=True),))
 @pytest.mark.parametrize(
     ("words", "meaning"),
     [
-        ("Find the mug on the desk", asks(Task(Verb.FIND, certain("mug"), DESK))),
-        ("Where is the mug?", asks(Task(Verb.FIND, certain("mug")))),
+        ("Find the mug on the desk", asks(Task(CommandKind.FIND, certain("mug"), DESK))),
+        ("Where is the mug?", asks(Task(CommandKind.FIND, certain("mug")))),
         (
             "Bring the mug from the desk or from the bed",
-            asks(Task(Verb.BRING, certain("mug"), Where("desk", others=(Where("bed"),)))),
+            asks(Task(CommandKind.BRING, certain("mug"), Where("desk", others=(Where("bed"),)))),
         ),
         (
             "Take the mug on the desk in the kitchen",
             asks(
-                Task(Verb.TAKE, certain("mug"), Where("desk", Relation.ON, within=KITCHEN)),
+                Task(CommandKind.TAKE, certain("mug"), Where("desk", Relation.ON, within=KITCHEN)),
             ),
         ),
         (
             "Move the mug from the bed to the kitchen",
-            asks(Task(Verb.PUT, certain("mug"), Where("bed"), Where("kitchen"))),
+            asks(Task(CommandKind.PUT, certain("mug"), Where("bed"), Where("kitchen"))),
         ),
-        ("Give the mug to Anna", asks(Task(Verb.PUT, certain("mug"), goal=Where("anna")))),
-        ("Bring Anna the mug", asks(Task(Verb.PUT, certain("mug"), goal=Where("anna")))),
-        ("Bring the mug to me", asks(Task(Verb.BRING, certain("mug"), goal=ME))),
+        ("Give the mug to Anna", asks(Task(CommandKind.PUT, certain("mug"), goal=Where("anna")))),
+        ("Bring Anna the mug", asks(Task(CommandKind.PUT, certain("mug"), goal=Where("anna")))),
+        ("Bring the mug to me", asks(Task(CommandKind.BRING, certain("mug"), goal=ME))),
         (
             "Put a mug next to the pear",
-            asks(Task(Verb.PUT, some("mug"), goal=Where("pear", Relation.NEXT_TO))),
+            asks(Task(CommandKind.PUT, some("mug"), goal=Where("pear", Relation.NEXT_TO))),
         ),
-        ("Put it back", asks(Task(Verb.PUT_BACK, IT))),
-        ("Put it down", asks(Task(Verb.PUT_DOWN, IT))),
-        ("Bring an apple and a pear", asks(Task(Verb.BRING, some("apple", "pear")))),
+        ("Put it back", asks(Task(CommandKind.PUT_BACK, IT))),
+        ("Put it down", asks(Task(CommandKind.PUT_DOWN, IT))),
+        ("Bring an apple and a pear", asks(Task(CommandKind.BRING, some("apple", "pear")))),
         (
             "Bring two apples",
-            asks(Task(Verb.BRING, Things((Thing("apples", number=2),)))),
+            asks(Task(CommandKind.BRING, Things((Thing("apples", number=2),)))),
         ),
         (
             "Bring all the fruit",
-            asks(Task(Verb.BRING, Things((Thing("fruit", number=ALL, definite=True),)))),
+            asks(Task(CommandKind.BRING, Things((Thing("fruit", number=ALL, definite=True),)))),
         ),
         (
             "Bring me either a mug or a pitcher",
-            asks(Task(Verb.BRING, Things(some("mug", "pitcher").members, one_of=True))),
+            asks(Task(CommandKind.BRING, Things(some("mug", "pitcher").members, one_of=True))),
         ),
         (
             "Bring me anything but a banana",
             asks(
                 Task(
-                    Verb.BRING,
+                    CommandKind.BRING,
                     Things((Thing(number=1, exceptions=some("banana").members),)),
                 )
             ),
         ),
         (
             "Bring me something yellow to drink from",
-            asks(Task(Verb.BRING, Things((Thing("yellow", number=1, purpose="drink from"),)))),
+            asks(
+                Task(CommandKind.BRING, Things((Thing("yellow", number=1, purpose="drink from"),)))
+            ),
         ),
         (
             "Go to the kitchen, find the mug and bring it here",
             asks(
-                Task(Verb.GO, goal=Where("kitchen")),
-                Task(Verb.FIND, certain("mug")),
-                Task(Verb.BRING, IT, goal=ME),
+                Task(CommandKind.GO, goal=Where("kitchen")),
+                Task(CommandKind.FIND, certain("mug")),
+                Task(CommandKind.BRING, IT, goal=ME),
                 in_order=True,
             ),
         ),
@@ -114,19 +116,19 @@ IT = Things((Thing("it", pronoun=True, definite=True),))
             "Bring an apple if there is one, otherwise a pear",
             asks(
                 Task(
-                    Verb.BRING,
+                    CommandKind.BRING,
                     some("apple"),
                     conditional=True,
-                    unless=Task(Verb.BRING, some("pear")),
+                    unless=Task(CommandKind.BRING, some("pear")),
                 )
             ),
         ),
-        ("Clear the table", asks(Task(Verb.CLEAR, source=Where("table")))),
-        ("What is on the desk?", asks(Task(Verb.TELL, source=DESK))),
-        ("Is there a mug on the desk?", asks(Task(Verb.CHECK, some("mug"), DESK))),
+        ("Clear the table", asks(Task(CommandKind.CLEAR, source=Where("table")))),
+        ("What is on the desk?", asks(Task(CommandKind.TELL, source=DESK))),
+        ("Is there a mug on the desk?", asks(Task(CommandKind.CHECK, some("mug"), DESK))),
         (
             "How many mugs are there on the desk?",
-            asks(Task(Verb.COUNT, Things((Thing("mugs"),)), DESK)),
+            asks(Task(CommandKind.COUNT, Things((Thing("mugs"),)), DESK)),
         ),
     ],
 )
@@ -177,7 +179,7 @@ def test_what_does_not_fit_is_not_read_and_it_is_told_where(words: str, at: str)
 @pytest.mark.parametrize("name", ["salt and pepper", "jar with a lid", "do not disturb sign"])
 def test_a_name_with_words_that_mean_something_else_is_a_name(name: str) -> None:
     reader = Reader(names=[name])
-    assert reader.read(f"Bring me the {name}") == asks(Task(Verb.BRING, certain(name)))
+    assert reader.read(f"Bring me the {name}") == asks(Task(CommandKind.BRING, certain(name)))
 
 
 WORDS = sorted(english().vocabulary | {",", "mug", "desk", "12", "?", "isn't", "salt_box"})

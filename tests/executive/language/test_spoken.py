@@ -44,6 +44,18 @@ def test_what_is_in_the_hand_is_what_is_put_somewhere(words: str) -> None:
     assert command(words, holds=True).split(" to ")[0].endswith("it")
 
 
+@pytest.mark.parametrize(
+    ("words", "goal"),
+    [
+        ("Put the mug on the desk, then put the hammer there", "desk"),
+        ("Put the mug down and put the hammer next to it", "next to mug"),
+    ],
+)
+def test_what_was_named_in_the_same_breath_comes_first(words: str, goal: str) -> None:
+    [*_, [last]] = read.commands(words, FRUIT)
+    assert (last.target, last.goal) == ("hammer", goal)
+
+
 def test_them_are_all_that_were_spoken_of() -> None:
     said = resolved(read.read("Bring them"), FRUIT)
     assert isinstance(said, Request)

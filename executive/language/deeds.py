@@ -1,0 +1,215 @@
+"""What is to be done, as the rules of a grammar have it."""
+
+from dataclasses import replace
+
+from lark import Token
+
+from executive.language.meaning import ALL, ME, Task, Thing, Things, Where
+from executive.language.nouns import Nouns
+from executive.language.parts import (
+    From,
+    Left,
+    Otherwise,
+    Part,
+    To,
+    Unfit,
+    either_of,
+    exceptions_of,
+    is_a,
+    purpose_of,
+)
+from executive.types import CommandKind
+
+MOST_INNER = 4
+"""Places that say where another place is; nobody says more in one breath."""
+
+
+class Deeds(Nouns):
+    """Makes tasks of the rules about them."""
+
+    def task(self, parts: list[Part]) -> Task:
+        """As in "find the mug on the desk": the verb has the name of its terminal."""
+        return _task(CommandKind(parts[0].type.lower()), parts)
+
+    def find(self, parts: list[Part]) -> Task:
+        """As in "tell me where the mug is"."""
+        return _task(CommandKind.FIND, parts)
+
+    def take(self, parts: list[Part]) -> Task:
+        """As in "take the mug"; with a goal it is brought there."""
+        task = _task(CommandKind.TAKE, parts)
+        return replace(task, verb=CommandKind.PUT) if task.goal else task
+
+    def bring(self, parts: list[Part]) -> Task:
+        """As in "bring me the mug", "give the mug to Anna"."""
+        task = _task(CommandKind.BRING, parts)
+        return replace(task, verb=CommandKind.BRING if task.goal in (None, ME) else CommandKind.PUT)
+
+    def bring_to(self, parts: list[Part]) -> Task:
+        """As in "bring Anna the mug"."""
+        verb, person, *rest = parts
+        return _task(CommandKind.PUT, [verb, To(person), *rest])
+
+    def wish_for(self, parts: list[Part]) -> Task:
+        """As in "I want to drink something": whatever serves for that."""
+        thing = Thing(number=1, purpose=purpose_of(parts, "PURPOSE"), said=str(parts[-1]))
+        return Task(CommandKind.BRING, Things((thing,)), said=parts[0])
+
+    def search_for(self, parts: list[Part]) -> Task:
+        """As in "search the kitchen for the mug"."""
+        place, things = (p for p in parts if isinstance(p, Things))
+        return Task(CommandKind.FIND, things, source=Where(place.members[0].words), said=parts[0])
+
+    def leave(self, parts: list[Part]) -> Task | Left:
+        """As in "leave the hammer alone", "leave the hammer on the desk"; "leave it there" puts."""
+        things = parts[1]
+        if all(thing.pronoun for thing in things.members) and not is_a(parts[2], "ALONE"):
+            return _task(CommandKind.PUT, parts, goes=True)
+        return Left(self.left_alone([*things.members]))
+
+    def wish(self, parts: list[Part]) -> Task:
+        """As in "I need the mug"."""
+        return _task(CommandKind.BRING, parts)
+
+    def put(self, parts: list[Part]) -> Task:
+        """As in "put the mug on the desk"; where to may be left for the robot to ask."""
+        task = _task(CommandKind.PUT, parts, goes=True)
+        return replace(task, verb=CommandKind.BRING) if task.goal == ME else task
+
+    def put_down(self, parts: list[Part]) -> Task:
+        """As in "put it down", "put the mug down on the desk"."""
+        task = _task(CommandKind.PUT_DOWN, parts, goes=True)
+        return replace(task, verb=CommandKind.PUT) if task.goal else task
+
+    def put_back(self, parts: list[Part]) -> Task:
+        """As in "put it back", "take the mug back to the kitchen"."""
+        task = _task(CommandKind.PUT_BACK, parts, goes=True)
+        return replace(task, verb=CommandKind.PUT) if task.goal else task
+
+    def go(self, parts: list[Part]) -> Task:
+        """As in "go to the kitchen"; "go back" is to the person."""
+        task = _task(CommandKind.GO, parts, goes=True)
+        back = any(is_a(p, "BACK") for p in parts)
+        return replace(task, goal=ME) if back and not task.goal else task
+
+    def come(self, parts: list[Part]) -> Task:
+        """As in "come here"."""
+        return Task(CommandKind.GO, goal=ME, said=parts[0])
+
+    def clear(self, parts: list[Part]) -> Task:
+        """As in "clear the table", "clear the mugs from the table"."""
+        task = _task(CommandKind.CLEAR, parts)
+        if task.source is None and task.things:
+            if task.things.one_of:
+                raise Unfit(task.things.members[-1].words)
+            places = [Where(thing.words) for thing in task.things.members]
+            left_out = (but for thing in task.things.members for but in thing.exceptions)
+            return without(replace(task, things=None, source=either_of(places)), tuple(left_out))
+        return task
+
+    def excepting(self, parts: list[Part]) -> Task:
+        """As in "bring all the fruit from the table, except the pear"."""
+        task = _deed(next(p for p in parts if isinstance(p, Task | Left)))
+        left_out = tuple(p for p in parts if isinstance(p, Thing)) or exceptions_of(parts)
+        return without(task, left_out)
+
+    def count(self, parts: list[Part]) -> Task:
+        """As in "how many fruits are on the table"."""
+        return _task(CommandKind.COUNT, parts)
+
+    def tell(self, parts: list[Part]) -> Task:
+        """As in "what is on the table"."""
+        return _task(CommandKind.TELL, parts)
+
+    def check(self, parts: list[Part]) -> Task:
+        """As in "is the mug on the sofa", "is there any milk"."""
+        return _task(CommandKind.CHECK, parts)
+
+    def if_there(self, parts: list[Part]) -> Task:
+        """As in "if there is one", "if the apple is on the table"."""
+        return _task(CommandKind.CHECK, parts)
+
+    def otherwise(self, parts: list[Part]) -> Otherwise:
+        """As in "otherwise a pear", "otherwise come back"."""
+        instead = parts[-1]
+        return Otherwise(instead if isinstance(instead, Things) else _deed(instead))
+
+    def conditional(self, parts: list[Part]) -> Task:
+        """As in "bring an apple if there is one, otherwise a pear"."""
+        part, *rest = parts
+        deed = _deed(part)
+        sought = next((p for p in rest if isinstance(p, Task)), None)
+        if sought is not None and sought.things is None and sought.source is None:
+            sought = None
+        return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
+
+    def if_then(self, parts: list[Part]) -> Task:
+        """As in "if there is an apple, bring it, otherwise bring a pear"."""
+        sought, part, *rest = (p for p in parts if not isinstance(p, Token))
+        deed = _deed(part)
+        return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
+
+
+def without(task: Task, left_out: tuple[Thing, ...]) -> Task:
+    """The same less some things; what has to do with none is done with all but these."""
+    if not left_out:
+        return task
+    things = task.things or Things((Thing(number=ALL, definite=True, said="everything"),))
+    members = (replace(t, exceptions=(*t.exceptions, *left_out)) for t in things.members)
+    return replace(task, things=replace(things, members=tuple(members)))
+
+
+def _deed(part: Part) -> Task:
+    """A task; what is not to be done ("leave it alone") depends on nothing, and nothing on it."""
+    if not isinstance(part, Task):
+        raise Unfit(part.things[-1].said)
+    return part
+
+
+def _instead(deed: Task, rest: list[Part]) -> Task | None:
+    """What to do if the condition does not hold: with things only, the same deed with them."""
+    instead = next((p.deed for p in rest if isinstance(p, Otherwise)), None)
+    if isinstance(instead, Things):
+        return replace(deed, things=instead)
+    return instead
+
+
+def _task(verb: CommandKind, parts: list[Part], *, goes: bool = False) -> Task:
+    """A task of a verb, its things and its places.
+
+    Args:
+        verb: what to do.
+        parts: of the rule.
+        goes: whether a place without "from" and "to" is where the thing is to go, and not where
+            it is.
+
+    Raises:
+        Unfit: if there are more places than the task has use for.
+    """
+    things = next((p for p in parts if isinstance(p, Things)), None)
+    places: dict[str, Where] = {}
+    last, inner = "", 0
+    for part in parts:
+        if isinstance(part, From):
+            role, place = "source", part.place
+        elif isinstance(part, To):
+            role, place = "goal", part.place
+        elif isinstance(part, Where):
+            role, place = ("goal" if goes else "source"), part
+            if last and (role in places or last == "goal"):
+                places[last] = replace(places[last], within=_inner(places[last].within, place))
+                inner += 1
+                if inner > MOST_INNER:
+                    raise Unfit(place.words)
+                continue
+        else:
+            continue
+        if role in places:
+            raise Unfit(place.words)
+        places[role], last = place, role
+    said = next((str(p) for p in parts if isinstance(p, Token)), "")
+    return Task(verb, things, places.get("source"), places.get("goal"), said=said)
+
+
+def _inner(within: Where | None, place: Where) -> Where:
+    return place if within is None else replace(within, within=_inner(within.within, place))

@@ -1,0 +1,54 @@
+"""Tasks said in one breath, as few as say the same: "find the mug and bring it" is one."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from executive.language.meaning import ME, Task, Things
+from executive.types import CommandKind
+
+_ALONE = (CommandKind.FIND, CommandKind.TAKE, CommandKind.BRING)
+"""Deeds that another one with "it" may follow, which has them in it."""
+
+
+def folded(tasks: Sequence[Task]) -> tuple[Task, ...]:
+    """As few tasks as say the same: "find the mug and bring it" is "bring the mug"."""
+    folded: list[Task] = []
+    for task in tasks:
+        before = folded[-1] if folded else None
+        if (
+            before
+            and before.verb == CommandKind.GO
+            and before.goal not in (None, ME)
+            and _places(task)
+        ):
+            folded[-1] = replace(task, source=before.goal)
+        elif before and before.verb in _ALONE and not before.goal and _goes_on(task):
+            folded[-1] = replace(before, verb=task.verb, goal=task.goal, said=task.said)
+        else:
+            folded.append(task)
+    return tuple(folded)
+
+
+def _places(task: Task) -> bool:
+    """Whether it has a thing that may be where the robot was told to go before."""
+    return task.verb in _ALONE and task.source is None and not is_it(task.things)
+
+
+def _goes_on(task: Task) -> bool:
+    """Whether it is about the thing of the task before."""
+    further = task.verb in (CommandKind.TAKE, CommandKind.BRING, CommandKind.PUT)
+    return further and is_it(task.things) and task.source is None and not task.conditional
+
+
+def is_it(things: Things | None) -> bool:
+    """Whether it is one thing that was named before."""
+    if things is None or len(things.members) != 1:
+        return False
+    [thing] = things.members
+    return thing.pronoun and not thing.other and thing.number is None
+
+
+def asks_for_things(task: Task) -> bool:
+    """Whether it is a question about certain things, which may be anywhere."""
+    members = task.things.members if task.things else ()
+    return task.verb == CommandKind.TELL and any(t.words and not t.superlative for t in members)

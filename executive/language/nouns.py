@@ -1,0 +1,182 @@
+"""Things and places, as the rules of a grammar have them."""
+
+from dataclasses import replace
+
+from lark import Token, Transformer
+
+from executive.language.meaning import ALL, ME, Relation, Said, Thing, Things, Where
+from executive.language.parts import (
+    From,
+    Part,
+    To,
+    Unfit,
+    either_of,
+    exceptions_of,
+    is_a,
+    purpose_of,
+    said_of,
+)
+
+
+class Nouns(Transformer[Token, Said]):
+    """Makes things and places of the rules about them.
+
+    Args:
+        numbers: what words for numbers and ordinals stand for.
+        relations: which relation a preposition says.
+        superlatives: which measure a word like "biggest" is about.
+    """
+
+    def __init__(
+        self,
+        numbers: dict[str, int],
+        relations: dict[str, Relation],
+        superlatives: dict[str, str],
+    ) -> None:
+        """Take the words that have a value."""
+        super().__init__()
+        self._numbers = numbers
+        self._relations = relations
+        self._superlatives = superlatives
+
+    # --- things ---
+
+    def words(self, parts: list[Part]) -> str:
+        """The words of a name."""
+        return " ".join(parts)
+
+    def determiner(self, parts: list[Part]) -> Token:
+        """An article, or a number."""
+        (token,) = parts
+        assert isinstance(token, Token)
+        return token
+
+    def noun(self, parts: list[Part]) -> Thing:
+        """As in "box of sugar", "tool for nails"."""
+        name = " ".join(p for p in parts if type(p) is str or is_a(p, "OF", "POSE"))
+        first, _, rest = name.partition(" ")
+        most = self._superlatives.get(first, "")
+        words = rest if most else name
+        return Thing(words, purpose=purpose_of(parts, "USE"), superlative=most, said=said_of(parts))
+
+    def thing(self, parts: list[Part]) -> Thing:
+        """As in "the two mugs but not the red one"."""
+        noun = next(p for p in parts if isinstance(p, Thing))
+        numbers = [self.number_of(p) for p in parts if is_a(p, "NUMBER")]
+        definite = any(is_a(p, "THE") for p in parts)
+        number = numbers[0] if numbers else 1 if any(is_a(p, "A") for p in parts) else None
+        return replace(
+            noun,
+            number=number,
+            definite=definite,
+            exceptions=exceptions_of(parts),
+            said=said_of(parts),
+        )
+
+    def something(self, parts: list[Part]) -> Thing:
+        """As in "something yellow to drink from"."""
+        words = " ".join(p for p in parts if type(p) is str)
+        purpose = purpose_of(parts, "PURPOSE")
+        return Thing(
+            words, number=1, purpose=purpose, exceptions=exceptions_of(parts), said=said_of(parts)
+        )
+
+    def pronoun(self, parts: list[Part]) -> Thing:
+        """As in "it", "them"."""
+        return Thing(str(parts[0]), pronoun=True, definite=True, said=said_of(parts))
+
+    def every_pronoun(self, parts: list[Part]) -> Thing:
+        """As in "all of them"."""
+        return Thing(str(parts[-1]), number=ALL, pronoun=True, definite=True, said=said_of(parts))
+
+    def another(self, parts: list[Part]) -> Thing:
+        """As in "another apple", "the other one"."""
+        noun = next((p for p in parts if isinstance(p, Thing)), Thing())
+        return replace(noun, number=1, pronoun=not noun.words, other=True, said=said_of(parts))
+
+    def every(self, parts: list[Part]) -> Thing:
+        """As in "all the fruit", "everything but the mug"."""
+        noun = next((p for p in parts if isinstance(p, Thing)), Thing())
+        return replace(
+            noun, number=ALL, definite=True, exceptions=exceptions_of(parts), said=said_of(parts)
+        )
+
+    def except_(self, parts: list[Part]) -> tuple[Thing, ...]:
+        """As in "but a banana"."""
+        return tuple(p for p in parts if isinstance(p, Thing))
+
+    def left_alone(self, parts: list[Part]) -> tuple[Thing, ...]:
+        """As in "and do not touch the banana", "but leave the apple and the pear alone"."""
+        return tuple(replace(p, alone=True) for p in parts if isinstance(p, Thing))
+
+    def rather(self, parts: list[Part]) -> Things:
+        """As in "not the hammer but the drill"."""
+        wrong = parts[-1]
+        if len(wrong.exceptions) != 1:
+            raise Unfit(str(parts[0]))
+        [meant] = wrong.exceptions
+        return Things((replace(meant, exceptions=(replace(wrong, exceptions=()),)),))
+
+    def all_of(self, parts: list[Part]) -> Things:
+        """As in "an apple and a banana"."""
+        return Things(tuple(p for p in parts if isinstance(p, Thing)))
+
+    def one_of(self, parts: list[Part]) -> Things:
+        """As in "either the hammer or the drill"."""
+        return Things(tuple(p for p in parts if isinstance(p, Thing)), one_of=True)
+
+    # --- places ---
+
+    def place(self, parts: list[Part]) -> Where:
+        """As in "the kitchen table"."""
+        noun = next(p for p in parts if isinstance(p, Thing))
+        return Where(noun.words)
+
+    def pronoun_place(self, parts: list[Part]) -> Where:
+        """As in "it", as in "next to it"."""
+        return Where(parts[0], pronoun=True)
+
+    def where(self, parts: list[Part]) -> Where:
+        """As in "on the desk": where it is or where it is to go, as the verb says."""
+        places, relation = [], Relation.AT
+        for part in parts:
+            if is_a(part, "RELATION"):
+                relation = self._relations[part]
+            elif isinstance(part, Where):
+                places.append(replace(part, relation=relation))
+        return either_of(places)
+
+    def source(self, parts: list[Part]) -> From:
+        """As in "from the desk"."""
+        return From(either_of(parts))
+
+    def goal(self, parts: list[Part]) -> To:
+        """As in "to the desk"."""
+        return To(either_of(parts))
+
+    def to_person(self, parts: list[Part]) -> To:
+        """As in "to her"."""
+        return To(Where(parts[-1], pronoun=True))
+
+    def dative(self, parts: list[Part]) -> Where:
+        """As in "bring Anna the mug"."""
+        return Where(parts[0])
+
+    def dative_pronoun(self, parts: list[Part]) -> Where:
+        """As in "bring her the mug"."""
+        return Where(parts[0], pronoun=True)
+
+    def to_me(self, parts: list[Part]) -> To:
+        """As in "to me", "here"."""
+        return To(ME)
+
+    def there(self, parts: list[Part]) -> Where:
+        """As in "there": where it was spoken of."""
+        return Where(parts[0], pronoun=True)
+
+    def number_of(self, token: Token) -> int:
+        """What a number or an ordinal stands for."""
+        digits = token.removeprefix("number ").removesuffix(" one")
+        if digits.isdecimal():
+            return int(digits)
+        return self._numbers.get(token) or self._numbers[token.removesuffix(" one")]
