@@ -29,6 +29,8 @@ class Whole:
     command: Command = field(metadata=logged_as(plain=command_as_logged))
     wanted: int
     """How many of the parts are enough."""
+    unseen: str = ""
+    """Why there may be more parts than are known, as a clause; empty if there are not."""
     parts: list[TaskOutcome] = field(default_factory=list)
     """What came of those that have ended."""
 
@@ -72,9 +74,14 @@ class Agenda:
         """Do these, too, after all others."""
         self.tasks += self._in_groups(commands, 0)
 
-    def split(self, command: Command, parts: Sequence[Command], wanted: int) -> None:
-        """Do the task at hand in these parts, in any order, until so many of them are done."""
-        self.wholes.append(Whole(command, wanted))
+    def split(
+        self, command: Command, parts: Sequence[Command], wanted: int, unseen: str = ""
+    ) -> None:
+        """Do the task at hand in these parts, in any order, until so many of them are done.
+
+        It is not all done if more may be meant than these: `unseen` says why that is not known.
+        """
+        self.wholes.append(Whole(command, wanted, unseen))
         self.go_on_with((tuple(parts),))
 
     def go_on_with(self, parts: Commands) -> None:

@@ -61,7 +61,7 @@ class PutEachAway(Step):
             goal = command.goal or " or ".join(elsewhere)
             part = replace(command, kind=CommandKind.PUT, target=name, source=here, goal=goal)
             parts.append(replace(part, exceptions=(), purpose=""))
-        self.situation.agenda.split(command, parts, len(parts))
+        self.situation.agenda.split(command, parts, len(parts), not_seen(self.context))
         return self.succeed(", ".join(found))
 
 
