@@ -97,6 +97,15 @@ class Agenda:
         """Whether there are any such."""
         return any(task.depth == len(self.wholes) for task in self.tasks)
 
+    @property
+    def goes_on(self) -> bool:
+        """Whether there is more to do for sure, once the task at hand is done."""
+        if not self.wholes or any(task.depth < len(self.wholes) for task in self.tasks):
+            return bool(self.tasks)
+        whole = self.wholes[-1]
+        found_first = whole.command.sought and whole.command.sought.kind.means.searches
+        return bool(found_first) or (self.has_parts and whole.wanted - len(whole.done) > 1)
+
     def replace(self, first: Command, others: Sequence[Command] = ()) -> None:
         """Do these at once in place of the task at hand, in this order."""
         self._leave_parts()
