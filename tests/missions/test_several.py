@@ -132,6 +132,22 @@ def test_what_is_cleared_away_goes_to_nothing_that_is_cleared() -> None:
     assert not any(clear.world.things[name] in kitchen for name in places)
 
 
+def test_which_of_several_tables_is_to_be_cleared_is_asked() -> None:
+    one = run("Clear the table", answers=["the second one"])
+    [asked] = one.user.asked  # type: ignore[attr-defined]
+    assert asked.options == ("high_table", "dining_table", "coffee_table")
+    assert set(one.outcome.visited) == {"dining_table"}
+    none = run("Clear the table", answers=["I don't know"])
+    assert (none.outcome.status, none.outcome.visited) == (NOT_DONE, ())
+    both = run("Clear the table", answers=["the high table or the coffee table"])
+    assert (both.outcome.inquiries, on(both, "coffee_table") | on(both, "high_table")) == (1, set())
+
+
+@pytest.mark.parametrize("words", ["Clear all the tables", "Clear the kitchen"])
+def test_of_a_room_or_of_all_tables_it_is_not_asked(words: str) -> None:
+    assert len(run(words, answers=["on the desk"] * 9).outcome.visited) > 1
+
+
 def test_which_is_the_largest_is_not_said_of_things_that_look_alike() -> None:
     alike = run("What is the largest object on the dining table?")
     assert alike.outcome.status == NOT_DONE
