@@ -184,6 +184,8 @@ class TaskOutcome:
     """Of a question: the things that it was about."""
     parts: "tuple[TaskOutcome, ...]" = ()
     """Of a task with several things: what came of each that was begun."""
+    put_at: str = ""
+    """Where the thing was put down; empty if it was not."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,34 +26,36 @@ class Expected:
         """Ask the robot for no way yet."""
         self._context = context
         self._ways = Ways(context)
-        self._told: dict[tuple[Command, str], float] = {}
+        self._told: dict[tuple[Command, str], tuple[float, str]] = {}
 
     def done_after(self, commands: Iterable[Command], start: str) -> Iterator[float]:
         """Done one after the other, when each of them is done (seconds from now)."""
         passed = 0.0
         for command in commands:
-            passed += self.seconds(command, start)
+            seconds, start = self._of(command, start)
+            passed += seconds
             yield passed
-            start = self._end(command) or start
 
     def seconds(self, command: Command, start: str) -> float:
         """From there, until the thing is found and is where it is to go, or the robot is."""
+        return self._of(command, start)[0]
+
+    def _of(self, command: Command, start: str) -> tuple[float, str]:
+        """The seconds, and where the robot is then."""
         if (command, start) not in self._told:
-            self._told[command, start] = min(self._seconds(command, start), FAR_S)
+            plan = looking(self._ways, start, self._likely(command, start))
+            seen = next(iter(plan.order), start)
+            end = self._end(command) or seen
+            [carrying] = self._ways.driving(seen, [end])
+            seconds = plan.expected.seconds + carrying if plan.order else FAR_S
+            self._told[command, start] = min(seconds, FAR_S), end
         return self._told[command, start]
 
-    def _seconds(self, command: Command, start: str) -> float:
-        plan = looking(self._ways, start, self._likely(command, start))
-        if not plan.order:
-            return FAR_S
-        end = self._end(command)
-        carrying = self._ways.driving(plan.order[0], [end]) if end else [0.0]
-        return plan.expected.seconds + carrying[0]
-
     def _end(self, command: Command) -> str | None:
-        """Where the robot is in the end; None if that is where the thing was."""
-        if not command.kind.means.at_goal:
-            return command.kind.means.ends_at
+        """Where the thing is to be, or the robot; None if that is where it is found."""
+        means = command.kind.means
+        if not means.at_goal:
+            return means.ends_at if means.grasps else None
         named = places_in(self._context, command.goal or command.target)
         return best_first(self._context, named)[0] if named else None
 

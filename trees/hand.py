@@ -26,16 +26,13 @@ def hand_is_free(context: MissionContext) -> Behaviour:
     return fallback(
         "hand is free",
         HandIsFree("nothing else is in it", context),
-        sequence(
+        fallback(
             "make room",
-            fallback(
-                "put it away",
-                FirstOf("back where it was", back, choose, put_back_first(context)),
-                sequence(
-                    "by the person",
-                    SayWhatFirst("say so", context, "I put {held} down by you first."),
-                    put_down_somewhere(context, "put it down", DELIVERY),
-                ),
+            FirstOf("back where it was", back, choose, put_back_first(context)),
+            sequence(
+                "by the person",
+                SayWhatFirst("say so", context, "I put {held} down by you first."),
+                put_down_somewhere(context, "put it down", DELIVERY),
             ),
         ),
         FellOut("it fell", context),

@@ -297,7 +297,8 @@ class AskWhereToPut(Ask):
         if self._tries:
             text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         else:
-            text = f"{self.unresolved()}. {text}"
+            why = self.unresolved()
+            text = f"{why[:1].upper()}{why[1:]}. {text}"
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
 
     def understood(self, answer: str) -> bool:

@@ -360,9 +360,13 @@ def goals_in(context: MissionContext) -> tuple[str, ...]:
 
 def options_in(context: MissionContext) -> tuple[str, ...]:
     """The places that the words for where to may mean, if they leave open which; "or" does not."""
-    parts = re.split(r"\bor\b", goal_words(context))
-    alike = all(is_one(context, places_in(context, part)) for part in parts)
-    return () if alike else goals_in(context)
+    return goals_in(context) if may_be_several(context, goal_words(context)) else ()
+
+
+def may_be_several(context: MissionContext, words: str) -> bool:
+    """Whether words for one place leave open which; "the desk or the sofa" means both."""
+    parts = re.split(r"\bor\b", words)
+    return not all(is_one(context, places_in(context, part)) for part in parts)
 
 
 def unknown(context: MissionContext) -> str:

@@ -83,8 +83,8 @@ class EachThing(Step):
         """Of names that were given, each; of a class, each of its things, or those seen."""
         command, found = self.situation.request.command, self.situation.survey.found
         assert command
+        why = not_seen(self.context) if self.situation.survey.seen else ""
         if self.situation.survey.seen:
-            why = not_seen(self.context)
             if not found:
                 return self.fail("; ".join(filter(None, (nothing_there(self.context), why))))
             parts = [part_of(command, name, place) for name, place in found.items()]
@@ -96,7 +96,8 @@ class EachThing(Step):
             near = nearest(self.context, command.target)
             return self.fail(unresolved(self.context, command.target, near))
         wanted = len(parts) if command.number == ALL else max(command.number, 1)
-        self.situation.agenda.split(command, parts, min(wanted, len(parts)))
+        unseen = why if command.number == ALL or wanted > len(parts) else ""
+        self.situation.agenda.split(command, parts, min(wanted, len(parts)), unseen)
         return self.succeed(", ".join(part.target for part in parts))
 
     def _meant(self, command: Command) -> Sequence[str]:

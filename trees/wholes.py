@@ -1,16 +1,13 @@
-"""A task that is done in parts: when it is settled, and what is told of it."""
+"""A task that is done in parts: when it is settled, and what came of it."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from executive.language.wording import listed
 from executive.situation import Task, Whole
 from executive.types import Command, CommandKind, MissionStatus, TaskOutcome
 from trees.context import MissionContext
-from trees.deeds import deed_of
-from trees.telling import tell, to_where
-
-NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+from trees.how_many import how_many, sentences
+from trees.telling import tell
 
 
 def settle(context: MissionContext) -> bool:
@@ -78,11 +75,11 @@ def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
     """What came of the whole; told, if its parts alone do not tell it."""
     command, last = whole.command, whole.parts[-1]
     wanted = max(whole.wanted, command.number)
-    if command.conditional or wanted == 1:
+    if command.conditional or (wanted == 1 and not whole.unseen):
         done = last.status == MissionStatus.DONE
         reason = last.reason if done else sentences(whole.parts)
     else:
-        done = len(whole.done) >= wanted
+        done = len(whole.done) >= wanted and not whole.unseen
         reason = how_many(context, whole, wanted)
         tell(context, reason)
     return TaskOutcome(
@@ -96,28 +93,3 @@ def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
         visited=tuple(place for part in whole.parts for place in part.visited),
         parts=tuple(whole.parts),
     )
-
-
-def sentences(parts: list[TaskOutcome]) -> str:
-    """Why each of them was not done."""
-    return "; ".join(dict.fromkeys(part.reason.rstrip(".") for part in parts))
-
-
-def how_many(context: MissionContext, whole: Whole, wanted: int) -> str:
-    """Of how many it was done, of which, and why not of the others."""
-    command, done = whole.command, len(whole.done)
-    if done == wanted:
-        count, why = "both" if wanted == 2 else f"all {number(wanted)}", ""
-    else:
-        one_hand = command.kind == CommandKind.TAKE
-        count = f"{number(done)} of {number(wanted)}"
-        why = "I can hold one thing at a time" if one_hand else "I know of no more"
-        why = sentences([p for p in whole.parts if p.status != MissionStatus.DONE]) or why
-    did = filter(None, ("I", deed_of(command.kind).did, count, to_where(context, command)))
-    which = listed([context.say.the(part.object or part.target) for part in whole.done])
-    return " ".join(did) + f": {which}" * bool(which) + f"; {why}" * bool(why) + "."
-
-
-def number(count: int) -> str:
-    """A small number in letters."""
-    return NUMBERS[count] if count < len(NUMBERS) else str(count)

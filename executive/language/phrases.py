@@ -65,6 +65,11 @@ def stem(word: str) -> str:
     return word
 
 
+def is_plural(name: str) -> bool:
+    """Whether a name has the ending of a regular plural: "tables", "side tables"."""
+    return name.endswith("s") and not name.endswith("ss")
+
+
 def spoken(name: str) -> str:
     """A name as one says it: `sugar_box` -> "sugar box", `LivingRoom` -> "living room"."""
     apart = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name)

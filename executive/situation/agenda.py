@@ -30,6 +30,8 @@ class Whole:
     command: Command = field(metadata=logged_as(plain=command_as_logged))
     wanted: int
     """How many of the parts are enough."""
+    unseen: str = ""
+    """Why there may be more parts than are known, as a clause; empty if there are not."""
     parts: list[TaskOutcome] = field(default_factory=list)
     """What came of those that have ended."""
 
@@ -73,9 +75,14 @@ class Agenda:
         """Do these, too, after all others."""
         self.tasks += self._in_groups(commands, 0)
 
-    def split(self, command: Command, parts: Sequence[Command], wanted: int) -> None:
-        """Do the task at hand in these parts, in any order, until so many of them are done."""
-        self.wholes.append(Whole(command, wanted))
+    def split(
+        self, command: Command, parts: Sequence[Command], wanted: int, unseen: str = ""
+    ) -> None:
+        """Do the task at hand in these parts, in any order, until so many of them are done.
+
+        It is not all done if more may be meant than these: `unseen` says why that is not known.
+        """
+        self.wholes.append(Whole(command, wanted, unseen))
         self.go_on_with((tuple(parts),))
 
     def go_on_with(self, parts: Commands) -> None:
@@ -90,6 +97,15 @@ class Agenda:
     def has_parts(self) -> bool:
         """Whether there are any such."""
         return any(task.depth == len(self.wholes) for task in self.tasks)
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether there is more to do for sure, once the task at hand is done."""
+        if not self.wholes or any(task.depth < len(self.wholes) for task in self.tasks):
+            return bool(self.tasks)
+        whole = self.wholes[-1]
+        found_first = whole.command.sought and whole.command.sought.kind.means.searches
+        return bool(found_first) or (self.has_parts and whole.wanted - len(whole.done) > 1)
 
     def replace(self, first: Command, others: Sequence[Command] = ()) -> None:
         """Do these at once in place of the task at hand, in this order."""

@@ -212,6 +212,7 @@ class Situation:
             visited=tuple(self.search.looks.visited),
             things=tuple(self.survey.found) if answers else (),
             among=(self.survey.about or ()) if answers else (),
+            put_at=self.hand.put_at,
         )
 
 

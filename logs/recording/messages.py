@@ -330,6 +330,7 @@ def _task(message: Any) -> TaskOutcome:
         things=tuple(message.things),
         among=tuple(message.among),
         parts=tuple(map(_task, message.parts)),
+        put_at=message.put_at,
     )
 
 

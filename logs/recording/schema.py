@@ -140,6 +140,7 @@ OUTCOME: Definitions = {
         "things": "repeated string",
         "among": "repeated string",
         "parts": "repeated TaskOutcome",
+        "put_at": "string",
     },
     "Outcome": {
         **STAMPED,

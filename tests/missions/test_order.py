@@ -2,7 +2,7 @@
 
 from executive.app.parts import Parts
 from executive.testing.bench import Run, run_mission
-from executive.types import MissionStatus
+from executive.types import PERSON, DriveTo, MissionStatus
 from kb.facts import FactStore
 
 
@@ -83,3 +83,16 @@ def test_where_it_looks_around_it_goes_by_the_ways_too() -> None:
     run = run_mission("How many tools are in the kitchen?", llm=False, change=far)
     assert run.outcome.visited[-1] == "counter_wagon"
     assert set(run.outcome.visited) > {"high_table"}
+
+
+def test_what_was_found_is_told_on_the_way_if_there_is_more_to_do() -> None:
+    run = run_mission("Find the mug and the pear. What is on the desk?", llm=False)
+    returns = [goal for goal in run.goals if goal == DriveTo(PERSON)]
+    assert len(returns) == 1
+    assert run.goals[-1] == DriveTo(PERSON)
+
+
+def test_if_enough_were_found_the_robot_comes_back() -> None:
+    run = run_mission("Find two fruits", llm=False)
+    assert run.goals[-1] == DriveTo(PERSON)
+    assert run.outcome.status == MissionStatus.DONE

@@ -8,7 +8,7 @@ from replays import recorded
 from executive.campaign.truth import completed
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
-from executive.types import DriveTo, Goal, MissionStatus
+from executive.types import DriveTo, Goal, MissionStatus, Pick, PutDown
 from kb.facts import FactStore
 from logs.recording.reader import Run as Recorded
 
@@ -120,7 +120,9 @@ def test_of_several_that_are_there_a_certain_one_is_asked_for() -> None:
 def test_of_everything_that_is_put_back_it_is_what_the_robot_took() -> None:
     back = run("Put the hammer on the desk. Put the pear on the sofa. Then put everything back.")
     assert back.world.things == back.world.home.placement
-    assert back.outcome.tasks[-1].reason == "I put back both: the pear and the hammer."
+    assert back.outcome.tasks[-1].reason == (
+        "I put back both: the pear on the high table and the hammer on the shelf in the lobby."
+    )
 
 
 def test_what_is_cleared_away_goes_to_nothing_that_is_cleared() -> None:
@@ -130,10 +132,72 @@ def test_what_is_cleared_away_goes_to_nothing_that_is_cleared() -> None:
     assert not any(clear.world.things[name] in kitchen for name in places)
 
 
+def test_which_of_several_tables_is_to_be_cleared_is_asked() -> None:
+    one = run("Clear the table", answers=["the second one"])
+    [asked] = one.user.asked  # type: ignore[attr-defined]
+    assert asked.options == ("high_table", "dining_table", "coffee_table")
+    assert set(one.outcome.visited) == {"dining_table"}
+    none = run("Clear the table", answers=["I don't know"])
+    assert (none.outcome.status, none.outcome.visited) == (NOT_DONE, ())
+    both = run("Clear the table", answers=["the high table or the coffee table"])
+    assert (both.outcome.inquiries, on(both, "coffee_table") | on(both, "high_table")) == (1, set())
+
+
+@pytest.mark.parametrize("words", ["Clear all the tables", "Clear the kitchen"])
+def test_of_a_room_or_of_all_tables_it_is_not_asked(words: str) -> None:
+    assert len(run(words, answers=["on the desk"] * 9).outcome.visited) > 1
+
+
 def test_which_is_the_largest_is_not_said_of_things_that_look_alike() -> None:
     alike = run("What is the largest object on the dining table?")
     assert alike.outcome.status == NOT_DONE
     assert alike.outcome.reason.endswith("I cannot tell by looking which is the largest")
+
+
+def test_of_what_was_not_done_each_is_named_with_its_reason() -> None:
+    def misses(goal: Goal) -> str | None:
+        held = isinstance(goal, Pick) and goal.detection.label == "apple"
+        return "my hand slipped" if held else None
+
+    def no_room(goal: Goal) -> str | None:
+        return "there is no room" if isinstance(goal, PutDown) and goal.place == "desk" else None
+
+    one = run("Put all the fruit from the dining table on the sofa", fault=misses)
+    assert one.outcome.reason == (
+        "I put two of three on the sofa: the banana and the strawberry; "
+        "not the apple: my hand slipped."
+    )
+    none = run("Clear the coffee table to the desk", fault=no_room, answers=["I don't know"] * 2)
+    assert none.outcome.reason == (
+        "I cleared away none of two on the desk; "
+        "not the mug: I could not put it on the desk: there is no room, and you could not tell me; "
+        "not the pudding box: I could not put it on the desk: there is no room, "
+        "and you could not tell me; "
+        "I still hold the pudding box."
+    )
+
+
+def test_what_had_no_room_on_the_delivery_table_is_told_with_where_it_is() -> None:
+    left = iter([None])
+
+    def full(goal: Goal) -> str | None:
+        at_the_person = isinstance(goal, PutDown) and goal.place == "delivery"
+        return next(left, "there is no room") if at_the_person else None
+
+    two = run("Bring the two fruits from the high table", fault=full)
+    assert two.outcome.reason == (
+        "I brought both: the peach on the delivery table and the pear on the coffee table."
+    )
+
+
+@pytest.mark.parametrize("words", ["Bring all the fruit from the kitchen", "Clear the kitchen"])
+def test_it_is_not_all_if_not_all_was_seen(words: str) -> None:
+    def blocked(goal: Goal) -> str | None:
+        return "the way is blocked" if goal == DriveTo("high_table") else None
+
+    some = run(words, fault=blocked)
+    assert some.outcome.status == NOT_DONE
+    assert "; I could not get to the high table: the way is blocked" in some.outcome.reason
 
 
 def test_where_all_of_them_are_to_go_is_asked_once_and_before_anything_is_done() -> None:
@@ -148,7 +212,9 @@ def test_where_all_of_them_are_to_go_is_asked_once_and_before_anything_is_done()
 def test_furniture_is_cleared_of_all_that_is_seen_on_it() -> None:
     table = run("Clear the coffee table")
     assert (table.outcome.status, on(table, "coffee_table")) == (DONE, set())
-    assert table.outcome.reason == "I cleared away both: the mug and the pudding box."
+    assert table.outcome.reason == (
+        "I cleared away both: the mug and the pudding box on the dining table."
+    )
     assert truly_done(table)
 
 

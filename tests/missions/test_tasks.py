@@ -13,7 +13,7 @@ from executive.language.grammar import EnglishInterpreter
 from executive.replay.replaying import replay
 from executive.situation import Agenda, Situation
 from executive.testing.bench import Run, run_mission
-from executive.types import Command, CommandKind, DriveTo, Goal, MissionStatus
+from executive.types import Command, CommandKind, DriveTo, Goal, LookAt, MissionStatus
 from kb.facts import FactStore
 from logs.questions.why import why
 from logs.recording.reader import Run as Recorded
@@ -79,7 +79,7 @@ def test_the_robot_comes_back_to_apologise_only_when_there_is_nothing_else_to_do
 
 def test_after_a_stop_what_was_not_begun_is_told_of_too() -> None:
     def stop(goal: Goal, inbox: Inbox) -> None:
-        if goal == DriveTo("person"):
+        if isinstance(goal, LookAt):
             inbox.post(StopRequested("the person"))
 
     run = run_mission("Find the mug. Then bring the apple.", llm=False, during=stop)

@@ -1,4 +1,7 @@
-"""What questions that are answered by looking have in common: look, come back, answer."""
+"""What questions that are answered by looking have in common: look, come back, answer.
+
+If there is more to do, the answer is told on the way.
+"""
 
 from abc import abstractmethod
 from collections.abc import Callable, Iterable
@@ -10,7 +13,7 @@ from executive.situation import Situation
 from executive.types import PERSON, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
-from trees.nodes import Step, sequence
+from trees.nodes import Check, Step, fallback, sequence
 from trees.robot import DriveBack
 from trees.survey import survey
 from trees.telling import tell
@@ -25,7 +28,11 @@ class Answer(Deed):
             str(self.kind),
             asked_to(context, self.kind),
             survey(context, lambda: self.is_enough(context.situation)),
-            DriveBack("come back", context, PERSON),
+            fallback(
+                "to the person",
+                Check("there is more to do", context, lambda: context.situation.agenda.goes_on),
+                DriveBack("come back", context, PERSON),
+            ),
             Tell("answer", context, self.answer),
             Conclude("done", context),
         )

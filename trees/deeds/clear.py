@@ -6,11 +6,14 @@ from dataclasses import replace
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import CommandKind, Outcome, TaskOutcome
+from executive.language.answers import picked
+from executive.language.phrases import is_plural
+from executive.types import CommandKind, Outcome, Question, QuestionKind, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
-from trees.nodes import Step, fallback, sequence
-from trees.places import destination_of_all
+from trees.nodes import Check, Step, fallback, sequence
+from trees.person import Ask, places_in
+from trees.places import destination_of_all, may_be_several
 from trees.survey import not_seen, nothing_there, survey
 from trees.telling import tell
 
@@ -26,6 +29,11 @@ class Clear(Deed):
         yield sequence(
             "clear",
             asked_to(context, self.kind),
+            fallback(
+                "which place",
+                Check("it is clear which", context, lambda: not which_to_clear(context)),
+                AskWhichToClear("ask which", context),
+            ),
             destination_of_all(context),
             survey(context),
             fallback(
@@ -40,6 +48,46 @@ class Clear(Deed):
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """What was on it is somewhere else: the truth of its parts says so."""
         return True
+
+
+def which_to_clear(context: MissionContext) -> tuple[str, ...]:
+    """The places that the words may mean, if one is meant and they leave open which."""
+    command = context.situation.request.command
+    assert command
+    one = not is_plural(command.source) and may_be_several(context, command.source)
+    return places_in(context, command.source) if one else ()
+
+
+class AskWhichToClear(Ask):
+    """Asks which of several places of that name is meant.
+
+    Reads and writes request.command.
+    """
+
+    def question(self) -> Question:
+        """Offer them."""
+        options, said = which_to_clear(self.context), self._said()
+        text = f"Which {said} do you mean: {self.context.say.any_of(options)}?"
+        return Question(QuestionKind.WHERE_TO_GO, "", text, options)
+
+    def understood(self, answer: str) -> bool:
+        """Any of those that were offered."""
+        options, request = which_to_clear(self.context), self.situation.request
+        chosen = picked(self.context.interpreter.read(answer), options)
+        chosen = chosen or tuple(p for p in places_in(self.context, answer) if p in options)
+        assert request.command
+        if chosen:
+            request.command = replace(request.command, source=" or ".join(chosen))
+        return bool(chosen)
+
+    def unresolved(self) -> str:
+        """It is not known which."""
+        options = which_to_clear(self.context)
+        return f"'{self._said()}' may be {self.context.say.any_of(options)}"
+
+    def _said(self) -> str:
+        assert self.situation.request.command
+        return self.context.as_said(self.situation.request.command.source)
 
 
 class PutEachAway(Step):
@@ -61,7 +109,7 @@ class PutEachAway(Step):
             goal = command.goal or " or ".join(elsewhere)
             part = replace(command, kind=CommandKind.PUT, target=name, source=here, goal=goal)
             parts.append(replace(part, exceptions=(), purpose=""))
-        self.situation.agenda.split(command, parts, len(parts))
+        self.situation.agenda.split(command, parts, len(parts), not_seen(self.context))
         return self.succeed(", ".join(found))
 
 

@@ -7,7 +7,7 @@ from py_trees.behaviour import Behaviour
 from executive.types import HAND, PERSON, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
-from trees.nodes import sequence
+from trees.nodes import Check, sequence
 from trees.person import Report
 from trees.robot import DriveBack
 
@@ -19,7 +19,15 @@ class Find(Deed):
     did = "found"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Come back with the news."""
+        """Come back with the news, unless there is more to do: then it is told on the way."""
+        agenda = context.situation.agenda
+        yield sequence(
+            "find on the way",
+            asked_to(context, self.kind),
+            found_at_a_place(context),
+            Check("there is more to do", context, lambda: agenda.goes_on),
+            Report("report", context, "{The_object} {is_} {at}."),
+        )
         yield sequence(
             "find",
             asked_to(context, self.kind),

@@ -1,0 +1,69 @@
+"""What is told of a task that was done in parts: of how many, of which, and why of no more."""
+
+from collections.abc import Iterable, Iterator
+
+from executive.language.wording import listed
+from executive.situation import Whole
+from executive.types import DELIVERY, CommandKind, MissionStatus, TaskOutcome
+from trees.context import MissionContext
+from trees.deeds import deed_of
+from trees.survey import found_where
+from trees.telling import to_where
+
+NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+
+
+def how_many(context: MissionContext, whole: Whole, wanted: int) -> str:
+    """A sentence: "I brought one of two: the apple; not the pear: I did not find it"."""
+    command, done = whole.command, whole.done
+    count = f"{number(len(done))} of {number(wanted)}"
+    if len(done) == wanted:
+        count = {1: "one", 2: "both"}.get(wanted, f"all {number(wanted)}")
+        count = number(wanted) if whole.unseen else count
+    did = " ".join(filter(None, (deed_of(command.kind).did, count, to_where(context, command))))
+    which = named(context, whole)
+    why = why_not_all(context, whole) if len(done) < wanted else ()
+    clauses = (f"I {did}" + f": {which}" * bool(which), *why, whole.unseen)
+    return "; ".join(filter(None, clauses)) + "."
+
+
+def named(context: MissionContext, whole: Whole) -> str:
+    """The things that it was done to, and where each is now if that is not known from the words."""
+    at = {part.object or part.target: part.put_at or part.location for part in whole.done}
+    known = len(set(at.values())) == 1 and (whole.command.goal or DELIVERY in at.values())
+    places = {name: place for name, place in at.items() if place}
+    if known or len(places) < len(at) or whole.command.kind == CommandKind.TAKE:
+        return listed([context.say.the(name) for name in at])
+    return found_where(places, context.say)
+
+
+def why_not_all(context: MissionContext, whole: Whole) -> Iterator[str]:
+    """Why it was not done to others, those together for which the reason is the same."""
+    reasons: dict[str, list[str]] = {}
+    for part in whole.parts:
+        if part.status != MissionStatus.DONE:
+            name = context.say.the(part.object or part.target)
+            reasons.setdefault(reason_now(context, part), []).append(name)
+    for reason, names in reasons.items():
+        yield f"not {listed(names)}: {reason}"
+    if not reasons:
+        one_hand = whole.command.kind == CommandKind.TAKE
+        yield "I can hold one thing at a time" if one_hand else "I know of no more"
+
+
+def reason_now(context: MissionContext, part: TaskOutcome) -> str:
+    """Why a part was not done; what the hand held then, it may have put away since."""
+    reason = part.reason.rstrip(".")
+    if part.object and part.object != context.situation.hand.in_hand:
+        return reason.removesuffix(f"; I still hold {context.say.the(part.object)}")
+    return reason
+
+
+def sentences(parts: Iterable[TaskOutcome]) -> str:
+    """Why none of several was done of which one would have been enough."""
+    return "; ".join(dict.fromkeys(part.reason.rstrip(".") for part in parts))
+
+
+def number(count: int) -> str:
+    """A small number in letters."""
+    return NUMBERS[count] if count < len(NUMBERS) else str(count)
