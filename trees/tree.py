@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import BlackBoxLevel, Status
-from py_trees.composites import Selector, Sequence
+from py_trees.composites import Parallel, Selector, Sequence
 from py_trees.decorators import Decorator
 
 from executive.records import NodeShape, NodeState, TreeShape
@@ -102,7 +102,7 @@ def _walk(node: Behaviour, path: str) -> Iterator[tuple[str, Behaviour]]:
 
 
 def _kind(node: Behaviour) -> str:
-    for kind in (Sequence, Selector, Decorator):
+    for kind in (Sequence, Selector, Parallel, Decorator):
         if isinstance(node, kind):
             return kind.__name__.lower()
     return "behaviour"
