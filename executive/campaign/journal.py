@@ -78,6 +78,8 @@ class Row:
     llm_s: float = 0.0
     """Wall time inside the language model."""
     thinking_time_s: float = 0.0
+    thought_moving_s: float = 0.0
+    """How much of it the robot used for something else, too."""
     """Mission time from asking the model for places until it has answered."""
     driving_s: float = 0.0
     looking_s: float = 0.0

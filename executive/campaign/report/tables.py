@@ -39,7 +39,7 @@ COST: Mapping[str, Callable[[Sequence[Row]], float]] = {
 }
 
 ACTIVITIES: Mapping[str, Column] = {
-    "thinking": lambda row: row.thinking_time_s,
+    "thinking": lambda row: _only_thinking_s(row),
     "driving": lambda row: row.driving_s,
     "looking": lambda row: row.looking_s,
     "handling": lambda row: row.handling_s,
@@ -48,8 +48,12 @@ ACTIVITIES: Mapping[str, Column] = {
 """What a mission's time (s) goes into."""
 
 
+def _only_thinking_s(row: Row) -> float:
+    return row.thinking_time_s - row.thought_moving_s
+
+
 def _known_s(row: Row) -> tuple[float, ...]:
-    return row.thinking_time_s, row.driving_s, row.looking_s, row.handling_s
+    return _only_thinking_s(row), row.driving_s, row.looking_s, row.handling_s
 
 
 def overview(found: Sequence[Variant]) -> Table:
