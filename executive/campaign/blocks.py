@@ -205,6 +205,7 @@ def _row(
     parts = session.parts
     known = parts.knowledge.place_names.exactly
     invented = [n for n in observed.names if not (known(n).furniture or known(n).rooms)]
+    sure, sure_of_it = observed.believed(parts.home.placement.get(outcome.object or ""))
     leg_m = routes.length if session.embodiment.jumps else dist
     return Row(
         **_of_key(key),
@@ -235,6 +236,8 @@ def _row(
         wall_time_s=outcome.wall_time_s,
         search_s=round(observed.searching_s, 3),
         cost_s=round(observed.searching_s + question_s * outcome.inquiries, 3),
+        sure=sure,
+        sure_of_it=sure_of_it,
         path_m=round(observed.path_m(leg_m), 3),
         shortest_m=round(shortest_m(outcome, parts.home, routes), 3),
         model=parts.model.name if parts.model else "",
