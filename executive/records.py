@@ -51,7 +51,7 @@ class NodeShape:
     """Path of the parent; empty for the root."""
     name: str
     kind: str
-    """`sequence`, `selector`, `decorator` or `behaviour`."""
+    """`sequence`, `selector`, `parallel`, `decorator` or `behaviour`."""
     class_name: str
     source: str = ""
     """Who says what it settles: `person` (in the command), a `Source`, or a source of one's own;

@@ -32,6 +32,6 @@ class Attend(Step):
             return "I think about what you said."
         assert self.parent
         nodes = (node for node in self.parent.iterate() if isinstance(node, Action))
-        now = next((node.doing() for node in nodes if node.is_under_way), "")
+        now = " and ".join(filter(None, (node.doing() for node in nodes if node.is_under_way)))
         what = in_one_sentence(self.context, command)
         return f"I {now}, to {what}." if now else f"I am about to {what}."

@@ -7,9 +7,17 @@ from py_trees.behaviour import Behaviour
 
 from executive.records import Activity
 from trees.context import MissionContext
-from trees.hearing import consult, what_is_known
-from trees.nodes import Check, FirstOf, fallback, sequence
-from trees.planning import AskWhereItIs, PlanNext, TellWhere, Ways
+from trees.hearing import consult, wants_advice, what_is_known
+from trees.nodes import Check, FirstOf, as_long_as, beside, fallback, sequence
+from trees.planning import (
+    AskWhereItIs,
+    DriveAsPlanned,
+    HearOut,
+    PlanNext,
+    PlanStands,
+    TellWhere,
+    Ways,
+)
 from trees.robot import Visit
 from trees.search import GiveUpSearch, look_over, look_where_the_words_say, search_by_stages
 
@@ -24,32 +32,41 @@ def search(context: MissionContext) -> Behaviour:
 def search_by_plan(context: MissionContext) -> Behaviour:
     """All sources are heard, then the robot looks or asks, whichever costs less, until it sees."""
     situation = context.situation
-
-    def steps() -> Iterator[int]:
-        return takewhile(lambda _: not situation.search.whereabouts.is_over, count(1))
-
     return fallback(
         "search",
         Check("in my hand", context, lambda: situation.hand.in_hand == situation.request.object),
         look_where_the_words_say(context),
-        sequence(
-            "look where it may be",
-            what_is_known(context),
-            FirstOf("until it is seen", steps, lambda _: None, next_step(context)),
-        ),
+        sequence("look where it may be", what_is_known(context), until_it_is_seen(context)),
         GiveUpSearch("not found", context),
     )
 
 
-def next_step(context: MissionContext) -> Behaviour:
-    """One look, at what is best to look at next; before it a question, if that is better."""
+def until_it_is_seen(context: MissionContext) -> Behaviour:
+    """Step by step; while the language model thinks about where it may be, the search goes on."""
     search, ways = context.situation.search, Ways(context)
+
+    def steps() -> Iterator[int]:
+        return takewhile(lambda _: not search.whereabouts.is_over, count(1))
+
+    def steps_without_advice() -> Iterator[int]:
+        return takewhile(lambda _: not wants_advice(context), steps())
+
+    if context.model is None:
+        return FirstOf("until it is seen", steps, lambda _: None, next_step(context, ways))
+    look_on = FirstOf("look on", steps_without_advice, lambda _: None, next_step(context, ways))
+    think_too = beside("think while moving", consult(context), look_on)
+    return FirstOf("until it is seen", steps, lambda _: None, think_too)
+
+
+def next_step(context: MissionContext, ways: Ways) -> Behaviour:
+    """One look, at what is best to look at next; before it a question, if that is better."""
+    search = context.situation.search
     return sequence(
         "next step",
-        *consult(context),
         fallback(
             "look or ask",
             PlanNext("plan", context, ways),
+            *hear_the_model_out(context, ways),
             sequence(
                 "ask first",
                 Check("asking is better", context, lambda: not search.whereabouts.is_over),
@@ -65,8 +82,40 @@ def next_step(context: MissionContext) -> Behaviour:
         TellWhere("announce", context),
         sequence(
             "go and look",
-            Visit("drive", context),
+            go_there(context, ways),
             look_over(context),
             activity=Activity.SEARCHING,
         ),
+    )
+
+
+def hear_the_model_out(context: MissionContext, ways: Ways) -> tuple[Behaviour, ...]:
+    """While the language model thinks, nobody is asked who might not have to be."""
+    search = context.situation.search
+
+    def may_help() -> bool:
+        plan = search.whereabouts.plan
+        return search.whereabouts.thinks and plan is not None and plan.looking is not None
+
+    if context.model is None:
+        return ()
+    return (
+        sequence(
+            "hear the model out",
+            Check("it is thinking", context, may_help),
+            HearOut("wait for it", context),
+            PlanNext("plan with that", context, ways),
+        ),
+    )
+
+
+def go_there(context: MissionContext, ways: Ways) -> Behaviour:
+    """Drive to the place that is next, unless what is heard on the way makes another one better."""
+    if context.model is None:
+        return Visit("drive", context)
+    return as_long_as(
+        "as planned",
+        PlanStands("the plan stands", context, ways),
+        TellWhere("tell", context),
+        DriveAsPlanned("drive", context),
     )

@@ -7,7 +7,7 @@ from uuid import UUID
 from xml.sax.saxutils import escape
 
 from py_trees.behaviour import Behaviour
-from py_trees.composites import Selector, Sequence
+from py_trees.composites import Parallel, Selector, Sequence
 from py_trees.decorators import FailureIsSuccess
 
 from trees.model import ModelAction
@@ -23,6 +23,7 @@ LETTER, PADDING = 6.7, 9.0
 SIGNS: tuple[tuple[type, str, str], ...] = (
     (Sequence, "→", "all in order"),
     (Selector, "?", "the first that succeeds"),
+    (Parallel, "⇉", "all at once"),
     (FirstOf, "∃", "loop, until one succeeds"),
     (EachOf, "∀", "loop over all"),
     (FailureIsSuccess, "✓", "failure is success"),

@@ -40,20 +40,19 @@ def what_is_known(context: MissionContext) -> Behaviour:
     )
 
 
-def consult(context: MissionContext) -> tuple[Behaviour, ...]:
-    """The language model is asked, once a search, when nobody else knows enough; if there is one.
+def consult(context: MissionContext) -> Behaviour:
+    """The language model is asked, once a search, when nobody else knows enough.
 
-    Whatever comes of it, the search goes on.
+    It always succeeds in the end: whatever comes of it, the search goes on.
     """
-    if context.model is None:
-        return ()
     asked = (
         (RankAll("llm ranks places", context),)
         if context.parameters.elicit == "rank"
         else (generate_places(context), HearList("take in the list", context))
     )
     search = context.situation.search
-    return (
+    return sequence(
+        "think",
         Optionally(
             "if it helps",
             context.situation,
@@ -65,7 +64,13 @@ def consult(context: MissionContext) -> tuple[Behaviour, ...]:
                 *asked,
             ),
         ),
+        HasThought("thought", context),
     )
+
+
+def wants_advice(context: MissionContext) -> bool:
+    """Whether it is time to ask the language model."""
+    return not context.situation.search.whereabouts.consulted and not is_clear(context)
 
 
 def believed(context: MissionContext) -> Belief:
@@ -164,11 +169,21 @@ class HearOntology(Step):
 
 
 class Consulted(Step):
-    """Notes that the language model was asked."""
+    """Notes that the language model is asked."""
 
     def update(self) -> Status:
         """Once a search is enough."""
         self.situation.search.whereabouts.consulted = True
+        self.situation.search.whereabouts.thinks = True
+        return Status.SUCCESS
+
+
+class HasThought(Step):
+    """Notes that the language model thinks no more, whatever came of it."""
+
+    def update(self) -> Status:
+        """Nothing is to come any more."""
+        self.situation.search.whereabouts.thinks = False
         return Status.SUCCESS
 
 

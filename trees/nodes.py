@@ -10,8 +10,8 @@ from typing import Any
 
 from py_trees import composites
 from py_trees.behaviour import Behaviour
-from py_trees.common import BlackBoxLevel, Status
-from py_trees.composites import Sequence
+from py_trees.common import BlackBoxLevel, ParallelPolicy, Status
+from py_trees.composites import Parallel, Sequence
 from py_trees.decorators import Decorator, FailureIsSuccess
 
 from executive.situation import Situation
@@ -52,6 +52,17 @@ def stages(name: str, *children: Behaviour) -> Sequence:
     for child in children:
         child.blackbox_level = BlackBoxLevel.BIG_PICTURE
     return sequence(name, *children)
+
+
+def as_long_as(name: str, *children: Behaviour) -> Sequence:
+    """A sequence that begins anew at each tick: the last child goes on while those before hold."""
+    return Sequence(name, memory=False, children=list(children))
+
+
+def beside(name: str, aside: Behaviour, main: Behaviour) -> Parallel:
+    """Both at once: it ends as `main` does, whatever becomes of `aside`, which never fails."""
+    policy = ParallelPolicy.SuccessOnSelected([main], synchronise=True)
+    return Parallel(name, policy, children=[aside, main])
 
 
 def fallback(name: str, *children: Behaviour) -> Selector:

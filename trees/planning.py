@@ -1,6 +1,7 @@
 """Look on, or ask? Where to look next: the plan that costs least, made anew at every step."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import takewhile
 from math import inf, isfinite
 
@@ -9,11 +10,13 @@ from py_trees.common import Status
 from executive.belief import ANYWHERE, PLAN, Belief, Likely, Statement, in_order
 from executive.plan import Chance, Plan, Prices, best_plan
 from executive.records import Planned, WaysTold
+from executive.situation import Leg
 from executive.types import Candidate, Source
 from trees.context import MissionContext
 from trees.hearing import PERSON_TRUST, believed
 from trees.nodes import Step
 from trees.person import AskWhere, who_says
+from trees.robot import Visit
 from trees.telling import tell
 
 MOST_PLANNED = 60
@@ -51,11 +54,27 @@ class Ways:
             self._context.recorder.record(WaysTold(start, new, ways))
         return [told[place] for place in wanted]
 
+    def seconds_from_halfway(self, leg: Leg, places: Sequence[str]) -> list[float]:
+        """The same from between two places: on to where it leads and further, or back."""
+        driven = self._context.clock.now() - leg.since_s if leg.driven_s is None else leg.driven_s
+        whole, there = self.seconds(leg.start, (leg.place,))[0], self.seconds(leg.place, places)
+        left = max(0.0, whole - self._look_s(leg.place) - driven)
+        back = (driven + seconds for seconds in self.seconds(leg.start, places))
+        on = (
+            left + (self._look_s(place) if place == leg.place else seconds)
+            for place, seconds in zip(places, there, strict=True)
+        )
+        return list(map(min, back, on))
+
+    def _look_s(self, place: str) -> float:
+        return self._context.parameters.look_s * self._context.robot.views(place)
+
 
 class PlanNext(Step):
     """Plans; succeeds if the next thing to do is a look, and chooses the place for it.
 
-    Writes search.whereabouts, search.candidates and search.candidate.
+    What was planned on the way is taken up as it is. Writes search.whereabouts, search.candidates
+    and search.candidate.
     """
 
     source = PLAN
@@ -68,8 +87,25 @@ class PlanNext(Step):
     def update(self) -> Status:
         """Decide by what is known now."""
         whereabouts = self.situation.search.whereabouts
-        whereabouts.belief = belief = believed(self.context)
-        whereabouts.plan = plan = self._plan(belief)
+        if not whereabouts.is_fresh:
+            self.plan()
+        whereabouts.is_fresh = whereabouts.is_told = False
+        return self.take_up()
+
+    def plan(self) -> Plan:
+        """Make the plan that is best by what is known now."""
+        whereabouts = self.situation.search.whereabouts
+        whereabouts.belief = believed(self.context)
+        whereabouts.plan = plan = self._plan(whereabouts.belief)
+        whereabouts.news = False
+        return plan
+
+    def take_up(self) -> Status:
+        """Go by the plan, and say why."""
+        search = self.situation.search
+        whereabouts = search.whereabouts
+        belief, plan = whereabouts.belief, whereabouts.plan
+        assert plan
         whereabouts.is_over = plan.is_over
         said = decision(plan, belief)
         self.context.recorder.record(planned(self.situation.request.object or "", plan, belief))
@@ -77,7 +113,6 @@ class PlanNext(Step):
             return self.fail(said)
         first, *others = (belief.of(place) for place in plan.order)
         likely = [first, *(other for other in others if other.probability >= WORTH_TELLING)]
-        search = self.situation.search
         search.candidates = tuple(Candidate(o.place, o.source, o.probability) for o in likely)
         search.candidate = search.candidates[0]
         whereabouts.named.discard(search.candidate.place)
@@ -92,11 +127,60 @@ class PlanNext(Step):
         helps = not (self.situation.dialogue.no_help or whereabouts.answered)
         return best_plan(
             [Chance(one.place, one.probability) for one in likely],
-            self._ways.seconds(self.situation.dialogue.at, places),
+            self._from_here(places),
             [self._ways.seconds(place, places) for place in places],
             Prices(parameters.question_s if helps else inf, parameters.visit_s),
             elsewhere=max(0.0, 1 - sum(one.probability for one in likely)),
         )
+
+    def _from_here(self, places: Sequence[str]) -> list[float]:
+        leg = self.situation.search.whereabouts.leg
+        if leg is None:
+            return self._ways.seconds(self.situation.dialogue.at, places)
+        return self._ways.seconds_from_halfway(leg, places)
+
+
+class PlanStands(PlanNext):
+    """Fails if there is news, and by that another place is better, or to ask."""
+
+    def update(self) -> Status:
+        """Plan anew, if somebody has said something since."""
+        search = self.situation.search
+        if not search.whereabouts.news:
+            return self.succeed()
+        assert search.candidate
+        plan = self.plan()
+        if plan.order[:1] == (search.candidate.place,) and not plan.asks:
+            return self.take_up()
+        search.whereabouts.is_fresh = True
+        return self.fail(
+            f"not on to {search.candidate.place}: {decision(plan, search.whereabouts.belief)}"
+        )
+
+
+class DriveAsPlanned(Visit):
+    """Goes to a place, and keeps where it is meanwhile.
+
+    Reads search.candidate and search.looks; writes search.looks and search.whereabouts.
+    """
+
+    def start(self) -> int:
+        """Set out; from between two places it is not known how far it is."""
+        search = self.situation.search
+        assert search.candidate
+        start, now = self.situation.dialogue.at, self.context.clock.now()
+        broken_off = search.whereabouts.leg is not None
+        search.whereabouts.leg = None if broken_off else Leg(start, search.candidate.place, now)
+        return super().start()
+
+    def terminate(self, new_status: Status) -> None:
+        """Be there; or, if it was broken off, where it has come to."""
+        whereabouts, now = self.situation.search.whereabouts, self.context.clock.now()
+        if whereabouts.leg and new_status == Status.INVALID:
+            whereabouts.leg = replace(whereabouts.leg, driven_s=now - whereabouts.leg.since_s)
+        else:
+            whereabouts.leg = None
+        super().terminate(new_status)
 
 
 def decision(plan: Plan, belief: Belief) -> str:
@@ -140,6 +224,18 @@ def planned(thing: str, plan: Plan, belief: Belief) -> Planned:
     )
 
 
+class HearOut(Step):
+    """Waits for what the language model has to say.
+
+    It is RUNNING though it has started nothing: the model, which is at it, will wake the tree.
+    """
+
+    def update(self) -> Status:
+        """Wait as long as it thinks."""
+        thinks = self.situation.search.whereabouts.thinks
+        return Status.RUNNING if thinks else Status.SUCCESS
+
+
 class AskWhereItIs(AskWhere):
     """Asks where the thing is, and believes the answer.
 
@@ -164,24 +260,35 @@ class AskWhereItIs(AskWhere):
 class TellWhere(Step):
     """Tells where the robot is going to look, and who says so, unless that was told before.
 
-    Reads search.candidates; writes search.whereabouts.
+    Of a ranking nobody has to wait long: it tells when that is there. Reads search.candidates;
+    writes search.whereabouts.
     """
 
     def update(self) -> Status:
-        """Say it."""
+        """Say it, once."""
         whereabouts = self.situation.search.whereabouts
         first, *_ = candidates = self.situation.search.candidates
+        ranks = self.context.parameters.elicit == "rank"
+        if whereabouts.is_told or (whereabouts.thinks and ranks):
+            return self.succeed(first.place)
+        whereabouts.is_told = True
         if whereabouts.announced[:1] != (first.place,):
             alike = takewhile(lambda candidate: candidate.source == first.source, candidates)
             whereabouts.announced = tuple(c.place for c in alike)[:MOST_TOLD]
+            if whereabouts.thinks:
+                whereabouts.announced = whereabouts.announced[:1]
             self._tell(whereabouts.announced, first.source)
         whereabouts.announced = whereabouts.announced[1:]
         return self.succeed(first.place)
 
     def _tell(self, places: tuple[str, ...], source: str) -> None:
         name, say = self.situation.request.object or "", self.context.say
+        the, where = say.the(name), ", then ".join(say.at_each(places))
+        if self.situation.search.whereabouts.thinks:
+            may_be = f"where {say.agree(name, 'it', 'they')} may be"
+            tell(self.context, f"I look for {the} {where}, and think about {may_be} meanwhile.")
+            return
         usually = self.situation.search.default_locations
         others = {ANYWHERE: NOBODY_SAYS} | ({Source.ONTOLOGY: USUALLY} if usually else {})
         why = who_says(self.context, source, **others)
-        where = ", then ".join(say.at_each(places))
-        tell(self.context, f"I look for {say.the(name)} {where}: {why}.")
+        tell(self.context, f"I look for {the} {where}: {why}.")

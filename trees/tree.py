@@ -4,7 +4,7 @@ from functools import cache
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import BlackBoxLevel, Status
-from py_trees.composites import Selector, Sequence
+from py_trees.composites import Parallel, Selector, Sequence
 from py_trees.decorators import Decorator
 
 from executive.records import NodeShape, NodeState, TreeShape
@@ -121,7 +121,7 @@ class MissionTree:
 
 @cache
 def _kind(of: type[Behaviour]) -> str:
-    for kind in (Sequence, Selector, Decorator):
+    for kind in (Sequence, Selector, Parallel, Decorator):
         if issubclass(of, kind):
             return kind.__name__.lower()
     return "behaviour"

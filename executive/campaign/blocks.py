@@ -23,6 +23,7 @@ from executive.campaign.journal import CRASHED, Entry, Key, Row
 from executive.campaign.observer import Observed
 from executive.campaign.policies import policy_named
 from executive.campaign.routes import routes_in
+from executive.campaign.timeless import Timeless
 from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
@@ -45,7 +46,10 @@ class Block:
     recorded: bool = False
     """Whether each mission leaves a folder in `settings.runs`."""
     draws: bool = False
-    """Whether the thing that is asked for is at a place that the seed draws from the survey."""
+    """Whether the thing that is asked for is at a place that the seed draws from the survey.
+
+    The model's thinking takes no mission time then: things and homes are many, and so the figures
+    are those of any machine."""
 
     @property
     def keys(self) -> tuple[Key, ...]:
@@ -103,7 +107,8 @@ class _Rest:
         self._policy_name = block.policy
         self._policy = policy_named(block.policy)
         self._inbox = Inbox()
-        self._model = model_for_missions(self._settings, self._inbox)
+        opened = timeless if block.draws else model_for_missions
+        self._model = opened(self._settings, self._inbox)
         self._dialogue: list[tuple[str, str]] = []
 
     def recall(self, entry: Entry) -> None:
@@ -159,6 +164,17 @@ class _Rest:
             self._model.close()
 
 
+def timeless(settings: Settings, inbox: Inbox) -> Timeless | None:
+    """The model of missions, if they have one, so that its thinking takes no mission time.
+
+    Raises:
+        ExecutiveError: as `model_for_missions`.
+    """
+    within = Inbox()
+    model = model_for_missions(settings, within)
+    return Timeless(model, within, inbox) if model else None
+
+
 def truth_of(session: Session) -> SimulatedHome:
     """The world that knows what truly came of a mission.
 
@@ -189,6 +205,7 @@ def _row(
     parts = session.parts
     known = parts.knowledge.place_names.exactly
     invented = [n for n in observed.names if not (known(n).furniture or known(n).rooms)]
+    sure, sure_of_it = observed.believed(parts.home.placement.get(outcome.object or ""))
     leg_m = routes.length if session.embodiment.jumps else dist
     return Row(
         **_of_key(key),
@@ -211,6 +228,7 @@ def _row(
         generated_tokens=sum(u.output_tokens for u in usage),
         llm_s=round(sum(u.total_s for u in usage), 3),
         thinking_time_s=outcome.thinking_time_s,
+        thought_moving_s=_beside_s(outcome, observed),
         driving_s=round(observed.seconds["driving"], 3),
         looking_s=round(observed.seconds["looking"], 3),
         handling_s=round(observed.seconds["handling"], 3),
@@ -218,12 +236,19 @@ def _row(
         wall_time_s=outcome.wall_time_s,
         search_s=round(observed.searching_s, 3),
         cost_s=round(observed.searching_s + question_s * outcome.inquiries, 3),
+        sure=sure,
+        sure_of_it=sure_of_it,
         path_m=round(observed.path_m(leg_m), 3),
         shortest_m=round(shortest_m(outcome, parts.home, routes), 3),
         model=parts.model.name if parts.model else "",
         run_dir=outcome.run_dir or "",
         model_failure=outcome.model_failure if key.llm != "none" else "",
     )
+
+
+def _beside_s(outcome: Outcome, observed: Observed) -> float:
+    """How long the robot did something else while it thought (s)."""
+    return round(max(0.0, outcome.thinking_time_s - observed.seconds["thinking"]), 3)
 
 
 def crash(turn: int, key: Key, error: Exception, run_dir: str = "") -> Row:

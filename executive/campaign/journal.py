@@ -78,6 +78,8 @@ class Row:
     llm_s: float = 0.0
     """Wall time inside the language model."""
     thinking_time_s: float = 0.0
+    thought_moving_s: float = 0.0
+    """How much of it the robot used for something else, too."""
     """Mission time from asking the model for places until it has answered."""
     driving_s: float = 0.0
     looking_s: float = 0.0
@@ -88,6 +90,10 @@ class Row:
     """Of going to places and looking there, until the thing was seen, or again after a miss."""
     cost_s: float = 0.0
     """The same, and for each question what it costs by the settings."""
+    sure: float = 0.0
+    """Before the first look: how likely the likeliest place was thought to be; 0: no plan."""
+    sure_of_it: float = 0.0
+    """The same of the place where the thing truly was."""
     path_m: float = 0.0
     """How far the robot drove."""
     shortest_m: float = 0.0

@@ -5,7 +5,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from executive.records import Activity, LlmCall, Record, Tick, Transforms, TreeShape, Verified
+from executive.records import (
+    Activity,
+    LlmCall,
+    Planned,
+    Record,
+    Tick,
+    Transforms,
+    TreeShape,
+    Verified,
+)
 from executive.types import Replied, Scored
 from logs.recorder import Stamp
 from sim.navigation.grid import Point
@@ -25,11 +34,14 @@ class Observed:
     """Mission time by activity, as the behaviours declare it."""
     searching_s: float = 0.0
     """Mission time of going to places and looking there, by what the behaviours declare."""
+    planned: Planned | None = None
+    """The last plan before the first look: by all that was believed then."""
     positions: list[Point] = field(default_factory=list)
     """Where the robot's base was, in `map` (metres)."""
     _activities: dict[str, str] = field(default_factory=dict)
     _doing: str = ""
     _searches: bool = False
+    _has_looked: bool = False
     _since_s: float = 0.0
 
     def write(self, stamp: Stamp, record: Record) -> None:
@@ -39,11 +51,14 @@ class Observed:
                 self.calls.append(result)
             case Verified(_, accepted, rooms, dropped):
                 self.names += [*accepted, *rooms, *dropped]
+            case Planned() if not self._has_looked:
+                self.planned = record
             case TreeShape(nodes):
                 self._activities = {n.path: n.activity for n in nodes if n.activity}
             case Tick():
                 self._take_time(stamp.mission_s, record)
                 self.unreached = len(record.situation["unreached"])
+                self._has_looked |= bool(record.situation["visited"])
             case Transforms(transforms):
                 self.positions += [
                     t.pose.position[:2] for t in transforms if t.child == "base_link"
@@ -64,6 +79,17 @@ class Observed:
             for call in self.calls
             if isinstance(call, Replied) and call.request.label != "command"
         )
+
+    def believed(self, place: str | None) -> tuple[float, float]:
+        """Before the first look: how likely the likeliest place was, and how likely this one.
+
+        Nothing, if nothing was planned.
+        """
+        told = self.planned
+        if told is None or not told.places or place is None:
+            return 0.0, 0.0
+        likely = dict(zip(told.places, told.probabilities, strict=True))
+        return max(likely.values()), likely.get(place, 0.0)
 
     def path_m(self, leg_m: Callable[[Point, Point], float]) -> float:
         """How far the robot drove (metres), with the length of each leg between two positions."""

@@ -20,6 +20,7 @@ from executive.config import KnowledgeSystem
 from executive.events import Inbox
 from executive.interfaces import Advice, LanguageModel
 from executive.types import (
+    Candidate,
     ChatRequest,
     Failed,
     Message,
@@ -198,6 +199,27 @@ def ordered(parts: Parts, rule: Callable[[Parts], Order]) -> Parts:
     return replace(parts, model=model, advice=advice)
 
 
+TOO_SURE = 8.0
+"""So many times as large are the scores, before they become probabilities."""
+
+
+class TooSure(Ranker):
+    """Ranks as ever, but believes its own word far too much."""
+
+    def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
+        """The same order, and nearly all of the probability to the first."""
+        scores = tuple(TOO_SURE * score for score in scored.scores)
+        return super().ranked(replace(scored, scores=scores))
+
+
+def too_sure(parts: Parts) -> Parts:
+    """A fault put in by hand."""
+    if parts.advice is None:
+        return parts
+    ranker = TooSure(parts.knowledge, prompts=parts.prompts, facts=parts.facts)
+    return replace(parts, advice=replace(parts.advice, ranker=ranker))
+
+
 PAPER = {"search": "paper"}
 """In the paper's stages: who says where to look, is all that differs."""
 PLAN = {"search": "plan"}
@@ -328,6 +350,11 @@ POLICIES: Mapping[str, Policy] = MappingProxyType(
         "random": baseline("any order", by_chance),
         "popularity": baseline("where most other things are by the survey", popular),
         "true-first": baseline("the bound: a stand-in that knows where the thing is", true_first),
+        "too-sure": Policy(
+            "a fault put in by hand: the plan, with a ranking that is far too sure of itself",
+            {**PLAN, "elicit": "rank"},
+            too_sure,
+        ),
         "always-asks": Policy(
             "a fault put in by hand: neither default locations nor a model, so the person is asked",
             {**PAPER, "llm": "none", "defaults": False},

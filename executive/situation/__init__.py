@@ -1,6 +1,7 @@
 """What a mission knows so far, in parts: what behaviours read and write, and the log keeps."""
 
 from executive.situation.agenda import Agenda, Task, Whole
+from executive.situation.belief import Leg
 from executive.situation.ending import TAKEN_BACK, Ending
 from executive.situation.hand import Hand
 from executive.situation.search import Consultation, candidates_from
@@ -12,6 +13,7 @@ __all__ = [
     "Consultation",
     "Ending",
     "Hand",
+    "Leg",
     "Situation",
     "Task",
     "Whole",

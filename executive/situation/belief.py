@@ -32,6 +32,23 @@ def _plan(plan: Plan | None) -> dict[str, Any] | None:
     return {"order": list(plan.order), "ask_after": plan.ask_after} if plan else None
 
 
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A drive between two places that is, or was, under way.
+
+    Attributes:
+        start: where it began.
+        place: where it leads.
+        since_s: when it began (mission time).
+        driven_s: how long it went on, if it was broken off; None while it goes on.
+    """
+
+    start: str
+    place: str
+    since_s: float
+    driven_s: float | None = None
+
+
 @dataclass
 class Whereabouts:
     """One search by a belief and a plan.
@@ -43,8 +60,13 @@ class Whereabouts:
         named: places that the person, or the memory, named after they were looked at: worth
             another look.
         consulted: whether the language model was asked in this search.
+        thinks: whether it is still thinking about that.
+        news: whether somebody said something since the plan was made.
+        is_fresh: whether the plan was made on the way, and has still to be taken up.
         answered: whether the person was asked in this search, and said where.
         announced: the places that the person was told of, those that are still to come.
+        is_told: whether the person was told of the place that is next.
+        leg: the drive by which the robot is between two places; None if it is at one.
         is_over: whether nothing is left to look at, and nobody to ask.
     """
 
@@ -53,18 +75,25 @@ class Whereabouts:
     statements: tuple[Statement, ...] = field(default=(), metadata=NOT_LOGGED)
     named: set[str] = field(default_factory=set, metadata=NOT_LOGGED)
     consulted: bool = field(default=False, metadata=NOT_LOGGED)
+    thinks: bool = field(default=False, metadata=NOT_LOGGED)
+    news: bool = field(default=False, metadata=NOT_LOGGED)
+    is_fresh: bool = field(default=False, metadata=NOT_LOGGED)
     answered: bool = field(default=False, metadata=NOT_LOGGED)
     announced: tuple[str, ...] = field(default=(), metadata=NOT_LOGGED)
+    is_told: bool = field(default=False, metadata=NOT_LOGGED)
+    leg: Leg | None = field(default=None, metadata=NOT_LOGGED)
     is_over: bool = field(default=False, metadata=NOT_LOGGED)
 
     def begin(self) -> None:
         """A new search: nothing is said yet."""
         self.statements, self.named, self.announced = (), set(), ()
         self.consulted = self.answered = self.is_over = False
+        self.thinks = self.news = self.is_fresh = self.is_told = False
+        self.leg = None
 
     def hear(self, statement: Statement, *, first: bool = False) -> None:
         """Take in what a source says: after the others, or as that which counts first."""
-        others = self.statements
+        others, self.news = self.statements, True
         self.statements = (statement, *others) if first else (*others, statement)
 
     def may_look_at(self, place: str, looks: Looks) -> bool:

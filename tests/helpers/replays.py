@@ -3,6 +3,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from executive.app.parts import Change, as_they_are
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
@@ -28,6 +29,7 @@ def recorded(
     remembers: bool = True,
     fault: Callable[[Goal], str | None] = lambda goal: None,
     during: Callable[[Goal, Inbox], None] = lambda goal, inbox: None,
+    change: Change = as_they_are,
     **settings: Any,
 ) -> Path:
     """Run a mission in the instant world as the program does; return its folder."""
@@ -44,6 +46,7 @@ def recorded(
         user=None if answers is None else Scripted(inbox, answers),
         model=ScriptedModel(replies, inbox) if llm else None,
         out=io.StringIO(),
+        change=change,
     )
     assert isinstance(session.world, FakeWorld)
     session.world.fault = fault

@@ -94,6 +94,8 @@ def report(
     parts += plots.get("distributions", ())
     if any(row.search_s for row in ran):  # results of earlier days do not tell
         parts += [Heading("What the search cost"), Text(SEARCHING), tables.searching(found)]
+    if any(row.sure for row in ran):
+        parts += [Heading("Whether the belief could be trusted"), Text(TRUST), tables.trust(found)]
     parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
     if len(found) > 1:
         parts += [Heading("Policies, homes and models compared"), Text(COMPARED)]
@@ -118,6 +120,12 @@ SEARCHING = (
     "Search: the seconds of going to places and looking there. Cost: the same, and for each "
     "question to the person its price, the setting question_s. Stars: the cost differs from that "
     "of the first variant in the same condition, by command, Holm-corrected over the variants."
+)
+
+TRUST = (
+    "Of the belief before the first look: how likely its likeliest place was said to be, and how "
+    "often that was right; the expected calibration error of that place; and the mean logarithm of "
+    "how likely the true place was said to be (log score, 0 is best)."
 )
 
 COMPARED = (

@@ -20,6 +20,7 @@ from executive.campaign.report.variants import (
 )
 from executive.config import KnowledgeSystem
 from executive.types import MissionStatus
+from kb.benchmark.calibration import calibration
 
 Lines = list[list[str]]
 
@@ -39,7 +40,7 @@ COST: Mapping[str, Callable[[Sequence[Row]], float]] = {
 }
 
 ACTIVITIES: Mapping[str, Column] = {
-    "thinking": lambda row: row.thinking_time_s,
+    "thinking": lambda row: _only_thinking_s(row),
     "driving": lambda row: row.driving_s,
     "looking": lambda row: row.looking_s,
     "handling": lambda row: row.handling_s,
@@ -48,8 +49,12 @@ ACTIVITIES: Mapping[str, Column] = {
 """What a mission's time (s) goes into."""
 
 
+def _only_thinking_s(row: Row) -> float:
+    return row.thinking_time_s - row.thought_moving_s
+
+
 def _known_s(row: Row) -> tuple[float, ...]:
-    return row.thinking_time_s, row.driving_s, row.looking_s, row.handling_s
+    return _only_thinking_s(row), row.driving_s, row.looking_s, row.handling_s
 
 
 def overview(found: Sequence[Variant]) -> Table:
@@ -246,6 +251,40 @@ def policies(found: Sequence[Variant]) -> Table:
         "SPL",
     ]
     return Table([*heads, "n"], lines)
+
+
+def trust(found: Sequence[Variant]) -> Table:
+    """How far what was believed before the first look could be trusted."""
+    lines: Lines = []
+    for condition in paper.CONDITIONS:
+        for variant in found:
+            rows = [row for row in select(variant.own, condition) if row.sure]
+            if rows:
+                was = calibration(map(_told, rows))
+                lines.append(
+                    [
+                        name(condition),
+                        variant.name,
+                        _mean(rows, lambda row: row.sure),
+                        _mean(rows, _is_right),
+                        f"{was.error:.2f}",
+                        f"{was.log_score:.2f}",
+                        str(len(rows)),
+                    ]
+                )
+    heads = ["likeliest place", "is right", "calibration error", "log score"]
+    return Table(["condition", "variant", *heads, "n"], lines)
+
+
+def _is_right(row: Row) -> bool:
+    return row.sure_of_it >= row.sure
+
+
+def _told(row: Row) -> tuple[dict[str, float], list[str]]:
+    """The likeliest place and the true one, which is right."""
+    if _is_right(row):
+        return {"it": row.sure}, ["it"]
+    return {"another": row.sure, "it": row.sure_of_it}, ["it"]
 
 
 def searching(found: Sequence[Variant]) -> Table:
