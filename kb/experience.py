@@ -29,7 +29,7 @@ NEW_PLACE = 0.3
 """As if so often a thing had been taken to a place where it was never seen.
 
 Of 0.2, 0.6 and 1.5 the least had the best log score in simulated households of the seeds 100 and
-101; the other numbers here and in `kb.rates` hardly mattered there.
+101.
 """
 OTHER_ORIGIN = 0.2
 """How much a move from another place counts, beside one from the same (an estimate)."""

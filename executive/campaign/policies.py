@@ -328,6 +328,15 @@ POLICIES: Mapping[str, Policy] = MappingProxyType(
         "random": baseline("any order", by_chance),
         "popularity": baseline("where most other things are by the survey", popular),
         "true-first": baseline("the bound: a stand-in that knows where the thing is", true_first),
+        "memory": Policy(
+            "what the robot remembers alone; what it does not, the person is asked",
+            {**PAPER, "llm": "none", "defaults": False},
+        ),
+        "plan-unlearned": Policy(
+            "the plan of a robot that remembers and learns nothing of it",
+            PLAN,
+            lambda parts: replace(parts, experience=None),
+        ),
         "always-asks": Policy(
             "a fault put in by hand: neither default locations nor a model, so the person is asked",
             {**PAPER, "llm": "none", "defaults": False},
