@@ -154,8 +154,8 @@ class Settings(BaseSettings):
     habits: Annotated[str | None, Option("NAME or FILE.toml")] = Field(
         None, description="what those who live in the simulated home do with their things"
     )
-    hours_between: Annotated[float, Option("HOURS")] = Field(
-        0.0, ge=0, le=1000, description="that pass in the simulated home before each command"
+    hours_between: Annotated[float, Option("N")] = Field(
+        0.0, ge=0, le=1000, description="hours that pass in the simulated home before each command"
     )
     learn: Annotated[
         bool, Option(help="whether to remember what is seen and said (default: it does)")

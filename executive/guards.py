@@ -11,10 +11,19 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from executive.belief import Statement
 from executive.errors import ExecutiveError
 from executive.events import Inbox
-from executive.interfaces import LanguageModel, Perception, PlaceSource, Recorder, Robot, User
-from executive.records import Note, Record, SourceAnswer
+from executive.interfaces import (
+    Experience,
+    LanguageModel,
+    Perception,
+    PlaceSource,
+    Recorder,
+    Robot,
+    User,
+)
+from executive.records import Note, Recalled, Record, SourceAnswer
 from executive.text import printable, writable
 from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, RankRequest
 
@@ -87,6 +96,52 @@ class GuardedSource:
     def _tell(self, error: Exception) -> None:
         level = logging.DEBUG if self._raised else logging.WARNING
         log.log(level, "the %s does not answer: %s", self.name, in_words(error))
+        self._recorder.record(Note("error", traceback_of(error)))
+        self._raised = True
+
+
+class GuardedExperience:
+    """Implements `Experience` around one that may raise: then nothing was learned.
+
+    Each answer is recorded, so that a replay is told the same.
+    """
+
+    def __init__(self, experience: Experience, recorder: Recorder) -> None:
+        """Guard this one."""
+        self._experience = experience
+        self._recorder = GuardedRecorder(recorder)
+        self._raised = False
+
+    def learn(self) -> None:
+        """Learn, as far as that goes."""
+        try:
+            self._experience.learn()
+        except Exception as error:
+            self._tell(error)
+
+    def recalled(self, name: str) -> tuple[Statement, ...]:
+        """What it says."""
+        try:
+            said = tuple(self._experience.recalled(name))
+        except Exception as error:
+            self._tell(error)
+            said = ()
+        each = [(one.source, *pair) for one in said for pair in one.weights]
+        self._recorder.record(
+            Recalled(
+                thing=name,
+                sources=tuple(one.source for one in said),
+                trusts=tuple(one.trust for one in said),
+                places=tuple(place for _, place, _ in each),
+                says=tuple(source for source, _, _ in each),
+                weights=tuple(weight for _, _, weight in each),
+            )
+        )
+        return said
+
+    def _tell(self, error: Exception) -> None:
+        level = logging.DEBUG if self._raised else logging.WARNING
+        log.log(level, "what was learned is of no use: %s", in_words(error))
         self._recorder.record(Note("error", traceback_of(error)))
         self._raised = True
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from executive.belief import Statement
 from executive.language.meaning import Said
 from executive.language.spoken import NOTHING, Spoken
 from executive.records import NodeState, Record, TreeShape
@@ -248,6 +249,22 @@ class Facts(Protocol):
 
     def origins(self) -> Mapping[str, Sequence[str]]:
         """Each object that the robot took, and from where, the last time first."""
+        ...
+
+
+class Experience(Protocol):
+    """What the robot has learned of where things are: how long a sighting is worth, and habits."""
+
+    def learn(self) -> None:
+        """Learn from what was seen since the last time; called before a mission, not in it."""
+        ...
+
+    def recalled(self, name: str) -> Sequence[Statement]:
+        """What memory and habits say of where a thing is now; answers within milliseconds.
+
+        Nothing if it was never seen. The most trusted first; the part of each is of what those
+        before it have left.
+        """
         ...
 
 

@@ -128,6 +128,27 @@ class SourceAnswer:
 
 
 @dataclass(frozen=True, slots=True)
+class Recalled:
+    """What the robot has learned of where a thing may be now.
+
+    Attributes:
+        thing: what is looked for.
+        sources: `memory`, where it was last, and `habits`, where it may have been taken since.
+        trusts: how much each of them takes of what those before it have left.
+        places: where it may be; none if nothing was learned of it.
+        says: whose word each of these is.
+        weights: how likely each is beside the others of the same source.
+    """
+
+    thing: str
+    sources: tuple[str, ...]
+    trusts: tuple[float, ...]
+    places: tuple[str, ...]
+    says: tuple[str, ...]
+    weights: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Planned:
     """What the robot is going to do in its search, and why: a decision between looking and asking.
 
@@ -293,6 +314,7 @@ Record = (
     | EventTaken
     | LlmCall
     | Verified
+    | Recalled
     | SourceAnswer
     | Planned
     | WaysTold

@@ -95,6 +95,8 @@ class Source(StrEnum):
     LLM = "llm"
     USER = "user"
     MEMORY = "memory"
+    HABITS = "habits"
+    """Of the people at home, as the robot has learned them."""
 
 
 class MissionStatus(StrEnum):

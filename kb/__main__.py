@@ -79,12 +79,38 @@ def facts(file: Path, as_json: bool) -> int:
     if as_json:
         print(json.dumps([asdict(fact) for fact in known]))
         return DONE
-    now = time.time()
+    now = max([time.time(), *(fact.time_s for fact in known)])
     for fact in known:
         thing, place = printable(fact.object), printable(fact.place)
         print(f"{thing:20} {fact.kind:6} {place:20} {age(now - fact.time_s)} ago")
     print(f"{len(known)} facts", file=sys.stderr)
     return DONE
+
+
+def explain(file: Path, home: str, words: str) -> int:
+    """Print where things are now by what was learned, and habits; or of what the words name."""
+    from kb.experience import MOST_LEARNED, Experience
+    from kb.explaining import habits, lines
+    from kb.ontology.ontology import Ontology
+    from sim.home.home import load_home
+
+    ours = load_home(home)
+    ontology = Ontology(ours.places(), things=ours.things())
+    known = frozenset(ontology.objects())
+
+    def class_of(name: str) -> str:
+        return next(iter(ontology.classes_of(name)), "") if name in known else ""
+
+    with closing(_memory(file, learns=False)) as memory:
+        latest = max((fact.time_s for fact in memory.since(0, MOST_LEARNED)[0]), default=0.0)
+        now_s = max(time.time(), latest)
+        experience = Experience(memory, class_of, lambda: now_s)
+        experience.learn()
+        named = ontology.objects_named(words) or (words,) if words else experience.things()
+        told = [*lines(experience, named), *([] if words else habits(experience, class_of))]
+    for line in told:
+        print(printable(line))
+    return DONE if told else NOT_DONE
 
 
 def forget(file: Path, words: str) -> int:
@@ -143,6 +169,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return check(_ontology(given, given.files))
         case "query":
             return query(_ontology(given), given.sparql, given.json)
+        case "facts" if given.learned or given.words:
+            return explain(given.memory, given.home, " ".join(given.words))
         case "facts":
             return facts(given.memory, given.json)
         case _:
@@ -181,6 +209,21 @@ def parser() -> argparse.ArgumentParser:
     remembered = commands.add_parser("facts", help="what was seen, missed, said, taken and put")
     for command in (asked, remembered):
         command.add_argument("--json", action="store_true", help="print JSON")
+    remembered.add_argument(
+        "words",
+        nargs="*",
+        metavar="OBJECT",
+        help="what was learned of this: where it is now, and why",
+    )
+    remembered.add_argument(
+        "--learned", action="store_true", help="what was learned of all things, and of habits"
+    )
+    remembered.add_argument(
+        "--home",
+        default="four_rooms",
+        metavar="NAME or FILE.toml",
+        help="whose things (default: four_rooms)",
+    )
     forgotten = commands.add_parser("forget", help="remove facts")
     forgotten.add_argument("words", nargs="*", metavar="OBJECT", help="about this; none: all")
     for command in (remembered, forgotten):

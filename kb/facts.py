@@ -180,10 +180,26 @@ class FactStore:
         except _FAILURES as error:
             raise InputError(self._where, f"cannot be read: {error}") from error
 
+    def since(self, number: int, most: int) -> tuple[tuple[Fact, ...], int]:
+        """Facts that came after the one of a number, the last so many; and the number of the last.
+
+        There are none if they cannot be read.
+        """
+        query = (
+            "SELECT kind, object, place, time_s, number FROM "
+            "(SELECT * FROM fact WHERE number > ? ORDER BY number DESC LIMIT ?) ORDER BY number"
+        )
+        try:
+            rows = self._database.execute(query, (number, most)).fetchall()
+        except _FAILURES as error:
+            self._warn("facts could not be read", error)
+            return (), number
+        last = rows[-1][4] if rows else number
+        return tuple(Fact(FactKind(row[0]), *row[1:4]) for row in rows if _is_fact(*row[:4])), last
+
     def _rows(self, query: str) -> Iterator[tuple[str, str, str, float]]:
         for kind, name, place, time_s in self._database.execute(query):
-            timed = isinstance(time_s, int | float) and isfinite(time_s)
-            if kind in _KINDS and _is_name(name) and _is_name(place) and timed:
+            if _is_fact(kind, name, place, time_s):
                 yield kind, name, place, float(time_s)
 
     def load(self, facts: Iterable[Fact]) -> None:
@@ -246,6 +262,11 @@ _KINDS = frozenset(FactKind)
 
 _FAILURES = (sqlite3.Error, ValueError, OverflowError)
 """What a query raises: the disk or the file fails, or a value is none for a database."""
+
+
+def _is_fact(kind: object, name: object, place: object, time_s: object) -> bool:
+    timed = isinstance(time_s, int | float) and isfinite(time_s)
+    return kind in _KINDS and _is_name(name) and _is_name(place) and timed
 
 
 def _is_name(value: object) -> bool:

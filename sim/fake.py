@@ -17,7 +17,9 @@ from executive.interfaces import Recorder
 from executive.perception.tags import spot, spots, tag, whole
 from executive.records import Transform, Transforms
 from executive.types import (
+    DELIVERY,
     FLOOR,
+    PERSON,
     Detection,
     DriveTo,
     Failed,
@@ -77,7 +79,7 @@ class Drive:
 
 def knows(home: Home, place: str) -> bool:
     """Whether the robot can be sent to a place of this name."""
-    return place in {"person", "delivery", *(piece.name for piece in home.places())}
+    return place in (PERSON, DELIVERY) or any(piece.name == place for piece in home.furniture)
 
 
 def straight_s(home: Home, start: str, place: str, speed_m_s: float = SPEED_M_S) -> float:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from executive.interfaces import (
     Advice,
     Clock,
+    Experience,
     Facts,
     Interpreter,
     Knowledge,
@@ -94,6 +95,7 @@ class MissionContext:
     `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
     `blind_to` are known objects that perception would not recognise. A robot without an arm
     (`has_arm`) takes nothing.
+    `experience` is what was learned of where things are, if anything is kept to learn from.
     The `sources` know where things are without looking; they are asked in this order, after memory.
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
     the delivery table has no room; `handiest` is all furniture, that where things are put down most
@@ -113,6 +115,7 @@ class MissionContext:
     advice: Advice | None = None
     parameters: Parameters = Parameters()
     facts: Facts = NoFacts()
+    experience: Experience | None = None
     sources: tuple[PlaceSource, ...] = ()
     place_at: Callable[[Vector3], str | None] = lambda point: None
     near_person: tuple[str, ...] = ()

@@ -5,6 +5,8 @@ lists of the paper had the right place in two thirds of the missions without def
 in nine tenths with them.
 """
 
+from dataclasses import replace
+
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
@@ -136,13 +138,35 @@ class Hear(Step):
 
 
 class HearMemory(Hear):
-    """The robot's own memory, which forgets by itself where the thing was looked for in vain."""
+    """The robot's own memory, which forgets by itself where the thing was looked for in vain.
+
+    If it has learned from what it saw, it tells how much its memory is worth, and where people may
+    have taken the thing since.
+    """
 
     trust = MEMORY_TRUST
 
     def __init__(self, name: str, context: MissionContext) -> None:
         """Ask the facts."""
         super().__init__(name, context, Memory(context.facts))
+
+    def update(self) -> Status:
+        """Hear what was learned; without that, what is remembered."""
+        name, experience = self.situation.request.object, self.context.experience
+        assert name
+        if experience is None:
+            return super().update()
+        heard = []
+        for said in experience.recalled(name):
+            here = tuple((p, w) for p, w in said.weights if self._is_here(p))
+            if not here:
+                continue
+            self.situation.search.whereabouts.hear(replace(said, weights=here))
+            likeliest, _ = max(here, key=lambda pair: pair[1])
+            heard.append(f"{said.source} {said.trust:.2f}: {likeliest}")
+            if said.source == self.source and likeliest in self.knows.places_of(name):
+                self.heard((likeliest,))
+        return self.succeed(", ".join(heard) or "knows no place")
 
     def heard(self, places: tuple[str, ...]) -> None:
         """It was seen or said there since the last look there."""

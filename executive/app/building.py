@@ -4,7 +4,7 @@ What takes long to import is imported where it is needed: the model prepares mea
 """
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from typing import TextIO
 
@@ -16,7 +16,14 @@ from executive.config import Settings
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.guards import GuardedModel, in_words
-from executive.interfaces import Advice, LanguageModel, Recorder, SimulatedHome, User
+from executive.interfaces import (
+    Advice,
+    Experience,
+    LanguageModel,
+    Recorder,
+    SimulatedHome,
+    User,
+)
 from executive.language.grammar import EnglishInterpreter
 from executive.types import ChatRequest, RankRequest
 from executive.user import Console, Nobody, Oracle
@@ -82,6 +89,7 @@ def build_parts(
         advice=advice,
         prompts=prompts,
         facts=facts,
+        experience=learning(settings, facts, knowledge, living.now),
         interpreter=EnglishInterpreter(knowledge.names()),
         in_map=embodiment.in_map,
         blind_to=embodiment.blind_to,
@@ -89,6 +97,22 @@ def build_parts(
         parameters=parameters_of(settings),
     )
     return embodiment, parts
+
+
+def learning(
+    settings: Settings, facts: FactStore, knowledge: Ontology, now: Callable[[], float]
+) -> Experience | None:
+    """Who learns from a file of facts; None without one: a session is too short for it."""
+    if settings.memory is None:
+        return None
+    from kb.experience import Experience as Learned  # most missions do without
+
+    known = frozenset(knowledge.objects())
+
+    def class_of(name: str) -> str:
+        return next(iter(knowledge.classes_of(name)), "") if name in known else ""
+
+    return Learned(facts, class_of, now)
 
 
 def read_ontology(settings: Settings, home: Home) -> Ontology:

@@ -41,6 +41,10 @@ def nothing() -> None:
     """What most bodies do when a mission begins, or the session ends."""
 
 
+def no_pause(seconds: float) -> None:
+    """Where nobody lives, nothing comes of waiting."""
+
+
 @dataclass(frozen=True)
 class Setup:
     """What an embodiment is built with.
@@ -98,6 +102,7 @@ class Embodiment:
         keeps: the simulated world, if its things can be kept where they are (`--home-state`).
         begin: called when a mission begins, to record what is to be seen of the world.
         end: called when a mission has ended.
+        pause: called to let so many seconds pass where people live, before the next mission.
         close: called once, at the end of the session.
     """
 
@@ -112,6 +117,7 @@ class Embodiment:
     keeps: Furnished | None = None
     begin: Callable[[], None] = nothing
     end: Callable[[], None] = nothing
+    pause: Callable[[float], None] = no_pause
     close: Callable[[], None] = nothing
 
 

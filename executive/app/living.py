@@ -77,7 +77,11 @@ class LivingHome:
             self._during = clock
             begin()
 
-        return replace(embodiment, begin=begin_mission, end=self._end)
+        return replace(embodiment, begin=begin_mission, end=self._end, pause=self._pause)
+
+    def _pause(self, seconds: float) -> None:
+        """Let time pass before the next mission."""
+        self._time_s += seconds
 
     def _live_on(self) -> None:
         """Let the time pass that nothing was asked for, and people do what they are used to."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from executive.config import Settings
 from executive.events import Inbox
 from executive.guards import (
+    GuardedExperience,
     GuardedModel,
     GuardedPerception,
     GuardedRecorder,
@@ -17,6 +18,7 @@ from executive.guards import (
 from executive.interfaces import (
     Advice,
     Clock,
+    Experience,
     Facts,
     Interpreter,
     LanguageModel,
@@ -73,6 +75,7 @@ class Parts:
     advice: Advice | None = None
     prompts: Prompts | None = None
     facts: Facts = NoFacts()
+    experience: Experience | None = None
     sources: tuple[PlaceSource, ...] = ()
     interpreter: Interpreter = field(default_factory=EnglishInterpreter)
     in_map: bool = False
@@ -169,6 +172,7 @@ def build_context(parts: Parts, situation: Situation) -> MissionContext:
         advice=parts.advice,
         parameters=parts.parameters,
         facts=parts.facts,
+        experience=GuardedExperience(parts.experience, recorder) if parts.experience else None,
         sources=tuple(GuardedSource(source, recorder) for source in parts.sources),
         place_at=place_at(parts),
         near_person=near_person(parts.home),

@@ -61,6 +61,7 @@ class Recording:
             "speaks": "in words",
             "thinks": str(self.parts.model is not None),
             "policy": self.policy,
+            **({"learns": str(True)} if self.parts.experience else {}),
             **{name: version(name) for name in PACKAGES},
         }
         from logs.viewer.sink import RerunSink  # takes long

@@ -20,7 +20,7 @@ from executive.app.sources import checked
 from executive.config import Settings
 from executive.errors import ExecutiveError
 from executive.events import THE_PERSON, Broke, Ended, Heard, Inbox, Started, StopRequested
-from executive.guards import GuardedRecorder, GuardedRobot, GuardedUser, in_words
+from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
 from executive.language.phrases import spoken
@@ -175,6 +175,8 @@ class Session:
         words = one_line(writable(words))
         if not control(words) and (answer := self.talk(words)):
             return answered(answer)
+        if self.parts.experience:
+            GuardedExperience(self.parts.experience, self.recorder).learn()
         started = datetime.now(UTC)
         folder = new_folder(self.settings.runs, started, words) if self._recording else None
         self.folder = folder

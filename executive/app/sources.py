@@ -5,11 +5,11 @@ from dataclasses import dataclass, field
 
 from pydantic import TypeAdapter, ValidationError
 
-from executive.belief import ANYWHERE, PLAN
+from executive.belief import ANYWHERE, PLAN, Statement
 from executive.errors import InputError
 from executive.guards import in_words
 from executive.interfaces import PlaceSource
-from executive.records import SourceAnswer
+from executive.records import Recalled, SourceAnswer
 from executive.text import printable
 from executive.types import Source
 
@@ -101,6 +101,36 @@ class RecordedSource:
         """The next answer."""
         left = self.answers.get(name, [()])
         return left.pop(0) if len(left) > 1 else left[0]
+
+
+class RecordedExperience:
+    """Implements `Experience`: what had been learned in a mission, answer by answer.
+
+    The last answer about a thing is given again and again.
+    """
+
+    def __init__(self, answers: Iterable[Recalled]) -> None:
+        """Know these answers."""
+        self._told: dict[str, list[tuple[Statement, ...]]] = {}
+        for answer in answers:
+            self._told.setdefault(answer.thing, []).append(statements_of(answer))
+
+    def learn(self) -> None:
+        """Nothing more."""
+
+    def recalled(self, name: str) -> tuple[Statement, ...]:
+        """The next answer."""
+        left = self._told.get(name, [()])
+        return left.pop(0) if len(left) > 1 else left[0]
+
+
+def statements_of(answer: Recalled) -> tuple[Statement, ...]:
+    """What was said, as it is recorded."""
+    each = tuple(zip(answer.says, answer.places, answer.weights, strict=False))
+    return tuple(
+        Statement(source, tuple((p, w) for who, p, w in each if who == source), trust)
+        for source, trust in zip(answer.sources, answer.trusts, strict=False)
+    )
 
 
 _FILE = TypeAdapter(tuple[Written, ...])

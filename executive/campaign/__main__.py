@@ -12,6 +12,7 @@ from pathlib import Path
 
 from executive.campaign.campaign import Campaign
 from executive.campaign.policies import POLICIES
+from executive.campaign.weeks.watching import Weeks
 from executive.config import KnowledgeSystem
 from executive.options import add_setting
 from executive.shell import entry_point
@@ -21,7 +22,8 @@ from executive.usage import Parser
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is left of a campaign, write its tables, return the exit code."""
-    return Campaign(parser().parse_args(arguments)).run()
+    options = parser().parse_args(arguments)
+    return Weeks(options).run() if options.weeks else Campaign(options).run()
 
 
 def parser() -> argparse.ArgumentParser:
@@ -50,7 +52,9 @@ def parser() -> argparse.ArgumentParser:
         "--physics", dest="setting", action="store_const", const="physics", help="PyBullet"
     )
     p.set_defaults(setting="ideal")
-    p.add_argument("--seeds", type=_count, default=10, metavar="N", help="0 to N-1 (default: 10)")
+    p.add_argument(
+        "--seeds", type=_count, metavar="N", help="0 to N-1 (default: 10; with --weeks 3)"
+    )
     p.add_argument(
         "--systems",
         nargs="+",
@@ -67,7 +71,15 @@ def parser() -> argparse.ArgumentParser:
         action="store_true",
         help="find every thing there is, each at a place that the seed draws from the survey",
     )
-    p.add_argument("--out", type=Path, metavar="DIR", help="default: campaigns/ideal or /physics")
+    asked.add_argument(
+        "--weeks",
+        type=_count,
+        metavar="N",
+        help="live with households of 10 commands a day whose things wander by habits",
+    )
+    p.add_argument(
+        "--out", type=Path, metavar="DIR", help="default: campaigns/ideal, /physics or /weeks"
+    )
     p.add_argument("--runs", type=Path, metavar="DIR", help="record each mission there")
     workers = p.add_mutually_exclusive_group()
     workers.add_argument(
@@ -81,10 +93,12 @@ def parser() -> argparse.ArgumentParser:
         action="append",
         type=_policy,
         metavar="NAME",
-        help="who says where to look; may be repeated (default: ours)",
+        help="who says where to look; may be repeated (default: ours; with --weeks plan, paper, "
+        "nearest and memory)",
     )
     add_setting(p, "home", action="append", help="may be repeated")
     add_setting(p, "llm", action="append", help="may be repeated")
+    add_setting(p, "habits", help="of the households of --weeks (default: household)")
     add_setting(p, "question_s")
     add_setting(p, "elicit", help="default: rank for the embedded model, else generate")
     add_setting(

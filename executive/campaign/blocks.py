@@ -9,7 +9,7 @@ What is kept from command to command, and what is not:
 
 import io
 import random
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from math import dist
@@ -58,10 +58,20 @@ class Block:
         where = (self.policy, label_of(s.home), label_of(used.llm) if used.uses_llm else "none")
         return tuple(Key(*where, s.knowledge, s.defaults, s.seed, w) for w in self.commands)
 
+    def run(self, before: Sequence[Entry]) -> Iterator[Entry]:
+        """Run the missions that are no results yet."""
+        return run(self, entries_of(self, before))
+
     @property
     def settings_used(self) -> Settings:
         """The settings with those of the policy."""
         return self.settings.model_copy(update=dict(policy_named(self.policy).settings))
+
+
+def entries_of(block: Block, entries: Sequence[Entry]) -> list[Entry]:
+    """The block's missions among these that are results."""
+    keys = set(block.keys)
+    return [e for e in entries if e.row.key in keys and not e.row.model_failure]
 
 
 def label_of(name_or_file: str) -> str:

@@ -30,6 +30,7 @@ from executive.text import printable
 
 OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
 """Settings that the campaign itself varies."""
+SEEDS = 10
 SHOWN_EVERY_S = 0.5
 LONGEST_COMMAND = 1000
 MOST_MISSIONS = 1_000_000
@@ -54,7 +55,8 @@ class Campaign:
             commands = draws.commands()
         elif options.commands:
             commands = read_commands(options.commands)
-        most = options.seeds * len(commands) * len(settings) * len(self._policies)
+        seeds = options.seeds or SEEDS
+        most = seeds * len(commands) * len(settings) * len(self._policies)
         if most > MOST_MISSIONS:
             raise InputError("--seeds", f"more than {MOST_MISSIONS:,} missions", "give fewer")
         self._blocks = blocks.grid(
@@ -62,7 +64,7 @@ class Campaign:
             self._policies,
             [KnowledgeSystem(name) for name in options.systems],
             commands,
-            options.seeds,
+            seeds,
             options.runs.resolve() if options.runs else None,
             draws=options.draw,
         )
@@ -206,6 +208,7 @@ def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
             user="oracle",
             home=home and at_any_folder(home),
             llm=llm and at_any_folder(llm),
+            habits=options.habits,
             question_s=options.question_s,
             elicit=options.elicit,
             top=options.top,

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from distributed import Client, Future, KilledWorker, wait
 
 from executive.campaign import blocks
-from executive.campaign.blocks import Block
+from executive.campaign.blocks import Block, entries_of
 from executive.campaign.journal import Entry, Journal
-from executive.campaign.runners import POLL_S, entries_of
+from executive.campaign.runners import POLL_S
 from executive.errors import ExecutiveError, InputError
 
 CONNECTING_S = 20

@@ -355,6 +355,15 @@ POLICIES: Mapping[str, Policy] = MappingProxyType(
             {**PLAN, "elicit": "rank"},
             too_sure,
         ),
+        "memory": Policy(
+            "what the robot remembers alone; what it does not, the person is asked",
+            {**PAPER, "llm": "none", "defaults": False},
+        ),
+        "plan-unlearned": Policy(
+            "the plan of a robot that remembers and learns nothing of it",
+            PLAN,
+            lambda parts: replace(parts, experience=None),
+        ),
         "always-asks": Policy(
             "a fault put in by hand: neither default locations nor a model, so the person is asked",
             {**PAPER, "llm": "none", "defaults": False},

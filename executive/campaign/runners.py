@@ -5,15 +5,12 @@ A runner is given what is left to do, and appends each mission to the journal wh
 
 import multiprocessing
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing.synchronize import Event
-from typing import Protocol
+from typing import Any, Protocol
 
-from executive.campaign import blocks
-from executive.campaign.blocks import Block
-from executive.campaign.journal import Entry, Journal
 from executive.errors import ExecutiveError
 from executive.shell import leave_stopping_to_the_parent
 
@@ -21,32 +18,47 @@ POLL_S = 0.5
 """How often the journal is looked at while workers write it."""
 
 
-class Runner(Protocol):
-    """Runs missions; a KeyboardInterrupt ends it when the missions under way have ended."""
+class Unit(Protocol):
+    """Missions that one process runs one after the other: a block, or a household's life."""
 
-    def run(
-        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
-    ) -> None:
-        """Run every mission that is not in the journal; call `progress` now and then."""
+    def run(self, before: Sequence[Any]) -> Iterator[Any]:
+        """An entry for each mission that is not in `before`, as it ends."""
         ...
 
 
-def entries_of(block: Block, entries: Sequence[Entry]) -> list[Entry]:
-    """The block's missions among these that are results."""
-    keys = set(block.keys)
-    return [e for e in entries if e.row.key in keys and not e.row.model_failure]
+class Kept(Protocol):
+    """A file of entries, to which any number of processes append."""
+
+    @property
+    def size(self) -> int:
+        """Bytes so far."""
+        ...
+
+    def entries(self) -> Sequence[Any]:
+        """Those of all missions that have ended."""
+        ...
+
+    def append(self, entry: Any) -> None:
+        """Add one."""
+        ...
+
+
+class Runner(Protocol):
+    """Runs missions; a KeyboardInterrupt ends it when the missions under way have ended."""
+
+    def run(self, campaign: Sequence[Any], journal: Any, progress: Callable[[], None]) -> None:
+        """Run every mission that is not in the journal; call `progress` now and then."""
+        ...
 
 
 class InProcess:
     """This process, one mission after the other."""
 
-    def run(
-        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
-    ) -> None:
+    def run(self, campaign: Sequence[Unit], journal: Kept, progress: Callable[[], None]) -> None:
         """Run what is left."""
         before = journal.entries()
-        for block in campaign:
-            for entry in blocks.run(block, entries_of(block, before)):
+        for unit in campaign:
+            for entry in unit.run(before):
                 journal.append(entry)
                 progress()
 
@@ -62,9 +74,7 @@ class ProcessPool:
         self._workers = workers
         self._interrupted = interrupted
 
-    def run(
-        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
-    ) -> None:
+    def run(self, campaign: Sequence[Unit], journal: Kept, progress: Callable[[], None]) -> None:
         """Run what is left; if a worker is killed, go on with the rest.
 
         Raises:
@@ -83,9 +93,7 @@ class ProcessPool:
                         "try --workers 1, which shows why"
                     ) from None
 
-    def _run(
-        self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
-    ) -> None:
+    def _run(self, campaign: Sequence[Unit], journal: Kept, progress: Callable[[], None]) -> None:
         before = journal.entries()
         context = multiprocessing.get_context("spawn")
         stop = context.Event()
@@ -93,9 +101,7 @@ class ProcessPool:
             self._workers, mp_context=context, initializer=start_worker, initargs=(stop,)
         )
         try:
-            left = {
-                pool.submit(work, block, entries_of(block, before), journal) for block in campaign
-            }
+            left = {pool.submit(work, unit, before, journal) for unit in campaign}
             while left:
                 if self._interrupted():
                     raise KeyboardInterrupt
@@ -123,11 +129,11 @@ def start_worker(stop: Event) -> None:
     leave_stopping_to_the_parent()
 
 
-def work(block: Block, before: Sequence[Entry], journal: Journal) -> None:
-    """Run a block until it ends or all shall stop."""
+def work(unit: Unit, before: Sequence[Any], journal: Kept) -> None:
+    """Run missions until they end or all shall stop."""
     if _stop and _stop.is_set():
         return
-    for entry in blocks.run(block, before):
+    for entry in unit.run(before):
         journal.append(entry)
         if _stop and _stop.is_set():
             return

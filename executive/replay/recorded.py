@@ -11,13 +11,13 @@ from typing import TypeVar
 from pydantic import TypeAdapter, ValidationError
 
 from executive.app.parts import OURS, Change, Parts, advised, as_they_are, parameters_of
-from executive.app.sources import RecordedSource, read
+from executive.app.sources import RecordedExperience, RecordedSource, read
 from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import Clock, Recorder
 from executive.language.grammar import EnglishInterpreter
-from executive.records import SourceAnswer, WaysTold
+from executive.records import Recalled, SourceAnswer, WaysTold
 from executive.replay.body import recorded_body
 from executive.replay.stand_ins import Absent
 from executive.types import Place, Thing
@@ -71,6 +71,7 @@ def recorded_parts(
         facts=FactStore.believing(
             _places(run, "facts.json"), _places(run, "origins.json"), learns=settings.learn
         ),
+        experience=_experience(run),
         sources=_sources(run),
         interpreter=EnglishInterpreter(knowledge.names()),
         in_map=body.in_map,
@@ -123,6 +124,13 @@ def _sources(run: Run) -> tuple[RecordedSource, ...]:
     if text is None:
         return ()
     return read(str(run.path), text, (at.value for at in run.records(SourceAnswer)))
+
+
+def _experience(run: Run) -> RecordedExperience | None:
+    """What was learned; a robot that learned nothing had its memory alone, as in earlier days."""
+    if "learns" not in run.metadata:
+        return None
+    return RecordedExperience(at.value for at in run.records(Recalled))
 
 
 def _ways(run: Run) -> dict[tuple[str, str], float]:

@@ -17,6 +17,7 @@ from executive.records import (
     Picture,
     Planned,
     PlannedPath,
+    Recalled,
     Record,
     Scene,
     Seen,
@@ -112,6 +113,10 @@ class RerunSink:
             case SourceAnswer(source, thing, places):
                 where = ", ".join(places) or "not known"
                 text = f"{source}: {thing}: {where}"
+                self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
+            case Recalled(thing, places=places, says=says):
+                said = (f"{place} ({who})" for place, who in zip(places, says, strict=True))
+                text = f"learned of {thing}: {', '.join(said) or 'nothing'}"
                 self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
             case Planned():
                 self._candidates.plan(record)

@@ -18,6 +18,7 @@ from executive.records import (
     Picture,
     Planned,
     PlannedPath,
+    Recalled,
     Record,
     Scene,
     Seen,
@@ -226,6 +227,7 @@ def mission() -> Iterator[tuple[float, Record]]:
     yield 0.5, rank_call()
     yield 1.0, chat_call()
     yield 1.0, Verified("general_pos", ("cupboard",), (), ("spice rack",))
+    yield 1.5, Recalled("sugar_box", ("memory",), (0.8,), ("counter",), ("memory",), (1.0,))
     yield 1.5, SourceAnswer("calendar", "sugar_box", ("cupboard",))
     yield 1.6, WaysTold("person", ("cupboard", "table"), (4.5, -1.0))
     yield (

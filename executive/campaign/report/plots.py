@@ -61,25 +61,25 @@ def figures(found: Sequence[Variant]) -> Iterator[tuple[str, Sequence[Figure]]]:
             "Brackets: systems that differ, by command (* p < 0.05, ** p < 0.01)."
         )
         draw = partial(_means, rows=rows, title=title, beside_paper=found[0].as_in_paper)
-        yield title, [_figure(title, caption, (6.6, 3.0), draw)]
+        yield title, [drawn(title, caption, (6.6, 3.0), draw)]
     histograms = f"How many missions had so many inquiries and visits{whose}."
     boxes = f"Inquiries and visits of single missions{whose}. {FULL_BOX}"
     yield (
         "distributions",
         [
-            _figure("histograms", histograms, (6.6, 4.6), lambda d: _panels(d, rows, _histogram)),
-            _figure("boxes", boxes, (6.6, 4.2), lambda d: _panels(d, rows, _boxes)),
+            drawn("histograms", histograms, (6.6, 4.6), lambda d: _panels(d, rows, _histogram)),
+            drawn("boxes", boxes, (6.6, 4.2), lambda d: _panels(d, rows, _boxes)),
         ],
     )
     spent = f"What the mean mission's time goes into{whose}."
-    yield "time", [_figure("time", spent, (6.6, 2.8), lambda d: _time(d, rows))]
+    yield "time", [drawn("time", spent, (6.6, 2.8), lambda d: _time(d, rows))]
     if len(found) > 1:
         compared = "Means of every variant that asks a model or its stand-in, with 95 % intervals."
         size = (7.2, 1.4 + 0.28 * len(found))
-        yield "policies", [_figure("policies", compared, size, lambda d: _policies(d, found))]
+        yield "policies", [drawn("policies", compared, size, lambda d: _policies(d, found))]
 
 
-def _figure(
+def drawn(
     file: str, caption: str, size: tuple[float, float], draw: Callable[[Drawing], None]
 ) -> Figure:
     """Draw on a sheet of this size (inches)."""

@@ -1,0 +1,131 @@
+"""The report of weeks: questions, visits and stale beliefs by week and policy, and how they end."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from executive.campaign.report.document import (
+    Figure,
+    Heading,
+    Part,
+    Table,
+    Text,
+    to_html,
+    to_markdown,
+    write_pictures,
+)
+from executive.campaign.report.report import NO_PLOTS, PICTURES
+from executive.campaign.report.statistics import Summary, grouped, summarize
+from executive.campaign.weeks.lived import Lived
+
+MEASURES: Mapping[str, tuple[str, Callable[[Lived], float]]] = {
+    "questions": ("questions a command", lambda one: one.inquiries),
+    "visits": ("visits a command", lambda one: one.visits),
+    "stale": ("stale beliefs, % of commands", lambda one: 100.0 * one.stale),
+    "misguided": ("wrong guesses by habit, % of commands", lambda one: 100.0 * one.misguided),
+    "cost": ("cost of the search a command [s]", lambda one: one.cost_s),
+}
+"""What is told by week: its name, and its value of a command."""
+SHOWN = ("questions", "visits", "stale", "cost")
+"""What is drawn."""
+READING = (
+    "A household gives ten commands a day, find or bring, at hours and of things that its seed "
+    "draws; its things wander by habits. All policies live through the same days. What the robot "
+    "remembers is kept, and where things are; each morning the robot is at its start.",
+    "Stale belief: the robot looked in vain where the thing was by its memory, with a probability "
+    "of at least 0.5 (by the paper's stages: where memory has it). Wrong guess by habit: the same "
+    "where it took people to have brought the thing. Cost: the seconds of going to places and "
+    "looking there, and for each question its price, the setting question_s.",
+    "Intervals (95 %, of the mean) are bootstrapped over the days, of all households together: "
+    "commands of a day are not independent of one another.",
+)
+
+
+def write_report(lived: Sequence[Lived], about: Mapping[str, str], folder: Path) -> None:
+    """Write `report.md` with its plots, and `report.html`, which holds them."""
+    parts = report(lived, about)
+    write_pictures(parts, folder / PICTURES)
+    (folder / "report.md").write_text(to_markdown(parts, PICTURES), encoding="utf-8")
+    (folder / "report.html").write_text(to_html(parts), encoding="utf-8")
+
+
+def report(lived: Sequence[Lived], about: Mapping[str, str]) -> list[Part]:
+    """The whole report."""
+    found = {name: list(rows) for name, rows in by_variant(lived)}
+    plots = _plots(found)
+    parts: list[Part] = [Heading(f"Weeks: {len(lived)} commands", 1), *map(Text, READING)]
+    if lived and not plots:
+        parts.append(Text(NO_PLOTS))
+    parts += plots
+    parts += [Heading("The last week"), last_week(found)]
+    for name, (title, _) in MEASURES.items():
+        parts += [Heading(title[0].upper() + title[1:]), by_week(found, name)]
+    return [*parts, Heading("Settings"), Table(["what", "value"], list(about.items()))]
+
+
+def by_variant(lived: Sequence[Lived]) -> Iterator[tuple[str, Iterator[Lived]]]:
+    """The rows of each policy, home and model by a name that tells them apart."""
+    homes, models = ({getattr(one, key) for one in lived} for key in ("home", "llm"))
+    order = dict.fromkeys((one.policy, one.home, one.llm) for one in lived)
+    for policy, home, llm in order:
+        several = [
+            part for part, all_of in ((home, homes), (llm, models - {"none"})) if len(all_of) > 1
+        ]
+        mine = (one for one in lived if (one.policy, one.home, one.llm) == (policy, home, llm))
+        yield ", ".join((policy, *several)), mine
+
+
+def summary(rows: Sequence[Lived], measure: str) -> Summary | None:
+    """Mean and interval of some commands; None if there are none."""
+    value = MEASURES[measure][1]
+    return summarize(grouped((f"{one.seed} {one.day}", value(one)) for one in rows))
+
+
+def weeks_of(rows: Sequence[Lived]) -> list[list[Lived]]:
+    """The commands week by week."""
+    last = max((one.week for one in rows), default=-1)
+    return [[one for one in rows if one.week == week] for week in range(last + 1)]
+
+
+def by_week(found: Mapping[str, Sequence[Lived]], measure: str) -> Table:
+    """The mean of each week, for each policy."""
+    most = max((len(weeks_of(rows)) for rows in found.values()), default=0)
+    heads = ["policy", *(f"week {week + 1}" for week in range(most))]
+    lines = []
+    for name, rows in found.items():
+        means = [summary(week, measure) for week in weeks_of(rows)]
+        lines.append([name, *(f"{mean.mean:.2f}" if mean else "" for mean in means)])
+    return Table(heads, lines)
+
+
+def last_week(found: Mapping[str, Sequence[Lived]]) -> Table:
+    """What it comes to in the end, with intervals."""
+    heads = ["policy", *(title for title, _ in MEASURES.values()), "completed", "n"]
+    lines = []
+    for name, rows in found.items():
+        *_, last = weeks_of(rows)
+        done = sum(one.completed for one in last) / len(last)
+        cells = [_with_interval(summary(last, measure)) for measure in MEASURES]
+        lines.append([name, *cells, f"{100 * done:.1f} %", str(len(last))])
+    return Table(heads, lines)
+
+
+def _with_interval(one: Summary | None) -> str:
+    return f"{one.mean:.2f} ({one.low:.2f} to {one.high:.2f})" if one else ""
+
+
+def _plots(found: Mapping[str, Sequence[Lived]]) -> list[Figure]:
+    """One figure; none without matplotlib."""
+    try:
+        from executive.campaign.weeks.plots import figure
+    except ImportError:
+        return []
+    if not found:
+        return []
+    shown = {
+        title: {
+            name: [summary(week, measure) for week in weeks_of(rows)]
+            for name, rows in found.items()
+        }
+        for measure, (title, _) in ((m, MEASURES[m]) for m in SHOWN)
+    }
+    return [figure(shown)]

@@ -1,0 +1,146 @@
+"""A campaign of weeks: households that are watched for so long, and the folder that keeps it."""
+
+import argparse
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+
+from executive.campaign.campaign import (
+    Progress,
+    all_settings,
+    claim,
+    make_folder,
+)
+from executive.campaign.claim import lock_folder
+from executive.campaign.runners import InProcess, ProcessPool
+from executive.campaign.weeks.household import Household
+from executive.campaign.weeks.lived import COMMANDS_A_DAY, DAYS_A_WEEK, Diary, Line, write_table
+from executive.campaign.weeks.report import write_report
+from executive.errors import InputError
+from executive.shell import DONE, STOPPED, on_stop_signals
+from executive.text import printable
+from sim.home.habits import load_habits
+from sim.home.home import load_home
+
+POLICIES = ("plan", "paper", "nearest", "memory")
+"""Which are compared if none is named."""
+HABITS = "household"
+SEEDS = 3
+MOST_WEEKS = 520
+ASKED = f"{COMMANDS_A_DAY} a day, drawn by the seed"
+
+
+class Weeks:
+    """Households by policy, home, model and seed, and the folder that keeps what came of them."""
+
+    def __init__(self, options: argparse.Namespace) -> None:
+        """Read the options, and make the folder and have it to oneself.
+
+        Raises:
+            InputError: if an option or a file is wrong, or the folder holds another campaign, or
+                another process runs one in it.
+        """
+        refuse_what_does_not_fit(options)
+        self._out: Path = options.out or Path("campaigns") / "weeks"
+        self._policies = tuple(dict.fromkeys(options.policy or POLICIES))
+        found = all_settings(options)
+        settings = [s.model_copy(update={"habits": s.habits or HABITS}) for s in found]
+        for one in settings:
+            load_habits(one.habits or HABITS, load_home(one.home))
+        self._households = [
+            Household(one.model_copy(update={"seed": seed}), policy, options.weeks * DAYS_A_WEEK)
+            for one in settings
+            for policy in self._policies
+            for seed in range(options.seeds or SEEDS)
+        ]
+        self._names = {household.name: None for household in self._households}
+        self._days = options.weeks * DAYS_A_WEEK
+        self._workers: int = options.workers
+        self._interrupted = False
+        make_folder(self._out)
+        with ExitStack() as until_it_fails:
+            self._lock = until_it_fails.enter_context(lock_folder(self._out, "--out"))
+            self._about = claim(self._out, settings[0], (ASKED,))
+            self._diary = Diary(self._out / "journal.jsonl")
+            self._diary.mend()
+            damage = self._diary.damage()
+            until_it_fails.pop_all()
+        for sentence in damage:
+            print(f"warning: {printable(sentence)}; it is not counted", file=sys.stderr)
+
+    def run(self) -> int:
+        """Live what has not been lived yet; the report is written however it ends.
+
+        Raises:
+            ExecutiveError: if missions cannot be run, or journal or report cannot be written.
+        """
+        total = len(self._households) * self._days * COMMANDS_A_DAY
+        progress = Progress(total, lambda: len(self._lines()))
+        pool = ProcessPool(self._workers, lambda: self._interrupted)
+        runner = InProcess() if self._workers == 1 else pool
+        try:
+            with on_stop_signals(self._interrupt):
+                runner.run(self._households, self._diary, progress)
+            progress.show()
+        except KeyboardInterrupt:
+            print("\nstopped; the same command goes on from here", file=sys.stderr)
+            return STOPPED
+        finally:
+            with self._lock:
+                self._write(total)
+        folder = printable(self._out)
+        print(f"\n{folder}/report.md\n{folder}/report.html", file=sys.stderr)
+        return DONE
+
+    def _interrupt(self, number: int, frame: object) -> None:
+        """Note it, too: the exception is lost if it is raised within a callback."""
+        self._interrupted = True
+        raise KeyboardInterrupt
+
+    def _lines(self) -> list[Line]:
+        """What was lived of this campaign; the folder may hold more."""
+        return [
+            line
+            for line in self._diary.entries()
+            if line.lived.household in self._names and line.lived.day < self._days
+        ]
+
+    def _write(self, total: int) -> None:
+        rank = {name: number for number, name in enumerate(self._names)}
+        rows = [line.lived for line in self._lines()]
+        rows.sort(key=lambda one: (rank[one.household], one.day, one.turn))
+        about = {
+            **self._about,
+            "policies": ", ".join(self._policies),
+            "homes": ", ".join(dict.fromkeys(one.home for one in rows)),
+            "seeds": ", ".join(str(seed) for seed in sorted({one.seed for one in rows})),
+            "commands given": f"{len(rows)} of {total}",
+            "sum of the missions' wall time": f"{sum(one.wall_time_s for one in rows):.0f} s",
+        }
+        try:
+            write_table(rows, self._out / "results.parquet")
+            write_report(rows, about, self._out)
+        except OSError as error:
+            what = f"the tables cannot be written: {error.strerror or error}"
+            right = "make room; the same command writes them"
+            raise InputError(f"--out {self._out}", what, right) from None
+
+
+def refuse_what_does_not_fit(options: argparse.Namespace) -> None:
+    """Some options are of a grid of missions alone.
+
+    Raises:
+        InputError: names the option.
+    """
+    if options.weeks > MOST_WEEKS:
+        raise InputError("--weeks", f"more than {MOST_WEEKS} weeks", "give fewer")
+    for option, given in (
+        ("--commands", options.commands),
+        ("--draw", options.draw),
+        ("--runs", options.runs),
+        ("--cluster", options.cluster),
+    ):
+        if given:
+            raise InputError(
+                option, "a household of weeks has none", f"leave {option} or --weeks out"
+            )

@@ -1,0 +1,130 @@
+"""What facts say of each thing one after the other: seen here, gone from there, unknown between.
+
+A place that was looked at all over, because something was looked for there in vain, tells of every
+other thing, too: what was not seen there is not there.
+"""
+
+from bisect import bisect_right
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from kb.facts import Fact, FactKind
+
+LOOK_S = 60.0
+"""Facts about one place within this time are of one look."""
+_SEEN = {FactKind.SEEN, FactKind.PUT, FactKind.SAID, FactKind.TAKEN}
+"""What says that the thing is, or was until now, at the place."""
+
+
+def _time(look: tuple[float, frozenset[str]]) -> float:
+    return look[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """The thing was at a place.
+
+    Attributes:
+        time_s: when (UTC, s).
+        place: where.
+        taken: whether the robot took it from there: nobody knows since.
+        said: whether the person said so.
+    """
+
+    time_s: float
+    place: str
+    taken: bool = False
+    said: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """From one time at which it was known where a thing is to the next evidence of it.
+
+    Attributes:
+        thing: which.
+        since_s: when it was at `place` for sure.
+        until_s: when it was seen again, or was seen to be gone.
+        place: where it was.
+        at: where it was then; empty if it was only gone.
+    """
+
+    thing: str
+    since_s: float
+    until_s: float
+    place: str
+    at: str
+
+
+@dataclass
+class Sightings:
+    """All of it, in the order of the facts."""
+
+    known: dict[str, list[Known]] = field(default_factory=lambda: defaultdict(list))
+    """Of each thing, when it was known where it is."""
+    looks: dict[str, list[tuple[float, frozenset[str]]]] = field(
+        default_factory=lambda: defaultdict(list)
+    )
+    """Of each place, when it was looked at all over, and what was there."""
+    _open: dict[str, tuple[float, set[str], set[str]]] = field(default_factory=dict)
+    """Looks that may go on: since when, what was seen, what was looked for in vain."""
+
+    def add(self, facts: Iterable[Fact]) -> None:
+        """Take in the facts, the oldest first."""
+        for fact in facts:
+            self._look(fact)
+            if fact.kind in _SEEN:
+                taken, said = fact.kind == FactKind.TAKEN, fact.kind == FactKind.SAID
+                self.known[fact.object].append(Known(fact.time_s, fact.place, taken, said))
+
+    def _look(self, fact: Fact) -> None:
+        if fact.kind not in (FactKind.SEEN, FactKind.MISSED):
+            return
+        since, seen, missed = self._open.get(fact.place, (fact.time_s, set(), set()))
+        if not 0 <= fact.time_s - since <= LOOK_S:
+            since, seen, missed = fact.time_s, set[str](), set[str]()
+        (seen if fact.kind == FactKind.SEEN else missed).add(fact.object)
+        self._open[fact.place] = since, seen, missed
+        if missed:
+            looks, look = self.looks[fact.place], (since, frozenset(seen - missed))
+            if looks and looks[-1][0] == since:
+                looks[-1] = look
+            else:
+                looks.append(look)
+
+    def gone(self, thing: str, place: str, since_s: float, until_s: float) -> float | None:
+        """When a thing that had been at a place was first seen to be gone from there, if it was."""
+        looks = self.looks.get(place, [])
+        for time_s, seen in looks[bisect_right(looks, since_s, key=_time) :]:
+            if time_s > until_s:
+                return None
+            if thing not in seen:
+                return time_s
+        return None
+
+    def intervals(self) -> Iterator[Interval]:
+        """What can be learned from: the times between two evidences of a thing."""
+        for thing, known in self.known.items():
+            for one, after in zip(known, known[1:], strict=False):
+                if one.taken or after.time_s <= one.time_s:
+                    continue
+                gone_s = self.gone(thing, one.place, one.time_s, after.time_s - LOOK_S)
+                if gone_s is None or after.place == one.place:
+                    yield Interval(thing, one.time_s, after.time_s, one.place, after.place)
+                else:
+                    yield Interval(thing, one.time_s, gone_s, one.place, "")
+
+    def absences(self, thing: str, since_s: float) -> list[tuple[float, str]]:
+        """When and where a thing was not, after a time; in order."""
+        found = [
+            (time_s, place)
+            for place, looks in self.looks.items()
+            for time_s, seen in looks[bisect_right(looks, since_s, key=_time) :]
+            if thing not in seen
+        ]
+        return sorted(found)
+
+    def things(self) -> Mapping[str, list[Known]]:
+        """Those of which something is known."""
+        return self.known
