@@ -10,8 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from executive.campaign.campaign import Campaign
-from executive.campaign.policies import POLICIES
+from executive.campaign.names import DESCRIPTIONS
 from executive.config import KnowledgeSystem
 from executive.options import add_setting
 from executive.shell import entry_point
@@ -21,7 +20,10 @@ from executive.usage import Parser
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is left of a campaign, write its tables, return the exit code."""
-    return Campaign(parser().parse_args(arguments)).run()
+    options = parser().parse_args(arguments)
+    from executive.campaign.campaign import Campaign  # heavy: not for --help or a wrong option
+
+    return Campaign(options).run()
 
 
 def parser() -> argparse.ArgumentParser:
@@ -32,7 +34,7 @@ def parser() -> argparse.ArgumentParser:
         "Stopped with Ctrl-C, the same command goes on.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="policies:\n"
-        + "".join(f"  {name:<17} {policy.description}\n" for name, policy in POLICIES.items())
+        + "".join(f"  {name:<17} {says}\n" for name, says in DESCRIPTIONS.items())
         + "  package.module:function\n"
         + f"  {'':<17} one of your own: a function from parts to parts\n"
         + "\nexit: 0 all missions have ended, 1 some had no working model, 2 bad usage or input, "
@@ -95,8 +97,8 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _policy(name: str) -> str:
-    if name not in POLICIES and ":" not in name:
-        ours = ", ".join(map(repr, POLICIES))
+    if name not in DESCRIPTIONS and ":" not in name:
+        ours = ", ".join(map(repr, DESCRIPTIONS))
         raise argparse.ArgumentTypeError(
             f"invalid choice: {name!r} (choose from {ours}, or package.module:function)"
         )
