@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING
 
 from executive.config import Settings, load_settings
 from executive.errors import ExecutiveError, InputError
-from executive.events import THE_PERSON, Inbox, StopRequested
 from executive.options import add_settings
 from executive.page.address import Address, add_page, address_of
 from executive.shell import (
@@ -38,20 +37,17 @@ from executive.shell import (
 )
 from executive.terminal import Terminal
 from executive.text import counted, printable, too_long
-from executive.types import MissionStatus, Outcome
 from executive.usage import Parser
-from executive.user import STOPPING, Console
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # what takes long to import is not for --help or a wrong option
     from executive.app.session import Session
+    from executive.events import Inbox
     from executive.page.page import Page
+    from executive.types import Outcome
+    from executive.user import Console
 
-EXIT = {
-    MissionStatus.DONE: DONE,
-    MissionStatus.NOT_DONE: NOT_DONE,
-    MissionStatus.NOT_UNDERSTOOD: BAD_INPUT,
-    MissionStatus.STOPPED: STOPPED,
-}
+EXIT = {"done": DONE, "not_done": NOT_DONE, "not_understood": BAD_INPUT, "stopped": STOPPED}
+"""By the mission's status."""
 
 log = logging.getLogger(__name__)
 
@@ -83,6 +79,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 raise InputError("command", "no words", 'say for example "Bring a sugar_box"')
             if why := too_long(words or ""):
                 raise InputError("command", why, "say it in fewer words")
+            from executive.events import Inbox
+
             inbox = Inbox()
             with opened_page(address, inbox) as page:
                 return serve(settings, words, inbox, page, view=view, gui=gui, as_json=as_json)
@@ -96,7 +94,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 @contextmanager
-def opened_page(address: Address | None, inbox: Inbox) -> "Iterator[Page | None]":
+def opened_page(address: Address | None, inbox: "Inbox") -> "Iterator[Page | None]":
     """The person's page, served meanwhile; its address is printed."""
     if address is None:
         yield None
@@ -111,7 +109,7 @@ def opened_page(address: Address | None, inbox: Inbox) -> "Iterator[Page | None]
 def serve(
     settings: Settings,
     words: str | None,
-    inbox: Inbox,
+    inbox: "Inbox",
     page: "Page | None" = None,
     *,
     view: bool,
@@ -119,11 +117,13 @@ def serve(
     as_json: bool,
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
+    from executive.user import Console
+
     console: Console | None = None  # hears a stop from now on
     if settings.user == "console":
         console = page.person if page else Console(inbox)
     with all_is_kept():
-        from executive.app.session import Session  # heavy: not for --help or a wrong option
+        from executive.app.session import Session
 
         session = Session(
             settings,
@@ -158,7 +158,7 @@ def do(session: "Session", words: str, as_json: bool) -> int:
     return conclude(session.run(words), as_json)
 
 
-def conclude(outcome: Outcome, as_json: bool) -> int:
+def conclude(outcome: "Outcome", as_json: bool) -> int:
     """Print the outcome, and turn it into an exit code."""
     if as_json:
         from executive.app.run_folder import to_json
@@ -181,12 +181,14 @@ def conclude(outcome: Outcome, as_json: bool) -> int:
     return EXIT[outcome.status]
 
 
-def converse(session: "Session", console: Console, as_json: bool, line: str | None = None) -> int:
+def converse(session: "Session", console: "Console", as_json: bool, line: str | None = None) -> int:
     """Do what the person types, until they end the session; the exit code of the last command.
 
     Who says stop otherwise than the person ends the session, and not only the mission. A `line`
     that is given is done first.
     """
+    from executive.events import THE_PERSON
+
     code = DONE
     if line is None:
         help_ = f"{PROMPT} (stop ends what I do, quit ends the session)"
@@ -199,8 +201,11 @@ def converse(session: "Session", console: Console, as_json: bool, line: str | No
     return code
 
 
-def stop_on_signals(inbox: Inbox) -> None:
+def stop_on_signals(inbox: "Inbox") -> None:
     """Have a signal stop the robot, and answer at once; a second Ctrl-C ends the program."""
+    from executive.events import StopRequested
+    from executive.user import STOPPING
+
     asked = False
 
     def stop(number: int, frame: FrameType | None) -> None:

@@ -12,17 +12,16 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from executive.errors import InputError
 from executive.shell import entry_point
 from executive.text import printable
 from executive.usage import Parser
-from logs.questions import comparison, gantt, report
-from logs.questions.why import why, why_text
-from logs.recording.choice import newest, runs_in
-from logs.recording.reader import FILE_NAME, At, Run, mcap_of
-from logs.recording.recovery import first_damage, recover, written
+
+if TYPE_CHECKING:  # what answers is heavy: not for --help or a wrong option
+    from logs.questions.report import Row
+    from logs.recording.reader import At, Run
 
 T = TypeVar("T")
 
@@ -49,6 +48,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _chosen(named: Sequence[Path]) -> Path:
     """The one run that is asked about; if others could be meant, too, it is said which it is."""
+    from logs.recording.choice import newest
+
     chosen = newest(named)
     if chosen.why:
         print(f"{printable(chosen.run)}: {chosen.why}", file=sys.stderr)
@@ -113,13 +114,24 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _opened(folder: Path) -> "Run":
+    from logs.recording.reader import Run
+
+    return Run(folder)
+
+
 def _summary(options: argparse.Namespace) -> Answer:
-    rows = list(_each(options.runs, lambda run: report.summary(Run(run))))
+    from logs.questions import report
+
+    rows = list(_each(options.runs, lambda run: report.summary(_opened(run))))
     return Answer(rows, report.summary_text(rows))
 
 
-def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> Iterator[T | report.Row]:
+def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> "Iterator[T | Row]":
     """An answer a run; of several, what cannot be read has a row that says so."""
+    from logs.recording.choice import runs_in
+    from logs.recording.reader import FILE_NAME
+
     for run in runs_in(folders):
         try:
             yield ask(run)
@@ -130,17 +142,23 @@ def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> Iterator[T | rep
 
 
 def _why(options: argparse.Namespace) -> Answer:
-    decisions = why(Run(options.run))
+    from logs.questions.why import why, why_text
+
+    decisions = why(_opened(options.run))
     return Answer([asdict(decision) for decision in decisions], why_text(decisions))
 
 
 def _ticks(options: argparse.Namespace) -> Answer:
-    rows = report.ticks(Run(options.run))
+    from logs.questions import report
+
+    rows = report.ticks(_opened(options.run))
     return Answer(rows, report.ticks_text(rows))
 
 
 def _timeline(options: argparse.Namespace) -> Answer:
-    spans = report.timeline(Run(options.run))
+    from logs.questions import gantt, report
+
+    spans = report.timeline(_opened(options.run))
     if options.svg:
         _write(options.svg, gantt.svg(spans).encode(), options.run)
     return Answer([asdict(span) for span in spans], report.timeline_text(spans))
@@ -148,6 +166,8 @@ def _timeline(options: argparse.Namespace) -> Answer:
 
 def _write(file: Path, data: bytes, run: Path) -> None:
     """Write a file, but never over the recording that it is about."""
+    from logs.recording.recovery import written
+
     if file.exists() and any(file.samefile(of) for of in (run, *run.glob("mission.*"))):
         raise InputError(str(file), "is the recording itself", "name another file")
     with written(file) as new:
@@ -155,19 +175,23 @@ def _write(file: Path, data: bytes, run: Path) -> None:
 
 
 def _llm(options: argparse.Namespace) -> Answer:
-    rows = report.llm(Run(options.run))
+    from logs.questions import report
+
+    rows = report.llm(_opened(options.run))
     return Answer(rows, report.llm_text(rows))
 
 
 def _dialog(options: argparse.Namespace) -> Answer:
-    rows = report.dialog(Run(options.run))
+    from logs.questions import report
+
+    rows = report.dialog(_opened(options.run))
     return Answer(rows, report.dialog_text(rows))
 
 
 def _frames(options: argparse.Namespace) -> Answer:
     from logs.questions import pictures
 
-    run, out = Run(options.run), options.out
+    run, out = _opened(options.run), options.out
     where = printable(out)
     if out.suffix == ".mp4":
         count = pictures.write_video(_Frames(run), out)
@@ -179,15 +203,16 @@ def _frames(options: argparse.Namespace) -> Answer:
 class _Frames:
     """The pictures of a run, as often as they are asked for."""
 
-    def __init__(self, run: Run) -> None:
+    def __init__(self, run: "Run") -> None:
         self._run = run
 
-    def __iter__(self) -> Iterator[At[bytes]]:
+    def __iter__(self) -> "Iterator[At[bytes]]":
         return self._run.frames()
 
 
 def _export(options: argparse.Namespace) -> Answer:
     from logs.questions.export import write_parquet
+    from logs.recording.choice import runs_in
 
     runs = list(runs_in(options.runs))
     exported = write_parquet(runs, options.parquet)
@@ -205,7 +230,9 @@ def _export(options: argparse.Namespace) -> Answer:
 
 
 def _compare(options: argparse.Namespace) -> Answer:
-    compared = comparison.compare(Run(options.one), Run(options.other))
+    from logs.questions import comparison
+
+    compared = comparison.compare(_opened(options.one), _opened(options.other))
     return Answer(
         asdict(compared), comparison.compare_text(compared), int(compared.parting is not None)
     )
@@ -227,6 +254,9 @@ def _replay(options: argparse.Namespace) -> Answer:
 
 
 def _recover(options: argparse.Namespace) -> Answer:
+    from logs.recording.reader import mcap_of
+    from logs.recording.recovery import first_damage, recover
+
     file = mcap_of(options.run)
     recovered, damage = recover(file), first_damage(file)
     where = "nothing was missing"

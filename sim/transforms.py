@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from executive.records import Transform
-from executive.types import Pose
+from executive.types import Pose, Quaternion, Vector3
 from sim.body.hardware import Hardware
 from sim.bullet.bodies import MAP, frame_pose
 from sim.engine import BulletClient
@@ -21,10 +21,13 @@ class FrameTree:
         self._hardware = hardware
         self._things = things
         self._last: dict[str, Pose] = {}
+        self._bodies: dict[int, tuple[Vector3, Quaternion]] = {}
+        """Where each thing's body was last, to the bit: most are asleep."""
 
     def all(self) -> tuple[Transform, ...]:
         """Every transform, as of now."""
         self._last.clear()
+        self._bodies.clear()
         return self.moved()
 
     def moved(self) -> tuple[Transform, ...]:
@@ -40,7 +43,11 @@ class FrameTree:
 
     def _moved_things(self) -> Iterator[Transform]:
         for body, name in self._things.items():
-            if self._differs(name, Pose(*self._client.getBasePositionAndOrientation(body))):
+            there = self._client.getBasePositionAndOrientation(body)
+            if there == self._bodies.get(body):
+                continue
+            self._bodies[body] = there
+            if self._differs(name, Pose(*there)):
                 yield Transform(MAP, name, frame_pose(self._client, body))
 
     def _seen_from(self, parent: Pose, pose: Pose) -> Pose:

@@ -10,9 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from executive.campaign.campaign import Campaign
-from executive.campaign.policies import POLICIES
-from executive.campaign.weeks.watching import Weeks
+from executive.campaign.names import DESCRIPTIONS
 from executive.config import KnowledgeSystem
 from executive.options import add_setting
 from executive.shell import entry_point
@@ -23,7 +21,14 @@ from executive.usage import Parser
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is left of a campaign, write its tables, return the exit code."""
     options = parser().parse_args(arguments)
-    return Weeks(options).run() if options.weeks else Campaign(options).run()
+    # heavy: not for --help or a wrong option
+    if options.weeks:
+        from executive.campaign.weeks.watching import Weeks
+
+        return Weeks(options).run()
+    from executive.campaign.campaign import Campaign
+
+    return Campaign(options).run()
 
 
 def parser() -> argparse.ArgumentParser:
@@ -34,7 +39,7 @@ def parser() -> argparse.ArgumentParser:
         "Stopped with Ctrl-C, the same command goes on.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="policies:\n"
-        + "".join(f"  {name:<17} {policy.description}\n" for name, policy in POLICIES.items())
+        + "".join(f"  {name:<17} {says}\n" for name, says in DESCRIPTIONS.items())
         + "  package.module:function\n"
         + f"  {'':<17} one of your own: a function from parts to parts\n"
         + "\nexit: 0 all missions have ended, 1 some had no working model, 2 bad usage or input, "
@@ -109,8 +114,8 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _policy(name: str) -> str:
-    if name not in POLICIES and ":" not in name:
-        ours = ", ".join(map(repr, POLICIES))
+    if name not in DESCRIPTIONS and ":" not in name:
+        ours = ", ".join(map(repr, DESCRIPTIONS))
         raise argparse.ArgumentTypeError(
             f"invalid choice: {name!r} (choose from {ours}, or package.module:function)"
         )

@@ -15,6 +15,7 @@ from typing import Any
 
 from executive.app.own import Named
 from executive.app.parts import Change, Parts, advised, as_they_are, guarded_model
+from executive.campaign.names import DESCRIPTIONS
 from executive.campaign.routes import routes_of
 from executive.config import KnowledgeSystem
 from executive.events import Inbox
@@ -226,9 +227,9 @@ PLAN = {"search": "plan"}
 BY_RANK = {**PAPER, "llm": "none", "elicit": "rank"}
 
 
-def baseline(description: str, rule: Callable[[Parts], Order]) -> Policy:
-    """A policy that goes by a rule instead of a language model."""
-    return Policy(description, BY_RANK, lambda parts: ordered(parts, rule))
+def baseline(rule: Callable[[Parts], Order]) -> tuple[Mapping[str, Any], Change]:
+    """What goes by a rule instead of a language model."""
+    return BY_RANK, lambda parts: ordered(parts, rule)
 
 
 # --- ablations: a language model that writes, less a part of what is built around it ---
@@ -323,52 +324,33 @@ def unverified(parts: Parts) -> Parts:
 WRITES = {**PAPER, "elicit": "generate", "grammar": False}
 HELD = {**WRITES, "grammar": True}
 
+_WAYS: Mapping[str, tuple[Mapping[str, Any], Change]] = {
+    "ours": (PAPER, as_they_are),
+    "paper": (PAPER, as_they_are),
+    "plan": (PLAN, as_they_are),
+    "ask-first": ({**PLAN, "question_s": 0.0}, as_they_are),
+    "rank": ({**PAPER, "elicit": "rank"}, as_they_are),
+    "generate": (WRITES, as_they_are),
+    "generate-form": (HELD, reworded(any_names)),
+    "generate-grammar": (HELD, as_they_are),
+    "unverified": (HELD, lambda parts: unverified(reworded(any_names)(parts))),
+    "llm-alone": (
+        {**HELD, "defaults": False},
+        lambda parts: unverified(reworded(no_home)(parts)),
+    ),
+    "nearest": baseline(nearest),
+    "random": baseline(by_chance),
+    "popularity": baseline(popular),
+    "true-first": baseline(true_first),
+    "too-sure": ({**PLAN, "elicit": "rank"}, too_sure),
+    "memory": ({**PAPER, "llm": "none", "defaults": False}, as_they_are),
+    "plan-unlearned": (PLAN, lambda parts: replace(parts, experience=None)),
+    "always-asks": ({**PAPER, "llm": "none", "defaults": False}, as_they_are),
+}
+"""What each sets and puts in."""
+
 POLICIES: Mapping[str, Policy] = MappingProxyType(
-    {
-        "ours": Policy("the executive as the settings make it, by the paper's stages", PAPER),
-        "paper": Policy("the same, by its own name", PAPER),
-        "plan": Policy("one belief, and a plan that weighs looking on against asking", PLAN),
-        "ask-first": Policy(
-            "the plan if questions cost nothing: the person is asked at once",
-            {**PLAN, "question_s": 0.0},
-        ),
-        "rank": Policy("the model scores the places that exist", {**PAPER, "elicit": "rank"}),
-        "generate": Policy("the model writes a list, which is verified: the paper's way", WRITES),
-        "generate-form": Policy("the same, held to the list's form", HELD, reworded(any_names)),
-        "generate-grammar": Policy("the same, held to the list's form and to real names", HELD),
-        "unverified": Policy(
-            "generate-form without the verification: the robot sets out for invented places",
-            HELD,
-            lambda parts: unverified(reworded(any_names)(parts)),
-        ),
-        "llm-alone": Policy(
-            "unverified, and the model is told nothing of the home, nor of default locations",
-            {**HELD, "defaults": False},
-            lambda parts: unverified(reworded(no_home)(parts)),
-        ),
-        "nearest": baseline("the nearest furniture first", nearest),
-        "random": baseline("any order", by_chance),
-        "popularity": baseline("where most other things are by the survey", popular),
-        "true-first": baseline("the bound: a stand-in that knows where the thing is", true_first),
-        "too-sure": Policy(
-            "a fault put in by hand: the plan, with a ranking that is far too sure of itself",
-            {**PLAN, "elicit": "rank"},
-            too_sure,
-        ),
-        "memory": Policy(
-            "what the robot remembers alone; what it does not, the person is asked",
-            {**PAPER, "llm": "none", "defaults": False},
-        ),
-        "plan-unlearned": Policy(
-            "the plan of a robot that remembers and learns nothing of it",
-            PLAN,
-            lambda parts: replace(parts, experience=None),
-        ),
-        "always-asks": Policy(
-            "a fault put in by hand: neither default locations nor a model, so the person is asked",
-            {**PAPER, "llm": "none", "defaults": False},
-        ),
-    }
+    {name: Policy(says, *_WAYS[name]) for name, says in DESCRIPTIONS.items()}
 )
 """By name."""
 

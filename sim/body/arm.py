@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from executive.geometry import Floats
 from sim.body.hardware import ARM, Hardware
 from sim.body.skill import CONTROL_S, CannotError, Skill, wait_until
+from sim.body.way import Way
 
 SPEED = 0.6
 """Share of the joints' speed limits that a motion uses."""
@@ -43,14 +44,14 @@ def follow(
     points = np.array([hardware.arm_positions, *path])
     durations = (np.abs(np.diff(points, axis=0)) / (speed * hardware.arm_speed_limits)).max(axis=1)
     times = np.concatenate(([0.0], np.cumsum(durations)))
-    stops = times[_corners(points)]
+    stops, way = times[_corners(points)], Way(times, points)
     reached, rate = 0.0, 0.0
     before = points[0]
     while reached < times[-1]:
         next_stop = stops[np.searchsorted(stops, reached, side="right")]
         rate = min(1.0, rate + CONTROL_S / _RAMP_S, _slowing(next_stop - reached))
         reached = min(times[-1], reached + rate * CONTROL_S)
-        now = np.array([np.interp(reached, times, joint) for joint in points.T])
+        now = way.at(reached)
         hardware.command_arm(now, (now - before) / CONTROL_S)
         before = now
         yield

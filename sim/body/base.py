@@ -1,5 +1,6 @@
 """Driving the omnidirectional base along a path, with bounded speed and acceleration."""
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -8,6 +9,7 @@ import numpy as np
 from executive.geometry import Floats
 from sim.body.hardware import Hardware
 from sim.body.skill import CONTROL_S, CannotError, Skill
+from sim.body.way import Way
 
 BRAKING = 2.0
 TURN_BRAKING = 4.0
@@ -81,8 +83,8 @@ def drive(
     """
     follower = _Follower(np.array([hardware.base_pose[:2], *path]), yaw, limits)
     progress = _Progress()
-    while not follower.arrived(hardware.base_pose, hardware.base_velocity):
-        velocity = follower.velocity(hardware.base_pose)
+    while not follower.arrived(*(state := hardware.base_state)):
+        velocity = follower.velocity(state[0])
         hardware.command_base(velocity)
         yield
         if blocked(follower.ahead()):
@@ -162,33 +164,35 @@ class _Follower:
         self._limits = limits
         self._lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
         self._ends = np.concatenate(([0.0], np.cumsum(self._lengths)))
+        self._end = float(self._ends[-1])
+        self._way = Way(self._ends, points)
         self._corner_speeds = _corner_speeds(points, limits.acceleration)
         self._done = 0.0
         self._command = np.zeros(3)
 
     def arrived(self, pose: Floats, velocity: Floats) -> bool:
         """Whether it stands at the end."""
-        off = np.linalg.norm(pose[:2] - self._points[-1])
+        off = _length(pose[:2] - self._points[-1])
         still = np.abs(velocity).max() < 0.03
         return bool(still and off < NEAR and abs(_turn(pose[2], self._yaw)) < NEAR_ANGLE)
 
     def left(self, pose: Floats) -> tuple[float, float]:
         """How far it is to the end along the path (metres), and the turn to its yaw (radians)."""
-        way = self._ends[-1] - self._done + np.linalg.norm(self._at(self._done) - pose[:2])
-        return float(way), abs(_turn(pose[2], self._yaw))
+        way = self._end - self._done + _length(self._way.at(self._done) - pose[:2])
+        return way, abs(_turn(pose[2], self._yaw))
 
     def ahead(self) -> Floats:
         """Points (n, 2) of the way that is left, _CHECKED_M apart."""
-        lengths = np.append(np.arange(self._done, self._ends[-1], _CHECKED_M), self._ends[-1])
-        return np.column_stack([np.interp(lengths, self._ends, axis) for axis in self._points.T])
+        lengths = np.append(np.arange(self._done, self._end, _CHECKED_M), self._end)
+        return self._way.at_each(lengths)
 
     def velocity(self, pose: Floats) -> Floats:
         """The next velocity command in `map`."""
         self._advance(pose[:2])
-        ahead = max(_SHORTEST_LOOKAHEAD, _LOOKAHEAD_S * float(np.linalg.norm(self._command[:2])))
-        toward = self._at(self._done + ahead) - pose[:2]
-        distance = float(np.linalg.norm(toward))
-        left = self._ends[-1] - self._done
+        ahead = max(_SHORTEST_LOOKAHEAD, _LOOKAHEAD_S * _length(self._command[:2]))
+        toward = self._way.at(self._done + ahead) - pose[:2]
+        distance = _length(toward)
+        left = self._end - self._done
         if left < ahead:
             left = distance
         limits, wanted = self._limits, np.zeros(3)
@@ -217,12 +221,9 @@ class _Follower:
 
     def _advance(self, position: Floats) -> None:
         """Move the done length on to the nearest point of the next bit of path."""
-        ahead = np.minimum(self._done + _NEXT_BIT, self._ends[-1])
-        spots = np.column_stack([np.interp(ahead, self._ends, axis) for axis in self._points.T])
-        self._done = float(ahead[np.argmin(np.linalg.norm(spots - position, axis=1))])
-
-    def _at(self, length: float) -> Floats:
-        return np.array([np.interp(length, self._ends, axis) for axis in self._points.T])
+        ahead = np.minimum(self._done + _NEXT_BIT, self._end)
+        off = self._way.at_each(ahead) - position
+        self._done = float(ahead[np.sqrt((off * off).sum(axis=1)).argmin()])
 
 
 def _corner_speeds(points: Floats, acceleration: float) -> Floats:
@@ -237,21 +238,26 @@ def _corner_speeds(points: Floats, acceleration: float) -> Floats:
 
 def _slowing(distance: float, fastest: float, deceleration: float) -> float:
     """The speed from which one can still stop within a distance, gentler for the last bit."""
-    return float(min(fastest, 0.9 * np.sqrt(2 * deceleration * distance), 4.0 * distance))
+    return min(fastest, 0.9 * math.sqrt(2 * deceleration * distance), 4.0 * distance)
 
 
 def _toward(now: Floats, wanted: Floats, acceleration: float, turn_acceleration: float) -> Floats:
     """The wanted velocity, or as near to it as one control period allows."""
     change = wanted - now
-    size = float(np.linalg.norm(change[:2]))
+    size = _length(change[:2])
     if size > acceleration * CONTROL_S:
         change[:2] *= acceleration * CONTROL_S / size
     most = turn_acceleration * CONTROL_S
-    change[2] = np.clip(change[2], -most, most)
+    change[2] = min(max(change[2], -most), most)
     next_velocity: Floats = now + change
     return next_velocity
 
 
 def _turn(start: float, end: float) -> float:
     """The shorter turn from one yaw to another (radians)."""
-    return float(np.remainder(end - start + np.pi, 2 * np.pi) - np.pi)
+    return float((end - start + math.pi) % math.tau - math.pi)
+
+
+def _length(vector: Floats) -> float:
+    """What `np.linalg.norm` says, to the bit."""
+    return math.sqrt(vector.dot(vector))

@@ -100,12 +100,17 @@ class Hardware:
     @property
     def base_pose(self) -> Floats:
         """(x, y, yaw) of `base_link` in `map`; yaw counts on past pi."""
-        return self._states(self._base)[0]
+        return self.base_state[0]
 
     @property
     def base_velocity(self) -> Floats:
         """(m/s, m/s, rad/s) in `map`."""
-        return self._states(self._base)[1]
+        return self.base_state[1]
+
+    @property
+    def base_state(self) -> tuple[Floats, Floats]:
+        """Pose and velocity, as below."""
+        return self._states(self._base)
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
         """Position and velocity of each joint of head, lift, arm and fingers (m, rad; a second)."""

@@ -4,6 +4,8 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
+from inspect import isbuiltin
 
 from sim.engine import BulletClient
 from sim.engine import pybullet as p
@@ -15,6 +17,10 @@ def connect(gui: bool = False) -> BulletClient:
     """An empty world with gravity, computed in this process; `gui` opens PyBullet's own window."""
     with _without_stdout():
         client = BulletClient(p.GUI if gui else p.DIRECT)
+    for name, function in vars(p).items():
+        if isbuiltin(function) and name != "disconnect":
+            # The client itself looks each function up anew, whenever one is called.
+            setattr(client, name, partial(function, physicsClientId=client._client))
     client.setGravity(0.0, 0.0, -GRAVITY_M_S2)
     return client
 

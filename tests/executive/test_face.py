@@ -87,3 +87,15 @@ def test_the_house_itself_does_not_go_through_its_face():
         and any(alias.name in executive.__all__ for alias in node.names)
     ]
     assert through == []
+
+
+@pytest.mark.parametrize(
+    "door",
+    [
+        *("executive.__main__", "executive.campaign.__main__", "kb.__main__", "logs.__main__"),
+        *("kb.benchmark.__main__", "sim.__main__", "trees.__main__"),
+    ],
+)
+def test_no_door_loads_what_its_help_does_not_need(door: str) -> None:
+    heavy = ("numpy", "scipy", "mcap", "rdflib", "py_trees", "lark", "executive.types")
+    assert loaded(f"import {door}", heavy) == "[]"

@@ -4,6 +4,7 @@ import importlib.util
 import itertools
 import json
 import math
+from contextlib import closing
 from dataclasses import replace
 from math import log
 
@@ -15,11 +16,11 @@ from executive.events import Inbox
 from executive.types import Place, RankRequest
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import Known
-from kb.benchmark.__main__ import CHANCE, HINDSIGHT, POPULARITY, WORDS, table
 from kb.benchmark.calibration import calibration
 from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
 from kb.benchmark.placements import Placements, preposition
 from kb.benchmark.questions import DataSet, Item, placements, survey
+from kb.benchmark.running import CHANCE, HINDSIGHT, POPULARITY, WORDS, _model, table
 from kb.benchmark.trials import (
     ALIKE,
     COUNTS,
@@ -285,7 +286,7 @@ def test_the_embedded_model_learns_from_what_is_known(file, capsys):
          Item(Known("pliers", "", ("shelf",)), others)),
     )  # fmt: skip
     inbox = Inbox()
-    with benchmark.closing(benchmark._model(benchmark.parser().parse_args([]), inbox)) as model:
+    with closing(_model(benchmark.parser().parse_args([]), inbox)) as model:
         rows = table(data, ranking(data, model, inbox, Prompts.load()), Journal(None, {}))
     assert rows[-1].way == RANKED
     assert rows[-1].measures.first == 1
