@@ -40,6 +40,10 @@ function paragraphs(words) {
   return words.split(/\n\s*\n/).filter((one) => one.trim()).map((one) => element("p", {}, one.trim()));
 }
 
+function outOfTime(step) {
+  return step.out_of_time ? [element("p", {}, text("study.out_of_time"))] : [];
+}
+
 function button(label, onclick, kind = "") {
   return element("button", { type: "button", class: `step ${kind}`, onclick }, text(label));
 }
@@ -56,7 +60,7 @@ function showSheet(step) {
   sheet.replaceChildren(
     step.steps ? element("p", { class: "place" }, text("study.place", { ...step, now })) : "",
     step.steps ? element("progress", { max: step.steps, value: step.done, "aria-hidden": "true" }) : "",
-    title, ...paragraphs(wordsOf(step)), ...inputs(step));
+    title, ...outOfTime(step), ...paragraphs(wordsOf(step)), ...inputs(step));
   scrollTo(0, 0);
   title.focus({ preventScroll: true });
 }
@@ -108,7 +112,7 @@ function showTask(step, again) {
   const ways = element("div", { class: "buttons" });
   task.replaceChildren(title,
     element("div", { class: "words", tabindex: "0", role: "group", "aria-labelledby": "task-title" },
-      ...paragraphs(step.text)),
+      ...outOfTime(step), ...paragraphs(step.text)),
     ways, trouble());
   if (step.waits) ways.append(element("p", {}, text("study.waits")));
   else offer(ways);

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from browsing import DESKTOP, PHONE, SMALLEST, opened, say, wait_until_ready
+from browsing import DESKTOP, SMALLEST, opened, say, wait_until_ready
 from playwright.sync_api import Browser, expect
 from playwright.sync_api import Page as Tab
 from studying import begun, data_in, end_task, led, next_step, study_of, take_part, written
@@ -84,7 +84,9 @@ def test_a_task_is_given_up_while_the_robot_asks_and_the_next_one_begins(
 def test_when_the_time_is_over_the_participant_is_led_on(browser: Browser, tmp_path: Path) -> None:
     data = data_in(tmp_path, study_of(1, limit_s=0.5))
     with led(data, "P01") as one, opened(browser, one.page) as tab:
-        take_part(tab, random.Random(0), lambda tab, chance: None)
+        take_part(tab, random.Random(0), lambda tab, chance: None, until="questionnaire")
+        expect(tab.locator("#sheet")).to_contain_text("The time for the last task is over.")
+        take_part(tab, random.Random(0))
     assert [row.ended for row in tables(data).results] == ["time"]
 
 
@@ -119,8 +121,8 @@ def test_what_is_left_out_is_told_and_focused(browser: Browser, tmp_path: Path) 
 
 @pytest.mark.parametrize(
     ("size", "colors"),
-    [(DESKTOP, "light"), (PHONE, "dark"), (SMALLEST, "light")],
-    ids=["desktop", "phone", "smallest"],
+    [(DESKTOP, "light"), (SMALLEST, "dark")],
+    ids=["desktop", "smallest"],
 )
 def test_axe_finds_no_fault_and_nothing_is_cut_off(
     browser: Browser, tmp_path: Path, size: dict[str, int], colors: str
