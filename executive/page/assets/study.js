@@ -1,7 +1,7 @@
 // A study: what the participant reads, answers and does, around the page by which they talk.
 
 import { element } from "./elements.js";
-import { asked, answersIn } from "./questions.js";
+import { answersIn, asked, mark, restore } from "./questions.js";
 import { OVER, send } from "./robot.js";
 import { text } from "./texts.js";
 
@@ -28,6 +28,7 @@ function show(step) {
 async function done(value, step = shown.step) {
   try {
     await send("/study", { step, value });
+    sessionStorage.removeItem("draft");
   } catch (error) {
     if (error === OVER) return; // another page was faster
     for (const place of document.querySelectorAll(".study-trouble")) {
@@ -94,14 +95,28 @@ function form(step) {
   const told = trouble();
   const made = element("form", { novalidate: true }, ...items, told,
     buttons(element("button", { type: "submit", class: "step main" }, text("study.send"))));
+  restore(items, step.items, draft(step));
+  made.addEventListener("input", () => keep(step, answersIn(items, step.items).answers));
   made.addEventListener("submit", (event) => {
     event.preventDefault();
     const { answers, missing } = answersIn(items, step.items);
+    mark(items, missing);
     told.textContent = missing.length ? text("study.missing_count", { count: missing.length }) : "";
     if (missing.length) missing[0].querySelector("input, textarea").focus();
     else done(answers, step.step);
   });
   return made;
+}
+
+// What was filled in and not sent outlives a page that is loaded again, and no more.
+
+function draft({ participant, step }) {
+  const kept = JSON.parse(sessionStorage.getItem("draft") ?? "{}");
+  return kept.participant === participant && kept.step === step ? kept.answers : {};
+}
+
+function keep({ participant, step }, answers) {
+  sessionStorage.setItem("draft", JSON.stringify({ participant, step, answers }));
 }
 
 // --- tasks ---

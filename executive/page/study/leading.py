@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,8 @@ from executive.page.study.file import settings_of
 from executive.page.study.page import StudyPage
 from executive.page.study.showing import Shown, declined, shown
 from executive.page.study.steps import Kind, Step, steps
-from executive.page.study.tables import FINISHED, GAVE_UP, TIME, write_tables
-from executive.page.study.watching import Watch
+from executive.page.study.tables import FINISHED, GAVE_UP, LEFT, STOP, TIME, write_tables
+from executive.page.study.watching import SteppedIn, Watch
 from executive.types import Outcome
 
 AGREED, DECLINED, READ = "agreed", "declined", "read"
@@ -165,12 +166,19 @@ class _Talks:
             if session.stopped_by not in ("", THE_PERSON):
                 raise KeyboardInterrupt
 
+    def _stepped_in(self) -> list[SteppedIn]:
+        """Who stepped in; the last stop of a participant who left is no stop."""
+        seen = self._watch.take_all()
+        theirs = [i for i, one in enumerate(seen) if (one.what, one.by) == (STOP, THE_PERSON)]
+        if self.page.person.left_it_running and theirs:
+            seen[theirs[-1]] = replace(seen[theirs[-1]], what=LEFT)
+        return seen
+
     def _write(self, words: str, outcome: Outcome, where: dict[str, Any]) -> None:
         folder = outcome.run_dir
         recording = str(Path(folder).relative_to(self._root)) if folder else ""
-        for one in self._watch.take_all():
-            said = {"what": one.what, "by": one.by, "time_s": one.time_s}
-            self._journal.append("intervention", recording=recording, **said, **where)
+        for one in self._stepped_in():
+            self._journal.append("intervention", recording=recording, **asdict(one), **where)
         self._journal.append(
             "mission",
             words=words,

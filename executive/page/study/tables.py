@@ -9,6 +9,7 @@ from typing import get_type_hints
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from executive.events import THE_PERSON
 from executive.page.study.data import Entry, Journal, StudyData, number_of, write_whole
 from executive.page.study.file import Study
 from executive.types import MissionStatus
@@ -50,7 +51,7 @@ class TaskRow:
     llm_calls: int
     mission_time_s: float
     stops: int
-    """How often the participant said stop, or pressed it."""
+    """How often the participant said stop, or pressed it; that the task was left is none."""
     interventions: int
     """Of the experimenter."""
     consent_sha256: str
@@ -114,7 +115,8 @@ class Tables:
     interventions: tuple[InterventionRow, ...]
 
 
-THE_STOP = "stop"
+STOP, LEFT = "stop", "left"
+"""What somebody does who steps in: stops the robot, or leaves the task while it is at work."""
 FINISHED, GAVE_UP, TIME = "finished", "gave_up", "time"
 """How tasks end: the participant says so, or gives up, or has had the time."""
 
@@ -173,7 +175,7 @@ def _result(
     missions = [e for e in last if e["kind"] == "mission"]
     steps_in = [e for e in last if e["kind"] == "intervention"]
     states = [e["status"] for e in missions]
-    stops = sum(e["what"] == THE_STOP for e in steps_in)
+    theirs = [e["what"] for e in steps_in if e["by"] == THE_PERSON]
     return TaskRow(
         participant=journal.code,
         number=number_of(journal.code),
@@ -193,8 +195,8 @@ def _result(
         visits=sum(e["visits"] for e in missions),
         llm_calls=sum(e["llm_calls"] for e in missions),
         mission_time_s=sum(e["mission_time_s"] for e in missions),
-        stops=stops,
-        interventions=len(steps_in) - stops,
+        stops=theirs.count(STOP),
+        interventions=len(steps_in) - len(theirs),
         consent_sha256=consent,
         recordings=tuple(e["recording"] for e in missions if e["recording"]),
     )
