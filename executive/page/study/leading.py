@@ -15,7 +15,7 @@ from executive.page.study.file import settings_of
 from executive.page.study.page import StudyPage
 from executive.page.study.showing import Shown, declined, shown
 from executive.page.study.steps import Kind, Step, steps
-from executive.page.study.tables import FINISHED, GAVE_UP, LEFT, STOP, TIME, write_tables
+from executive.page.study.tables import FINISHED, GAVE_UP, LEFT, STOP, TIME, renew_tables
 from executive.page.study.watching import SteppedIn, Watch
 from executive.types import Outcome
 
@@ -77,7 +77,7 @@ class Leader:
             case Kind.THANKS:
                 self._page.show(seen, lambda value: "It is over.")
                 self._note("finished", step)
-                write_tables(self._data)
+                renew_tables(self._data)
             case _:
                 self._page.show(seen, one_of(READ))
                 self._page.wait()
@@ -124,7 +124,7 @@ class Leader:
             ended=talks.page.person.ended,
             duration_s=round(time.monotonic() - began, 3),
         )
-        write_tables(self._data)
+        renew_tables(self._data)
 
     @contextmanager
     def _meeting(self, step: Step) -> "Iterator[_Talks]":

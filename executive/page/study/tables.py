@@ -1,6 +1,7 @@
 """The tables of a study, made of the journals: for each a row as a dataclass, and a file."""
 
 import io
+import logging
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
@@ -9,10 +10,13 @@ from typing import get_type_hints
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from executive.errors import ExecutiveError
 from executive.events import THE_PERSON
 from executive.page.study.data import Entry, Journal, StudyData, number_of, write_whole
 from executive.page.study.file import Study
 from executive.types import MissionStatus
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -150,6 +154,14 @@ def write_tables(data: StudyData) -> Tables:
         _write(data.folder / "scores.parquet", ScoreRow, made.scores)
         _write(data.folder / "interventions.parquet", InterventionRow, made.interventions)
     return made
+
+
+def renew_tables(data: StudyData) -> None:
+    """Write them if that is possible; nobody is kept waiting for it, as it can be done later."""
+    try:
+        write_tables(data)
+    except (OSError, ExecutiveError) as error:
+        log.warning("the tables are not up to date, and will be made again: %s", error)
 
 
 def _results(journal: Journal, entries: Sequence[Entry]) -> Iterator[TaskRow]:
