@@ -3,7 +3,6 @@
 const token = new URLSearchParams(location.search).get("token") ?? "";
 const AGAIN_MS = 1500;
 const STOP_AGAIN_MS = 400;
-export const OVER = new Error("over");
 
 export function address(path, values = {}) {
   return `${path}?${new URLSearchParams({ ...values, token })}`;
@@ -39,13 +38,17 @@ async function wasRefused() {
   }
 }
 
-export async function send(path, body) {
-  const answer = await fetch(address(path), {
+export function post(path, body) {
+  return fetch(address(path), {
     method: "POST",
     headers: { "content-type": "application/json" },
     body: JSON.stringify(body),
   });
-  if (!answer.ok) throw answer.status === 409 ? OVER : new Error(answer.status);
+}
+
+async function send(path, body) {
+  const answer = await post(path, body);
+  if (!answer.ok) throw new Error(answer.status);
 }
 
 export function say(words) {

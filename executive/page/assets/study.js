@@ -2,7 +2,7 @@
 
 import { element } from "./elements.js";
 import { answersIn, asked, mark, restore } from "./questions.js";
-import { OVER, send } from "./robot.js";
+import { post } from "./robot.js";
 import { text } from "./texts.js";
 
 const sheet = element("main", { id: "sheet", "aria-labelledby": "sheet-title" });
@@ -26,14 +26,11 @@ function show(step) {
 }
 
 async function done(value, step = shown.step) {
-  try {
-    await send("/study", { step, value });
-    sessionStorage.removeItem("draft");
-  } catch (error) {
-    if (error === OVER) return; // another page was faster
-    for (const place of document.querySelectorAll(".study-trouble")) {
-      place.textContent = text("study.lost");
-    }
+  const answer = await post("/study", { step, value }).catch(() => null);
+  if (answer?.ok) return sessionStorage.removeItem("draft");
+  if (answer?.status === 409) return; // another page was faster
+  for (const place of document.querySelectorAll(".study-trouble")) {
+    place.textContent = text("study.lost");
   }
 }
 
