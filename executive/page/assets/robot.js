@@ -3,6 +3,7 @@
 const token = new URLSearchParams(location.search).get("token") ?? "";
 const AGAIN_MS = 1500;
 const STOP_AGAIN_MS = 400;
+export const OVER = new Error("over");
 
 export function address(path, values = {}) {
   return `${path}?${new URLSearchParams({ ...values, token })}`;
@@ -48,7 +49,7 @@ export function post(path, body) {
 
 async function send(path, body) {
   const answer = await post(path, body);
-  if (!answer.ok) throw new Error(answer.status);
+  if (!answer.ok) throw answer.status === 409 ? OVER : new Error(answer.status);
 }
 
 export function say(words) {
