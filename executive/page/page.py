@@ -5,7 +5,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
-from starlette.applications import Starlette
+from starlette.routing import Route
 
 from executive.errors import InputError
 from executive.events import Inbox
@@ -48,7 +48,7 @@ class Page:
         self.person = PagePerson(inbox, self.board)
         self._portraits = Portraits({})
         self._runs: Path | None = None
-        self._server.start(Guard(self._site(), token, address.host, PUBLIC))
+        self._server.start(Guard(site(self), token, address.host, PUBLIC))
 
     def __enter__(self) -> Self:
         """Nothing more to open."""
@@ -70,10 +70,6 @@ class Page:
         self.board.end()
         self._server.close()
 
-    def _site(self) -> Starlette:
-        """What is served."""
-        return site(self)
-
     def follow(self, session: "Session") -> None:
         """Show the home and the missions of this session."""
         home = session.parts.home
@@ -85,6 +81,10 @@ class Page:
         self.board.flush()
 
     # --- what the server asks; in its own threads ---
+
+    def own_routes(self) -> tuple[Route, ...]:
+        """What is answered besides the page, or in its place."""
+        return ()
 
     def says(self, words: str) -> None:
         """The person sent words."""

@@ -2,7 +2,7 @@
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, Protocol
@@ -45,6 +45,10 @@ class Behind(Protocol):
 
     board: Board
 
+    def own_routes(self) -> Sequence[Route]:
+        """What is answered besides the page, or in its place."""
+        ...
+
     def says(self, words: str) -> None:
         """The person sent words."""
         ...
@@ -75,6 +79,7 @@ def site(behind: Behind) -> Starlette:
     answers = _Answers(behind)
     return Starlette(
         routes=[
+            *behind.own_routes(),
             Route("/", answers.page),
             *(Route(path, answers.asset) for path in sorted(PUBLIC)),
             Route("/events", answers.events),

@@ -90,7 +90,7 @@ def led(data: StudyData, code: str, *, to_the_end: bool = True) -> Iterator[Led]
                 made.leader.interrupt("the test")
                 thread.join(60)
         if to_the_end and made.wrong:
-            raise made.wrong[0]
+            raise AssertionError("the participant was not led to the end") from made.wrong[0]
 
 
 def task_done(tab: Tab, chance: random.Random) -> None:
@@ -185,10 +185,10 @@ def begun(
         [*command, "--page", "0", *more], stderr=subprocess.PIPE, text=True
     ) as process:
         assert process.stderr is not None
-        found = re.search(r"open (http\S+)", process.stderr.readline())
+        found = re.search(r"open (http\S+token=(\S+))", process.stderr.readline())
         assert found
         try:
-            yield process, SimpleNamespace(url=found[1])
+            yield process, SimpleNamespace(url=found[1], token=found[2])
         finally:
             process.kill()
 

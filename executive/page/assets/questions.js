@@ -46,11 +46,14 @@ function slid(item, words, points, ends) {
     state.textContent = "";
     slider.setAttribute("aria-valuetext", `${slider.value} / ${points}`);
   };
-  for (const kind of ["input", "change", "click"]) slider.addEventListener(kind, set);
+  const meant = () => slider.dispatchEvent(new Event("input", { bubbles: true }));
+  slider.addEventListener("input", set);
+  slider.addEventListener("change", set);
+  slider.addEventListener("click", meant); // the middle is an answer, too
   slider.addEventListener("keydown", (event) => {
     if (event.key === "Enter" || event.key === " ") {
-      event.preventDefault(); // the middle is an answer, too
-      set();
+      event.preventDefault();
+      meant();
     }
   });
   return [shownEnds(ends, state), slider];
@@ -68,11 +71,28 @@ export function answersIn(fields, items) {
   items.forEach((item, index) => {
     const value = valueOf(fields[index]);
     if (value !== null) answers[item.name] = value;
-    const lacks = value === null && item.needed;
-    fields[index].querySelector(".missing").hidden = !lacks;
-    if (lacks) missing.push(fields[index]);
+    else if (item.needed) missing.push(fields[index]);
   });
   return { answers, missing };
+}
+
+export function mark(fields, missing) {
+  for (const field of fields) field.querySelector(".missing").hidden = !missing.includes(field);
+}
+
+/** Fills in what was answered before. */
+export function restore(fields, items, answers) {
+  items.forEach((item, index) => {
+    const value = answers[item.name];
+    if (value === undefined) return;
+    const field = fields[index];
+    const point = field.querySelector(`input[type=radio][value="${Number(value)}"]`);
+    if (point) point.checked = true;
+    for (const other of field.querySelectorAll("textarea, input[type=range]")) {
+      other.value = value;
+      other.dispatchEvent(new Event("change"));
+    }
+  });
 }
 
 function valueOf(field) {

@@ -39,12 +39,16 @@ async function wasRefused() {
   }
 }
 
-export async function send(path, body) {
-  const answer = await fetch(address(path), {
+export function post(path, body) {
+  return fetch(address(path), {
     method: "POST",
     headers: { "content-type": "application/json" },
     body: JSON.stringify(body),
   });
+}
+
+async function send(path, body) {
+  const answer = await post(path, body);
   if (!answer.ok) throw answer.status === 409 ? OVER : new Error(answer.status);
 }
 

@@ -1,8 +1,8 @@
 // A study: what the participant reads, answers and does, around the page by which they talk.
 
 import { element } from "./elements.js";
-import { asked, answersIn } from "./questions.js";
-import { OVER, send } from "./robot.js";
+import { answersIn, asked, mark, restore } from "./questions.js";
+import { post } from "./robot.js";
 import { text } from "./texts.js";
 
 const sheet = element("main", { id: "sheet", "aria-labelledby": "sheet-title" });
@@ -26,18 +26,20 @@ function show(step) {
 }
 
 async function done(value, step = shown.step) {
-  try {
-    await send("/study", { step, value });
-  } catch (error) {
-    if (error === OVER) return; // another page was faster
-    for (const place of document.querySelectorAll(".study-trouble")) {
-      place.textContent = text("study.lost");
-    }
+  const answer = await post("/study", { step, value }).catch(() => null);
+  if (answer?.ok) return sessionStorage.removeItem("draft");
+  if (answer?.status === 409) return; // another page was faster
+  for (const place of document.querySelectorAll(".study-trouble")) {
+    place.textContent = text("study.lost");
   }
 }
 
 function paragraphs(words) {
   return words.split(/\n\s*\n/).filter((one) => one.trim()).map((one) => element("p", {}, one.trim()));
+}
+
+function outOfTime(step) {
+  return step.out_of_time ? [element("p", {}, text("study.out_of_time"))] : [];
 }
 
 function button(label, onclick, kind = "") {
@@ -56,7 +58,7 @@ function showSheet(step) {
   sheet.replaceChildren(
     step.steps ? element("p", { class: "place" }, text("study.place", { ...step, now })) : "",
     step.steps ? element("progress", { max: step.steps, value: step.done, "aria-hidden": "true" }) : "",
-    title, ...paragraphs(wordsOf(step)), ...inputs(step));
+    title, ...outOfTime(step), ...paragraphs(wordsOf(step)), ...inputs(step));
   scrollTo(0, 0);
   title.focus({ preventScroll: true });
 }
@@ -90,14 +92,28 @@ function form(step) {
   const told = trouble();
   const made = element("form", { novalidate: true }, ...items, told,
     buttons(element("button", { type: "submit", class: "step main" }, text("study.send"))));
+  restore(items, step.items, draft(step));
+  made.addEventListener("input", () => keep(step, answersIn(items, step.items).answers));
   made.addEventListener("submit", (event) => {
     event.preventDefault();
     const { answers, missing } = answersIn(items, step.items);
+    mark(items, missing);
     told.textContent = missing.length ? text("study.missing_count", { count: missing.length }) : "";
     if (missing.length) missing[0].querySelector("input, textarea").focus();
     else done(answers, step.step);
   });
   return made;
+}
+
+// What was filled in and not sent outlives a page that is loaded again, and no more.
+
+function draft({ participant, step }) {
+  const kept = JSON.parse(sessionStorage.getItem("draft") ?? "{}");
+  return kept.participant === participant && kept.step === step ? kept.answers : {};
+}
+
+function keep({ participant, step }, answers) {
+  sessionStorage.setItem("draft", JSON.stringify({ participant, step, answers }));
 }
 
 // --- tasks ---
@@ -108,7 +124,7 @@ function showTask(step, again) {
   const ways = element("div", { class: "buttons" });
   task.replaceChildren(title,
     element("div", { class: "words", tabindex: "0", role: "group", "aria-labelledby": "task-title" },
-      ...paragraphs(step.text)),
+      ...outOfTime(step), ...paragraphs(step.text)),
     ways, trouble());
   if (step.waits) ways.append(element("p", {}, text("study.waits")));
   else offer(ways);

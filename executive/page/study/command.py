@@ -15,7 +15,7 @@ from executive.page.study.data import StudyData, code_of, number_of
 from executive.page.study.file import Study, read_study
 from executive.page.study.order import rows
 from executive.page.study.steps import order
-from executive.page.study.tables import write_tables
+from executive.page.study.tables import renew_tables
 from executive.page.study.withdrawal import withdraw
 from executive.shell import DONE, NOT_DONE, all_is_kept, on_stop_signals
 from executive.text import counted, printable
@@ -122,11 +122,11 @@ def lead(data: StudyData, code: str, address: Any) -> int:
             with on_stop_signals(_stopping(leader)):
                 took_part = leader.lead()
         finally:
-            write_tables(data)
+            renew_tables(data)
         if not took_part:
             data.erase(journal)
     if not took_part:
-        write_tables(data)
+        renew_tables(data)
         print(f"{code} takes no part; nothing was kept.", file=sys.stderr)
         return NOT_DONE
     print(f"{code} has come to the end.", file=sys.stderr)

@@ -69,7 +69,7 @@ class Journal:
             InputError: if that is not possible.
         """
         at = datetime.now(UTC).isoformat(timespec="milliseconds")
-        line = json.dumps({"kind": kind, "at": at, **values}) + "\n"
+        line = json.dumps({"kind": kind, "participant": self.code, "at": at, **values}) + "\n"
         try:
             append_line(self._file, line.encode())
         except OSError as error:

@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +13,10 @@ from executive.events import THE_PERSON, Inbox, StopRequested
 from executive.page.study.data import RUNS, Journal, StudyData, number_of
 from executive.page.study.file import settings_of
 from executive.page.study.page import StudyPage
-from executive.page.study.showing import declined, shown
+from executive.page.study.showing import Shown, declined, shown
 from executive.page.study.steps import Kind, Step, steps
-from executive.page.study.tables import FINISHED, GAVE_UP, TIME, write_tables
-from executive.page.study.watching import Watch
+from executive.page.study.tables import FINISHED, GAVE_UP, LEFT, STOP, TIME, renew_tables
+from executive.page.study.watching import SteppedIn, Watch
 from executive.types import Outcome
 
 AGREED, DECLINED, READ = "agreed", "declined", "read"
@@ -30,6 +31,7 @@ class Leader:
         self._journal, self._page = journal, page
         self._inbox = Inbox()
         self._talks: _Talks | None = None
+        self._out_of_time = False
 
     def lead(self) -> bool:
         """Go on to the end; whether they took part.
@@ -47,8 +49,7 @@ class Leader:
                 if self._talks and step.kind is not Kind.TASK:
                     opened.close()
                     self._talks = None
-                seen = shown(self._study, self._journal.code, step, over, len(todo))
-                if not self._go(step, seen, opened):
+                if not self._go(step, self._seen(step, over, len(todo)), opened):
                     self._page.show(declined(self._journal.code), lambda value: "It is over.")
                     return False
         return True
@@ -58,7 +59,13 @@ class Leader:
         self._inbox.post(StopRequested(by))
         self._page.interrupt()
 
-    def _go(self, step: Step, seen: Any, opened: ExitStack) -> bool:
+    def _seen(self, step: Step, over: int, steps: int) -> Shown:
+        """What the page is told; that the time of the task before was over, once."""
+        told = {"out_of_time": self._out_of_time}
+        self._out_of_time = False
+        return {**shown(self._study, self._journal.code, step, over, steps), **told}
+
+    def _go(self, step: Step, seen: Shown, opened: ExitStack) -> bool:
         """One step; False if the participant takes no part."""
         match step.kind:
             case Kind.CONSENT:
@@ -70,7 +77,7 @@ class Leader:
             case Kind.THANKS:
                 self._page.show(seen, lambda value: "It is over.")
                 self._note("finished", step)
-                write_tables(self._data)
+                renew_tables(self._data)
             case _:
                 self._page.show(seen, one_of(READ))
                 self._page.wait()
@@ -82,20 +89,20 @@ class Leader:
         where = {"condition": step.condition, "position": step.position}
         self._journal.append(kind, done=step.key, **where, **values)
 
-    def _consent(self, step: Step, seen: Any) -> bool:
+    def _consent(self, step: Step, seen: Shown) -> bool:
         self._page.show(seen, one_of(AGREED, DECLINED))
         if self._page.wait() == DECLINED:
             return False
         self._note("consent", step, sha256=self._study.consent_sha256)
         return True
 
-    def _ask(self, step: Step, seen: Any) -> None:
+    def _ask(self, step: Step, seen: Shown) -> None:
         asked = self._study.questionnaire(step.name)
         self._page.show(seen, asked.fault)
         answers = asked.kept(self._page.wait())
         self._note("answers", step, questionnaire=step.name, answers=answers)
 
-    def _task(self, step: Step, seen: Any, opened: ExitStack) -> None:
+    def _task(self, step: Step, seen: Shown, opened: ExitStack) -> None:
         where = {"condition": step.condition, "position": step.position, "task": step.name}
         if self._talks is None:
             self._page.show({**seen, "waits": True}, lambda value: "The robot is not ready yet.")
@@ -108,6 +115,7 @@ class Leader:
         self._page.show(seen, one_of(FINISHED, GAVE_UP), talks.page.person.leave)
         with _at_most(self._study.task(step.name).limit_s, talks.page.person.leave):
             talks.until_over(where)
+        self._out_of_time = talks.page.person.ended == TIME
         self._note(
             "task",
             step,
@@ -116,7 +124,7 @@ class Leader:
             ended=talks.page.person.ended,
             duration_s=round(time.monotonic() - began, 3),
         )
-        write_tables(self._data)
+        renew_tables(self._data)
 
     @contextmanager
     def _meeting(self, step: Step) -> "Iterator[_Talks]":
@@ -158,12 +166,19 @@ class _Talks:
             if session.stopped_by not in ("", THE_PERSON):
                 raise KeyboardInterrupt
 
+    def _stepped_in(self) -> list[SteppedIn]:
+        """Who stepped in; the last stop of a participant who left is no stop."""
+        seen = self._watch.take_all()
+        theirs = [i for i, one in enumerate(seen) if (one.what, one.by) == (STOP, THE_PERSON)]
+        if self.page.person.left_it_running and theirs:
+            seen[theirs[-1]] = replace(seen[theirs[-1]], what=LEFT)
+        return seen
+
     def _write(self, words: str, outcome: Outcome, where: dict[str, Any]) -> None:
         folder = outcome.run_dir
         recording = str(Path(folder).relative_to(self._root)) if folder else ""
-        for one in self._watch.take_all():
-            said = {"what": one.what, "by": one.by, "time_s": one.time_s}
-            self._journal.append("intervention", recording=recording, **said, **where)
+        for one in self._stepped_in():
+            self._journal.append("intervention", recording=recording, **asdict(one), **where)
         self._journal.append(
             "mission",
             words=words,

@@ -6,7 +6,6 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
@@ -95,11 +94,9 @@ class StudyPage(Page):
         self._take(value)
         return 200, ""
 
-    def _site(self) -> Starlette:
-        app = super()._site()
-        ours = [Route("/", self._page), Route("/study", self._answer, methods=["POST"])]
-        app.router.routes[:0] = ours
-        return app
+    def own_routes(self) -> tuple[Route, ...]:
+        """The page with the study around it, and what the participant does in that."""
+        return Route("/", self._page), Route("/study", self._answer, methods=["POST"])
 
     async def _page(self, request: Request) -> Response:
         html = ASSETS["/index.html"].read_text("utf-8").replace(SCRIPT, OURS + SCRIPT)

@@ -20,13 +20,15 @@ class Participant(PagePerson):
         """Nothing is to be done yet."""
         self.ended = ""
         """How the task ended; empty as long as it goes on."""
+        self.left_it_running = False
+        """Whether that stopped what the robot was doing."""
         self._dismissed = False
         super().__init__(inbox, board)
 
     def begin(self) -> None:
         """The next task."""
         with self._lock:
-            self.ended = ""
+            self.ended, self.left_it_running = "", False
 
     def leave(self, how: str) -> None:
         """The task is over, from any thread: what runs is stopped, nothing is listened for."""
@@ -34,9 +36,9 @@ class Participant(PagePerson):
             if self.ended:
                 return
             self.ended = how
-            idle = self._is_idle
+            self.left_it_running = not self._is_idle
             self._hush()
-        if not idle:
+        if self.left_it_running:
             self._stop()
 
     def says(self, words: str) -> None:

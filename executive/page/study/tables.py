@@ -1,6 +1,7 @@
 """The tables of a study, made of the journals: for each a row as a dataclass, and a file."""
 
 import io
+import logging
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
@@ -9,9 +10,13 @@ from typing import get_type_hints
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from executive.errors import ExecutiveError
+from executive.events import THE_PERSON
 from executive.page.study.data import Entry, Journal, StudyData, number_of, write_whole
 from executive.page.study.file import Study
 from executive.types import MissionStatus
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -50,7 +55,7 @@ class TaskRow:
     llm_calls: int
     mission_time_s: float
     stops: int
-    """How often the participant said stop, or pressed it."""
+    """How often the participant said stop, or pressed it; that the task was left is none."""
     interventions: int
     """Of the experimenter."""
     consent_sha256: str
@@ -114,7 +119,8 @@ class Tables:
     interventions: tuple[InterventionRow, ...]
 
 
-THE_STOP = "stop"
+STOP, LEFT = "stop", "left"
+"""What somebody does who steps in: stops the robot, or leaves the task while it is at work."""
 FINISHED, GAVE_UP, TIME = "finished", "gave_up", "time"
 """How tasks end: the participant says so, or gives up, or has had the time."""
 
@@ -150,6 +156,14 @@ def write_tables(data: StudyData) -> Tables:
     return made
 
 
+def renew_tables(data: StudyData) -> None:
+    """Write them if that is possible; nobody is kept waiting for it, as it can be done later."""
+    try:
+        write_tables(data)
+    except (OSError, ExecutiveError) as error:
+        log.warning("the tables are not up to date, and will be made again: %s", error)
+
+
 def _results(journal: Journal, entries: Sequence[Entry]) -> Iterator[TaskRow]:
     consent = next((e["sha256"] for e in entries if e["kind"] == "consent"), "")
     attempts: dict[str, list[list[Entry]]] = {}
@@ -173,7 +187,7 @@ def _result(
     missions = [e for e in last if e["kind"] == "mission"]
     steps_in = [e for e in last if e["kind"] == "intervention"]
     states = [e["status"] for e in missions]
-    stops = sum(e["what"] == THE_STOP for e in steps_in)
+    theirs = [e["what"] for e in steps_in if e["by"] == THE_PERSON]
     return TaskRow(
         participant=journal.code,
         number=number_of(journal.code),
@@ -193,8 +207,8 @@ def _result(
         visits=sum(e["visits"] for e in missions),
         llm_calls=sum(e["llm_calls"] for e in missions),
         mission_time_s=sum(e["mission_time_s"] for e in missions),
-        stops=stops,
-        interventions=len(steps_in) - stops,
+        stops=theirs.count(STOP),
+        interventions=len(steps_in) - len(theirs),
         consent_sha256=consent,
         recordings=tuple(e["recording"] for e in missions if e["recording"]),
     )

@@ -4,7 +4,7 @@ import threading
 from dataclasses import dataclass
 
 from executive.events import StopRequested
-from executive.page.study.tables import THE_STOP
+from executive.page.study.tables import STOP
 from executive.records import EventTaken, Record
 from logs.recorder import Stamp
 
@@ -31,7 +31,7 @@ class Watch:
         match record:
             case EventTaken(StopRequested(by)):
                 with self._lock:
-                    self._seen.append(SteppedIn(THE_STOP, by, stamp.mission_s))
+                    self._seen.append(SteppedIn(STOP, by, stamp.mission_s))
             case _:
                 pass
 

@@ -35,6 +35,16 @@ def test_what_is_the_same_as_before_is_no_change() -> None:
     assert not board.since(last)
 
 
+def test_what_is_forgotten_is_told_to_no_page_and_those_that_know_it_forget_it() -> None:
+    board = Board()
+    board.put("home", "plan")
+    known = board.say({"text": "before"})
+    board.forget()
+    board.put("home", "plan")
+    assert names(board) == ["fresh", "home"]
+    assert names(board, known) == ["fresh", "home"]
+
+
 def test_a_long_conversation_is_kept_as_far_as_pages_may_need_it() -> None:
     board = Board()
     for number in range(MOST_SAID + 10):

@@ -9,7 +9,7 @@ import pytest
 from executive.errors import InputError
 from executive.page.study.data import Journal, StudyData, number_of
 from executive.page.study.file import Study
-from executive.page.study.tables import read_rows, tables, write_tables
+from executive.page.study.tables import read_rows, renew_tables, tables, write_tables
 from executive.page.study.withdrawal import withdraw
 
 STUDY = Study.model_validate(
@@ -120,6 +120,14 @@ def test_a_damaged_line_is_told_where_it_is(data: StudyData) -> None:
         stream.write("nothing\n")
     with pytest.raises(InputError, match=r"P01/journal.jsonl, line 2: is damaged"):
         tables(data)
+
+
+def test_tables_that_cannot_be_made_keep_nobody_waiting(
+    data: StudyData, caplog: pytest.LogCaptureFixture
+) -> None:
+    (data.folder / "results.parquet").mkdir()
+    renew_tables(data)
+    assert "the tables are not up to date, and will be made again" in caplog.text
 
 
 def test_of_one_who_withdraws_nothing_is_found_and_the_others_are_whole(data: StudyData) -> None:

@@ -1,6 +1,8 @@
 """A study's file is read whole, or it is said where and what is wrong."""
 
+import json
 from contextlib import suppress
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +13,7 @@ from hypothesis import strategies as st
 
 from executive.errors import InputError
 from executive.page.study.file import read_study, settings_of
-from executive.page.study.steps import steps
+from executive.page.study.steps import Kind, steps
 
 EXAMPLE = Path(__file__).parents[4] / "docs/examples/study.toml"
 
@@ -117,3 +119,8 @@ def test_the_same_said_in_other_lines_is_the_same_study(tmp_path: Path) -> None:
     one = read_study(written(tmp_path)).canonical()
     assert read_study(written(tmp_path, order="balanced")).canonical() == one
     assert read_study(written(tmp_path, consent="No?")).canonical() != one
+
+
+def test_the_page_has_a_heading_for_each_kind_of_step() -> None:
+    texts = files("executive.page").joinpath("assets/english.json").read_text("utf-8")
+    assert set(Kind) <= set(json.loads(texts)["study"])
