@@ -5,6 +5,7 @@ What was asked over it ends: with an answer, or with a `LinkError` when the conn
 
 import asyncio
 import logging
+import ssl
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
@@ -239,8 +240,17 @@ def _why(error: Exception) -> str:
             return "nobody answers"
         case ConnectionRefusedError():
             return "nobody listens there"
+        case ConnectionResetError():
+            return "it hangs up at once (does it speak TLS? ws:// is without, wss:// with)"
         case InvalidHandshake() | InvalidURI():
             return f"it was not let in: {in_words(error)}"
+        case ssl.SSLCertVerificationError():
+            said = printable(error.verify_message)
+            return (
+                f"its certificate is not trusted ({said}): if it should be, SSL_CERT_FILE names it"
+            )
+        case ssl.SSLError():
+            return "it does not speak TLS as it should (ws:// is without)"
         case OSError() if error.strerror:
             return printable(error.strerror).lower()
         case _:
