@@ -39,6 +39,7 @@ def robot() -> Iterator[Any]:
     from ros2.nav2_robot import Nav2Robot
 
     made = Nav2Robot(four_rooms().robot_start)
+    until(lambda: ros(["check", ROBOT, "--profile", "nav2"]) == 0)  # whoever looks has found it
     yield made
     made.close()
 

@@ -35,7 +35,7 @@ PYTHONPATH=$path "$env/bin/python" "$suite/rosbridge_server/scripts/rosbridge_we
 bridge=$!
 PYTHONPATH=$path AMENT_PREFIX_PATH=$env "$env/bin/python" "$suite/rosapi/scripts/rosapi_node" &
 rosapi=$!
-trap 'kill $bridge $rosapi' EXIT
+trap 'kill -KILL $bridge $rosapi' EXIT
 sleep 5
 ROBOT=ws://127.0.0.1:$port "$env/bin/python" -m pytest -p no:cacheprovider -m ros2 \
     tests/executive/ros/test_ros2_robot.py
