@@ -40,6 +40,7 @@ MOST_GOALS = 16
 """So many of a client's goals may be open."""
 LONGEST_STATUS = 300
 SPOKEN = tuple(Compression)
+"""What a later one of these asks for counts, if somebody subscribes twice."""
 
 
 class Host(Protocol):
@@ -51,6 +52,14 @@ class Host(Protocol):
 
     def type_of_action(self, action: str) -> str | None:
         """The type of an action; None if there is none of this name."""
+        ...
+
+    def raw(self, topic: str, message: Message) -> Message:
+        """A message of the topic as ROS 2 packs it, with the robot's time.
+
+        Raises:
+            PacketError: if it is not known how.
+        """
         ...
 
     def wanted(self, topic: str, client: object) -> None:
@@ -124,11 +133,13 @@ class Conversation:
         if rarest and now - self._sent_at.get(topic, -rarest) < rarest:
             return
         self._sent_at[topic] = now
-        packed = any(wish.compression == Compression.CBOR for wish in wishes)
+        packed = max((Compression(wish.compression) for wish in wishes), key=SPOKEN.index)
+        if packed == Compression.CBOR_RAW:
+            message = self._host.raw(topic, message)
         sizes = [wish.fragment_size for wish in wishes if wish.fragment_size is not None]
         letter = Letter(
             Publish(topic, message),
-            Compression.CBOR if packed else Compression.NONE,
+            packed,
             min(sizes, default=None),
         )
         self._outbox.put(letter, newest_of=topic)
@@ -184,6 +195,8 @@ class Conversation:
         if wish.compression not in SPOKEN:
             spoken = " or ".join(SPOKEN)
             raise PacketError(f"{topic}: compression {wish.compression}: I can do {spoken}")
+        if wish.compression == Compression.CBOR_RAW:
+            self._host.raw(topic, {})
         if sum(map(len, self._subscriptions.values())) >= MOST_SUBSCRIPTIONS:
             raise PacketError(f"{topic}: more than {MOST_SUBSCRIPTIONS} subscriptions")
         self._subscriptions.setdefault(topic, {})[wish.id] = wish

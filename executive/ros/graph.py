@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from executive.ros.definitions import typedefs
 from executive.ros.protocol import Message
 
 CANCELS = "/_action/cancel_goal"
@@ -26,6 +27,7 @@ ROSAPI = {
     "/rosapi/service_providers": "rosapi_msgs/srv/ServiceProviders",
     "/rosapi/action_servers": "rosapi_msgs/srv/GetActionServers",
     "/rosapi/action_type": "rosapi_msgs/srv/GetActionType",
+    "/rosapi/message_details": "rosapi_msgs/srv/MessageDetails",
     "/rosapi/interfaces": "rosapi_msgs/srv/Interfaces",
     "/rosapi/nodes": "rosapi_msgs/srv/Nodes",
     "/rosapi/node_details": "rosapi_msgs/srv/NodeDetails",
@@ -91,6 +93,8 @@ class Graph:
                 return {"publishers": [self.node] if topic in topics else []}
             case "subscribers":
                 return {"subscribers": []}
+            case "message_details":
+                return {"typedefs": typedefs(str(request.get("type", "")))}
             case "interfaces":
                 kinds = {*topics.values(), *self.services.values(), *self.actions.values()}
                 return {"interfaces": sorted(kinds)}

@@ -4,6 +4,7 @@ from collections import defaultdict
 from collections.abc import Callable
 from typing import Any, Protocol
 
+from executive.ros.cdr import to_cdr
 from executive.ros.conversation import Conversation
 from executive.ros.goals import Goal, Goals
 from executive.ros.graph import CANCELS, FEEDBACK, Graph
@@ -104,6 +105,12 @@ class Hub:
     def type_of_action(self, action: str) -> str | None:
         """The type of an action; None if there is none of this name."""
         return self._backend.graph.actions.get(action)
+
+    def raw(self, topic: str, message: Message) -> Message:
+        """A message of the topic as ROS 2 packs it, with the robot's time."""
+        time = self._backend.time()
+        content = to_cdr(message, self._backend.graph.topics[topic])
+        return {"secs": time["sec"], "nsecs": time["nanosec"], "bytes": content}
 
     def wanted(self, topic: str, client: object) -> None:
         """Somebody wants a topic, and to know at once how it is."""

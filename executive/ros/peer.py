@@ -5,6 +5,7 @@ What was asked over it ends: with an answer, or with a `LinkError` when the conn
 
 import asyncio
 import logging
+import ssl
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
@@ -39,6 +40,9 @@ PING_S, PONG_S = 2.0, 6.0
 """How often the other side is asked whether it is there, and how long it may take to say so."""
 AGAIN_S = (0.1, 0.2, 0.5, 1.0)
 """Pauses between attempts to connect; the last one again and again."""
+PACKED = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2")
+"""Types that come as CBOR. Others do not: a rosbridge of before March 2026 cannot pack arrays of a
+fixed length, which odometry and lenses have, and then sends nothing."""
 MOST_WAITING = 1000
 """So many messages may wait to be sent; more, and the other side does not read any more."""
 
@@ -178,7 +182,8 @@ class Peer:
     def subscribe(self, topic: str, kind: str, receive: Receive) -> Callable[[], None]:
         """Be given the messages of a topic; what is returned ends that."""
         id = self.number()
-        subscription = Subscribe(topic, kind, compression=Compression.CBOR, id=id)
+        packed = Compression.CBOR if kind in PACKED else Compression.NONE
+        subscription = Subscribe(topic, kind, compression=packed, id=id)
         self._topics[id] = (subscription, receive)
         with suppress(LinkError):  # it is sent when there is a connection
             self.send(subscription)
@@ -239,8 +244,17 @@ def _why(error: Exception) -> str:
             return "nobody answers"
         case ConnectionRefusedError():
             return "nobody listens there"
+        case ConnectionResetError():
+            return "it hangs up at once (does it speak TLS? ws:// is without, wss:// with)"
         case InvalidHandshake() | InvalidURI():
             return f"it was not let in: {in_words(error)}"
+        case ssl.SSLCertVerificationError():
+            said = printable(error.verify_message)
+            return (
+                f"its certificate is not trusted ({said}): if it should be, SSL_CERT_FILE names it"
+            )
+        case ssl.SSLError():
+            return "it does not speak TLS as it should (ws:// is without)"
         case OSError() if error.strerror:
             return printable(error.strerror).lower()
         case _:

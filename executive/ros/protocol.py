@@ -4,7 +4,7 @@ Both sides use it: our client, and the simulated robot that is served. `encode` 
 operation, `decode` an operation of a packet. Fields that others may add are passed over; one that
 is missing or of another kind is a `PacketError` and has no effect.
 
-`png` and `cbor-raw` are not spoken: who does not ask for them is not answered in them.
+A packet in a picture (`png`) is read as what it holds.
 """
 
 from dataclasses import dataclass, field, fields
@@ -23,7 +23,10 @@ from pydantic import (
 
 from executive.ros.fragments import Part, split
 from executive.ros.packets import FEW, Packet, PacketError, from_packet, to_cbor, to_json
+from executive.ros.png import from_png, to_png
 
+PNG = "png"
+"""Operation of a packet that is a picture in which there is another one."""
 MOST_NAME = 1000
 """Characters of a name or an id."""
 
@@ -38,7 +41,10 @@ class Compression(StrEnum):
     """How a subscriber wants messages packed."""
 
     NONE = "none"
+    PNG = "png"
     CBOR = "cbor"
+    CBOR_RAW = "cbor-raw"
+    """CBOR, in which the message is as ROS 2 itself packs it."""
 
 
 class GoalStatus(IntEnum):
@@ -249,7 +255,13 @@ def encode(operation: Operation, compression: str = Compression.NONE) -> Packet:
         value = getattr(operation, one.name)
         if value is not None and (value != "" or one.name in ("data", "msg")):
             data[one.name] = value
-    return to_cbor(data) if compression == Compression.CBOR else to_json(data)
+    match compression:
+        case Compression.CBOR | Compression.CBOR_RAW:
+            return to_cbor(data)
+        case Compression.PNG:
+            return to_json({"op": PNG, "data": to_png(to_json(data))})
+        case _:
+            return to_json(data)
 
 
 def decode(packet: Packet) -> Operation:
@@ -258,7 +270,10 @@ def decode(packet: Packet) -> Operation:
     Raises:
         PacketError: if it cannot be read, or is no operation that is spoken here.
     """
-    data = {key: value for key, value in from_packet(packet).items() if value is not None}
+    read = from_packet(packet)
+    if read.get("op") == PNG:
+        read = from_packet(from_png(read.get("data")))
+    data = {key: value for key, value in read.items() if value is not None}
     op = data.pop("op", None)
     reader = _READERS.get(op) if isinstance(op, str) else None
     if reader is None:

@@ -15,6 +15,8 @@ from executive.ros.senses import Senses
 
 CANCELLING_S = 1.0
 """So long a server may take to say that it cancels."""
+FINDING_S = 3.0
+"""So long it is tried to stop what is left of earlier."""
 REST_S = 2.0
 """The longest that anything moves on (real time)."""
 LOOK_S = 0.02
@@ -42,8 +44,16 @@ class Brake:
         link.greet_with(self._greet)
 
     async def _greet(self) -> None:
-        """Stop orphans; tell the robot how fast it may be."""
-        for section, why in (await self.cancel_all()).items():
+        """Stop orphans; tell the robot how fast it may be.
+
+        A bridge that has just begun may not have found the robot's actions yet.
+        """
+        latest = asyncio.get_running_loop().time() + FINDING_S
+        while (failures := await self.cancel_all()) and not self._link.loss:
+            if asyncio.get_running_loop().time() > latest:
+                break
+            await asyncio.sleep(AGAIN_S)
+        for section, why in failures.items():
             log.warning("I could not tell my %s to stop: %s", PARTS[section], why)
         if (speed := self._profile.limits.speed_m_s) is not None:
             limit: Message = {"percentage": False, "speed_limit": speed}

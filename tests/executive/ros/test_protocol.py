@@ -1,6 +1,10 @@
 """What can be said over the wire comes out as it went in; what cannot be read has no effect."""
 
+import base64
+import io
+import json
 import math
+import struct
 from contextlib import suppress
 from dataclasses import fields
 from typing import Any
@@ -10,9 +14,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 
+from executive.ros.cdr import to_cdr
+from executive.ros.definitions import typedefs
 from executive.ros.fragments import Joiner, Part, split
 from executive.ros.packets import MOST_BYTES, PacketError, from_packet, numbers, octets
+from executive.ros.png import to_png
 from executive.ros.protocol import (
     OPERATIONS,
     ActionResult,
@@ -20,11 +28,13 @@ from executive.ros.protocol import (
     Fragment,
     Operation,
     Publish,
+    Status,
     Subscribe,
     decode,
     encode,
     encode_in_parts,
 )
+from sim.served.offered import GRAPH
 
 NAMES = st.text(min_size=1, max_size=30)
 NUMBERS = st.integers(-(2**63), 2**63 - 1) | st.floats(allow_nan=False, allow_infinity=False)
@@ -67,7 +77,7 @@ def said(operation: Operation) -> dict[str, Any]:
     return {one.name: getattr(operation, one.name) for one in fields(operation)}
 
 
-@given(ANY, st.sampled_from(("none", "cbor")))
+@given(ANY, st.sampled_from(("none", "cbor", "png")))
 def test_an_operation_comes_out_as_it_went_in(operation: Operation, compression: str) -> None:
     other = decode(encode(operation, compression))
     assert type(other) is type(operation)
@@ -221,3 +231,51 @@ def test_defaults_are_those_of_rosbridge() -> None:
     result = decode('{"op":"action_result","action":"/a","result":false,"values":"why"}')
     assert isinstance(result, ActionResult)
     assert result.values == "why"
+
+
+def png(width: int, height: int, pixels: bytes = b"") -> str:
+    out = io.BytesIO()
+    Image.frombytes("RGB", (1, 1), b"{} ").save(out, "png")
+    content = bytearray(out.getvalue())
+    content[16:24] = struct.pack(">II", width, height)
+    return json.dumps({"op": "png", "data": base64.b64encode(content).decode()})
+
+
+@pytest.mark.parametrize(
+    ("packet", "said"),
+    [
+        ('{"op": "png"}', "whose data is no text"),
+        ('{"op": "png", "data": "%"}', "cannot be read"),
+        ('{"op": "png", "data": "AAAA"}', "cannot be read"),
+        (png(100_000, 100_000), "too long"),
+        (png(2, 2), "cannot be read"),
+        (encode(Status("info", "x"), "png").replace("png", "pong", 1), "operation"),
+        (json.dumps({"op": "png", "data": to_png('{"op": "png", "data": ""}')}), "operation"),
+    ],
+)
+def test_a_picture_that_holds_no_packet_is_a_clear_error(packet: str, said: str) -> None:
+    with pytest.raises(PacketError, match=said):
+        decode(packet)
+
+
+def test_every_part_of_a_known_message_is_known() -> None:
+    for kind in GRAPH.topics.values():
+        told = {one["type"]: one for one in typedefs(kind)}
+        parts = {name for one in told.values() for name in one["fieldtypes"] if "/" in name}
+        assert parts < set(told), kind
+
+
+def test_a_message_is_packed_as_ros_packs_it() -> None:
+    stamp = {"stamp": {"sec": 1, "nanosec": 2}, "frame_id": "odom"}
+    joints = {"header": stamp, "name": ["a"], "position": [0.5], "velocity": np.array([0.25])}
+    assert to_cdr({"data": True}, "std_msgs/msg/Bool") == b"\x00\x01\x00\x00\x01"
+    assert to_cdr(joints, "sensor_msgs/msg/JointState")[4:] == (
+        struct.pack("<iI", 1, 2)
+        + struct.pack("<I", 5)
+        + b"odom\0\0\0\0"
+        + struct.pack("<II", 1, 2)
+        + b"a\0\0\0"
+        + struct.pack("<I4xd", 1, 0.5)
+        + struct.pack("<I4xd", 1, 0.25)
+        + struct.pack("<I", 0)
+    )

@@ -1,7 +1,12 @@
-"""The profile `nav2` drives a node of ROS 2 with Nav2's own interfaces: `pytest -m ros2`."""
+"""The profile `nav2` drives a node of ROS 2 with Nav2's own interfaces: `pytest -m ros2`.
+
+By rclpy; or by whatever stands at the address in the environment variable ROBOT, such as a
+rosbridge: tests/helpers/ros2/rosbridge.sh.
+"""
 
 import json
 import math
+import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -23,6 +28,7 @@ from sim.fake import straight_s
 
 pytestmark = [pytest.mark.ros2, pytest.mark.filterwarnings("ignore::DeprecationWarning")]
 
+ROBOT = os.environ.get("ROBOT", ROS2)
 PATIENCE_S = 60.0
 
 
@@ -33,6 +39,7 @@ def robot() -> Iterator[Any]:
     from ros2.nav2_robot import Nav2Robot
 
     made = Nav2Robot(four_rooms().robot_start)
+    until(lambda: ros(["check", ROBOT, "--profile", "nav2"]) == 0)  # whoever looks has found it
     yield made
     made.close()
 
@@ -49,7 +56,7 @@ def here(robot: Any) -> Iterator[tuple[Connection, Bench]]:
         inbox.wait(min(at_most, 0.1))
         return time.monotonic() - began
 
-    made = connect(Address(ROS2), load_profile("nav2"), home, inbox, "nav2", ways)
+    made = connect(Address(ROBOT), load_profile("nav2"), home, inbox, "nav2", ways)
     yield made, Bench(made.robot, inbox, advance)
     made.close()
 
@@ -110,11 +117,11 @@ def test_a_goal_that_is_refused_ends_at_once(here: tuple[Connection, Bench], rob
 def test_the_profile_fits_and_look_proposes_one_that_does(
     robot: Any, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    assert ros(["check", ROS2, "--profile", "nav2"]) == 0
-    assert ros(["look", ROS2]) == 0
+    assert ros(["check", ROBOT, "--profile", "nav2"]) == 0
+    assert ros(["look", ROBOT]) == 0
     proposed = tmp_path / "proposed.toml"
     proposed.write_text(capsys.readouterr().out.partition("\n")[2])
-    assert ros(["check", ROS2, "--profile", str(proposed)]) == 0, capsys.readouterr().err
+    assert ros(["check", ROBOT, "--profile", str(proposed)]) == 0, capsys.readouterr().err
 
 
 def test_a_mission_looks_for_the_thing_and_replays(
@@ -122,7 +129,7 @@ def test_a_mission_looks_for_the_thing_and_replays(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     told = ("--llm", "none", "--user", "none", "--json")
-    assert main(["--robot", ROS2, "--profile", "nav2", *told, "Find a power_drill"]) == 1
+    assert main(["--robot", ROBOT, "--profile", "nav2", *told, "Find a power_drill"]) == 1
     outcome = json.loads(capsys.readouterr().out)
     assert outcome["visited"]
     assert replay(tmp_path / outcome["run_dir"]).parting is None

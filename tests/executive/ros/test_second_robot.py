@@ -185,6 +185,16 @@ def test_what_nobody_remembers_is_stopped_when_there_is_a_link_again(linked: Lin
     assert not linked.there.speed
 
 
+def test_a_bridge_that_has_just_begun_is_asked_again_until_all_is_stopped(linked: Linked) -> None:
+    linked.here.robot.start(DriveTo("desk"))
+    linked.bench.wait(0.2)
+    linked.there.undiscovered = 5
+    linked.there.cut()
+    linked.bench.wait(3.0)
+    assert not linked.there.undiscovered
+    assert not linked.there.busy
+
+
 def test_after_a_loss_it_drives_on(linked: Linked) -> None:
     linked.there.cut()
     linked.bench.wait(0.3)

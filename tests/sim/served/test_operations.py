@@ -8,6 +8,7 @@ from served import TYPES, ZERO, Raw, look_goal, pick_goal, place_goal, pose_goal
 
 from executive.perception.tags import read
 from executive.ros.packets import octets
+from executive.ros.png import from_png
 from executive.testing.bench import four_rooms
 from sim.served.simulation import Simulation
 
@@ -250,6 +251,22 @@ def test_a_picture_shows_what_is_in_view_with_its_depth_and_lens(
     assert lens["k"][0] == 125.0
 
 
+def test_a_message_comes_as_a_picture_if_that_is_wanted(client: Raw) -> None:
+    client.say("subscribe", topic="/odom", compression="png")
+    assert from_png(client.hear_of("png")["data"]).startswith('{"op":"publish","topic":"/odom"')
+
+
+def test_a_message_comes_as_ros_packs_it_if_that_is_wanted(client: Raw) -> None:
+    raw = client.subscribe("/hand/holding", compression="cbor-raw")
+    assert raw["bytes"] == b"\x00\x01\x00\x00\x00"
+    assert raw["secs"] == client.told("/rosapi/get_time")["time"]["sec"]
+
+
+def test_what_is_asked_for_twice_comes_in_the_richer_way(client: Raw) -> None:
+    client.subscribe("/odom", id="text")
+    assert "bytes" in client.subscribe("/odom", id="raw", compression="cbor-raw")
+
+
 def test_long_messages_come_in_parts_if_that_is_wanted(client: Raw) -> None:
     client.say("subscribe", topic="/odom", fragment_size=200)
     parts = [client.hear_of("fragment")]
@@ -309,6 +326,12 @@ def test_the_robot_answers_what_rosapi_answers(
     client: Raw, service: str, request_: dict[str, str], response: dict[str, object]
 ) -> None:
     assert client.told(f"/rosapi/{service}", **request_) == response
+
+
+def test_what_messages_consist_of_is_told(client: Raw) -> None:
+    told = client.told("/rosapi/message_details", type="sensor_msgs/Image")["typedefs"]
+    assert [one["type"] for one in told[:2]] == ["sensor_msgs/Image", "std_msgs/Header"]
+    assert dict(zip(told[0]["fieldnames"], told[0]["fieldarraylen"], strict=True))["data"] == 0
 
 
 def test_names_may_come_without_the_first_slash(client: Raw) -> None:

@@ -41,7 +41,7 @@ BROKEN = [
     '{"op": "subscribe"}',
     '{"op": "subscribe", "topic": ["/odom"]}',
     '{"op": "subscribe", "topic": "/odom", "throttle_rate": -1}',
-    '{"op": "subscribe", "topic": "/odom", "compression": "png"}',
+    '{"op": "subscribe", "topic": "/odom", "compression": "zip"}',
     '{"op": "call_service", "service": "/rosapi/topics", "args": 7}',
     '{"op": "send_action_goal", "action": "/pick"}',
     '{"op": "fragment", "id": "x", "data": "{", "num": 3, "total": 2}',
