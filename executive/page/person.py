@@ -128,8 +128,7 @@ class PagePerson(Console):
     def _show_question(self) -> None:
         """Show the question as long as an answer would be taken for one; the lock is held."""
         asked, request = self._question, self._request
-        waits = asked is not None and request is not None
-        self._board.put("question", shown(asked, request) if waits else None)
+        self._board.put("question", shown(asked, request) if asked and request else None)
 
 
 def shown(question: Question, number: int) -> dict[str, Any]:

@@ -9,16 +9,16 @@ export function address(path, values = {}) {
   return `${path}?${new URLSearchParams({ ...values, token })}`;
 }
 
-/** Follow the board: `show(name, value)` for each change, `connected(state)` as it goes. */
-export function follow(names, show, connected) {
+/** Follow a board: `show(name, value)` for each change, `connected(state)` as it goes. */
+export function follow(names, show, connected, root = "") {
   let known = "";
   const open = () => {
-    const source = new EventSource(address("/events", known ? { known } : {}));
+    const source = new EventSource(address(`${root}/events`, known ? { known } : {}));
     source.onopen = () => connected("open");
     source.onerror = () => {
       if (source.readyState !== EventSource.CLOSED) return connected("lost");
       source.close();
-      wasRefused().then((refused) => connected(refused ? "refused" : "lost"));
+      wasRefused(root || "/").then((refused) => connected(refused ? "refused" : "lost"));
       setTimeout(open, AGAIN_MS);
     };
     for (const name of names) {
@@ -31,20 +31,24 @@ export function follow(names, show, connected) {
   open();
 }
 
-async function wasRefused() {
+async function wasRefused(path) {
   try {
-    return (await fetch(address("/"))).status === 403;
+    return (await fetch(address(path))).status === 403;
   } catch {
     return false;
   }
 }
 
-async function send(path, body) {
-  const answer = await fetch(address(path), {
+export function post(path, body) {
+  return fetch(address(path), {
     method: "POST",
     headers: { "content-type": "application/json" },
     body: JSON.stringify(body),
   });
+}
+
+async function send(path, body) {
+  const answer = await post(path, body);
   if (!answer.ok) throw answer.status === 409 ? OVER : new Error(answer.status);
 }
 
