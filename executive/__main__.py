@@ -103,6 +103,8 @@ def opened_page(address: Address | None, inbox: "Inbox") -> "Iterator[Page | Non
 
     with Page(inbox, address) as page:
         print(f"Open {page.url}", file=sys.stderr, flush=True)
+        if page.experimenter_url:
+            print(f"Experimenter: {page.experimenter_url}", file=sys.stderr, flush=True)
         yield page
 
 
@@ -131,7 +133,7 @@ def serve(
             user=console,
             view=view,
             gui=gui,
-            sinks=[page.sink] if page else (),
+            sinks=page.sinks if page else (),
         )
     with session:
         if page:

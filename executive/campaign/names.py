@@ -21,7 +21,7 @@ DESCRIPTIONS: Mapping[str, str] = MappingProxyType(
         "random": "any order",
         "popularity": "where most other things are by the survey",
         "true-first": "the bound: a stand-in that knows where the thing is",
-        "too-sure": "a fault put in by hand: the plan, with a ranking that is far too sure of itself",
+        "too-sure": "a fault put in by hand: the plan, with a ranking that is far too sure",
         "memory": "what the robot remembers alone; what it does not, the person is asked",
         "plan-unlearned": "the plan of a robot that remembers and learns nothing of it",
         "always-asks": "a fault put in by hand: neither default locations nor a model, so the "

@@ -26,12 +26,14 @@ class Address:
         host: of this machine: a name or a number; `0.0.0.0` or `::` for all of them.
         certificate: PEM file, for https.
         key: PEM file of the certificate's private key, if that has none in it.
+        experimenter: whether the experimenter has a page, too.
     """
 
     port: int = PORT
     host: str = LOCAL
     certificate: Path | None = None
     key: Path | None = None
+    experimenter: bool = False
 
     @property
     def is_local(self) -> bool:
@@ -46,10 +48,10 @@ class Address:
         """How an address begins there."""
         return "https" if self.certificate else "http"
 
-    def url(self, port: int, token: str) -> str:
+    def url(self, port: int, token: str, path: str = "/") -> str:
         """What to open in a browser."""
         host = f"[{self.host}]" if ":" in self.host else self.host
-        return f"{self.scheme}://{host}:{port}/?token={token}"
+        return f"{self.scheme}://{host}:{port}{path}?token={token}"
 
     def checked(self) -> None:
         """See that the files can be used; say what is unwise.
@@ -88,14 +90,19 @@ def add_page(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--page-cert", type=Path, metavar="FILE", help="certificate (PEM), for https"
     )
+    parser.add_argument(
+        "--page-experimenter",
+        action="store_true",
+        help="serve the experimenter's page, too, at an address of its own",
+    )
     parser.add_argument("--page-key", type=Path, metavar="FILE", help="its private key (PEM)")
 
 
 def address_of(options: dict[str, Any]) -> Address | None:
     """What these options say, which are taken out; None if no page is wanted."""
-    names = ("page", "page_address", "page_cert", "page_key")
-    port, host, certificate, key = (options.pop(name) for name in names)
-    return None if port is None else Address(port, host or LOCAL, certificate, key)
+    names = ("page", "page_address", "page_cert", "page_key", "page_experimenter")
+    port, host, *others = (options.pop(name) for name in names)
+    return None if port is None else Address(port, host or LOCAL, *others)
 
 
 def _port(text: str) -> int:

@@ -92,6 +92,17 @@ class Guard:
         return number.is_loopback or _is_any(self._address)
 
 
+def parted(root: str, theirs: Site, others: Site) -> Site:
+    """Two sites at one address: one at `root` and below, the other one everywhere else."""
+
+    async def site(scope: Scope, receive: Receive, send: Send) -> None:
+        path = scope.get("path", "")
+        inside = path == root or path.startswith(f"{root}/")
+        await (theirs if inside else others)(scope, receive, send)
+
+    return site
+
+
 def _own_names() -> tuple[str, ...]:
     name = socket.gethostname().lower()
     return name, f"{name}.local"

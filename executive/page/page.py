@@ -12,7 +12,10 @@ from executive.events import Inbox
 from executive.language.phrases import spoken
 from executive.page.address import Address
 from executive.page.board import Board
-from executive.page.guarding import Guard
+from executive.page.experiment.desk import Desk
+from executive.page.experiment.site import PUBLIC as EXPERIMENT_PUBLIC
+from executive.page.experiment.site import ROOT, experiment_site
+from executive.page.guarding import Guard, Site, parted
 from executive.page.person import PagePerson
 from executive.page.plan import plan
 from executive.page.portraits import Portraits
@@ -20,6 +23,7 @@ from executive.page.serving import Server
 from executive.page.sink import PageSink
 from executive.page.site import PUBLIC, site
 from executive.page.why import why_said
+from logs.recorder import Sink
 
 if TYPE_CHECKING:
     from executive.app.session import Session
@@ -48,7 +52,17 @@ class Page:
         self.person = PagePerson(inbox, self.board)
         self._portraits = Portraits({})
         self._runs: Path | None = None
-        self._server.start(Guard(site(self), token, address.host, PUBLIC))
+        guarded: Site = Guard(site(self), token, address.host, PUBLIC)
+        self.desk = Desk() if address.experimenter else None
+        """Behind the experimenter's page; None if there is none."""
+        self.experimenter_url = ""
+        """What the experimenter opens; empty if there is no such page."""
+        if self.desk:
+            own = secrets.token_urlsafe(16)
+            self.experimenter_url = address.url(self._server.port, own, ROOT)
+            theirs = Guard(experiment_site(self.desk), own, address.host, EXPERIMENT_PUBLIC)
+            guarded = parted(ROOT, theirs, guarded)
+        self._server.start(guarded)
 
     def __enter__(self) -> Self:
         """Nothing more to open."""
@@ -68,6 +82,8 @@ class Page:
         self.board.put("doing", {"state": "over"})
         self.board.put("question", None)
         self.board.end()
+        if self.desk:
+            self.desk.board.end()
         self._server.close()
 
     def follow(self, session: "Session") -> None:
@@ -79,6 +95,14 @@ class Page:
         self.board.put("things", _things(session, self._portraits))
         self.person.follow(session)
         self.board.flush()
+        if self.desk:
+            self.desk.live.name = lambda: session.folder.name if session.folder else ""
+            self.desk.look_in(session.settings.runs)
+
+    @property
+    def sinks(self) -> tuple[Sink, ...]:
+        """The logs that show missions, for the session."""
+        return (self.sink, self.desk.live) if self.desk else (self.sink,)
 
     # --- what the server asks; in its own threads ---
 

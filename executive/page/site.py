@@ -112,15 +112,10 @@ class _Answers:
         return Response(self._assets[path], media_type=KINDS[Path(path).suffix])
 
     async def events(self, request: Request) -> Response:
-        board = self._behind.board
-        if board.readers >= MOST_PAGES:
-            return PlainTextResponse("Too many pages are open.", 503)
-        last = request.query_params.get("known", "")
-        known = _known(board, request.headers.get("last-event-id", last))
-        return StreamingResponse(news(board, known), media_type="text/event-stream")
+        return board_events(self._behind.board, request)
 
     async def say(self, request: Request) -> Response:
-        sent = await _sent(request)
+        sent = await sent_json(request)
         words, question = sent.get("words"), sent.get("question")
         if not isinstance(words, str):
             return PlainTextResponse("This is too long, or no text.", 413)
@@ -152,14 +147,23 @@ class _Answers:
         return _picture(await run_in_threadpool(portrait, request.path_params["name"]), PNG)
 
 
+def board_events(board: Board, request: Request) -> Response:
+    """All that is newer on a board than a page knows, and then what comes."""
+    if board.readers >= MOST_PAGES:
+        return PlainTextResponse("Too many pages are open.", 503)
+    last = request.query_params.get("known", "")
+    known = _known(board, request.headers.get("last-event-id", last))
+    return StreamingResponse(news(board, known), media_type="text/event-stream")
+
+
 def _picture(content: bytes | None, kind: str) -> Response:
     if content is None:
         return PlainTextResponse("There is no such picture.", 404)
     return Response(content, media_type=kind)
 
 
-async def _sent(request: Request) -> dict[str, Any]:
-    """What the person sent, as a JSON object; an empty one if it is too long, or something else."""
+async def sent_json(request: Request) -> dict[str, Any]:
+    """What a page sent, as a JSON object; an empty one if it is too long, or something else."""
     content = b""
     async for part in request.stream():
         content += part

@@ -32,8 +32,11 @@ def chromium() -> Iterator[Browser]:
 
 
 @contextmanager
-def opened(browser: Browser, page: Page, **given: Any) -> Iterator[Tab]:
-    """A tab of its own with the page in it; whatever goes wrong in its scripts is an error."""
+def opened(browser: Browser, page: Page, url: str = "", **given: Any) -> Iterator[Tab]:
+    """A tab of its own with the page in it; whatever goes wrong in its scripts is an error.
+
+    Another page of the same robot is given by its address.
+    """
     context = browser.new_context(**{"viewport": DESKTOP, **given})
     context.set_default_timeout(PATIENCE_MS)
     tab = context.new_page()
@@ -41,7 +44,7 @@ def opened(browser: Browser, page: Page, **given: Any) -> Iterator[Tab]:
     tab.on("pageerror", lambda error: wrong.append(str(error)))
     tab.on("dialog", lambda dialog: wrong.append(dialog.message))
     try:
-        tab.goto(page.url)
+        tab.goto(url or page.url)
         yield tab
         assert not wrong
     finally:

@@ -48,7 +48,9 @@ class Robot:
 
 
 @contextmanager
-def robot(runs: Path, *, recorded: bool = False, **settings: Any) -> Iterator[Robot]:
+def robot(
+    runs: Path, *, recorded: bool = False, experimenter: bool = False, **settings: Any
+) -> Iterator[Robot]:
     """A robot in the instant world whose page is served, in a conversation."""
     inbox = Inbox()
     given = {
@@ -59,7 +61,7 @@ def robot(runs: Path, *, recorded: bool = False, **settings: Any) -> Iterator[Ro
         "answer_timeout_s": 3600.0,
         **settings,
     }
-    with Page(inbox, Address(port=0), token=TOKEN) as page:
+    with Page(inbox, Address(port=0, experimenter=experimenter), token=TOKEN) as page:
         made = Robot(page)
 
         def live() -> None:
@@ -67,7 +69,7 @@ def robot(runs: Path, *, recorded: bool = False, **settings: Any) -> Iterator[Ro
                 load_settings(**given),
                 inbox=inbox,
                 user=page.person,
-                sinks=[page.sink],
+                sinks=page.sinks,
                 recorded=recorded,
             ) as session:
                 page.follow(session)

@@ -9,16 +9,16 @@ export function address(path, values = {}) {
   return `${path}?${new URLSearchParams({ ...values, token })}`;
 }
 
-/** Follow the board: `show(name, value)` for each change, `connected(state)` as it goes. */
-export function follow(names, show, connected) {
+/** Follow a board: `show(name, value)` for each change, `connected(state)` as it goes. */
+export function follow(names, show, connected, root = "") {
   let known = "";
   const open = () => {
-    const source = new EventSource(address("/events", known ? { known } : {}));
+    const source = new EventSource(address(`${root}/events`, known ? { known } : {}));
     source.onopen = () => connected("open");
     source.onerror = () => {
       if (source.readyState !== EventSource.CLOSED) return connected("lost");
       source.close();
-      wasRefused().then((refused) => connected(refused ? "refused" : "lost"));
+      wasRefused(root || "/").then((refused) => connected(refused ? "refused" : "lost"));
       setTimeout(open, AGAIN_MS);
     };
     for (const name of names) {
@@ -31,9 +31,9 @@ export function follow(names, show, connected) {
   open();
 }
 
-async function wasRefused() {
+async function wasRefused(path) {
   try {
-    return (await fetch(address("/"))).status === 403;
+    return (await fetch(address(path))).status === 403;
   } catch {
     return false;
   }

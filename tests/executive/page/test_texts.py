@@ -3,31 +3,45 @@
 import json
 import re
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from typing import Any
+
+import pytest
 
 from executive.records import Activity
 from executive.types import MissionStatus, QuestionKind, Source
 
-ASSETS = files("executive.page").joinpath("assets")
-TEXTS: dict[str, Any] = json.loads(ASSETS.joinpath("english.json").read_text("utf-8"))
-CODE = "\n".join(
-    entry.read_text("utf-8") for entry in ASSETS.iterdir() if entry.name.endswith((".js", ".html"))
+
+def of(package: str) -> tuple[Traversable, dict[str, Any], str]:
+    """A page's files, its texts, and all its code."""
+    assets = files(package).joinpath("assets")
+    code = [e.read_text("utf-8") for e in assets.iterdir() if e.name.endswith((".js", ".html"))]
+    return assets, json.loads(assets.joinpath("english.json").read_text("utf-8")), "\n".join(code)
+
+
+ASSETS, TEXTS, CODE = of("executive.page")
+PAGES = pytest.mark.parametrize(
+    ("texts", "code"),
+    [(TEXTS, CODE), of("executive.page.experiment")[1:]],
+    ids=["person", "experimenter"],
 )
 
 
-def test_each_text_that_the_page_names_is_there() -> None:
-    named = set(re.findall(r'\btext\(\s*"([\w.]+)"', CODE))
-    named |= set(re.findall(r'data-(?:text|label)="(\w+)"', CODE))
+@PAGES
+def test_each_text_that_a_page_names_is_there(texts: dict[str, Any], code: str) -> None:
+    named = set(re.findall(r'\btext\(\s*"([\w.]+)"', code))
+    named |= set(re.findall(r'data-(?:text|label)="(\w+)"', code))
     for key in named:
-        found: Any = TEXTS
+        found: Any = texts
         for part in key.split("."):
             assert part in found, key
             found = found[part]
 
 
-def test_each_text_is_used() -> None:
-    unused = [key for key in TEXTS if not re.search(rf'["`.]{key}\b', CODE)]
-    assert not unused
+@PAGES
+def test_each_text_is_used(texts: dict[str, Any], code: str) -> None:
+    unused = [key for key in texts if not re.search(rf'["`.]{key}\b', code)]
+    assert [key for key in unused if not key.startswith("for_") and key != "language"] == []
 
 
 def test_there_is_a_sentence_for_each_activity_status_and_source() -> None:
@@ -42,5 +56,6 @@ def test_there_are_buttons_for_each_kind_of_question() -> None:
     assert all(f'"{kind}"' in answers for kind in set(QuestionKind) - {QuestionKind.WHICH_OBJECT})
 
 
-def test_nothing_is_made_of_markup() -> None:
-    assert not re.search(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|eval\(", CODE)
+@PAGES
+def test_nothing_is_made_of_markup(texts: dict[str, Any], code: str) -> None:
+    assert not re.search(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|eval\(", code)

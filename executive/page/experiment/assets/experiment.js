@@ -1,0 +1,108 @@
+// The experimenter's page: the mission that runs, past runs, two of them side by side.
+
+import { element } from "/elements.js";
+import { follow } from "/robot.js";
+import { load, text, textOr } from "/texts.js";
+import { past } from "/experiment/past.js";
+import { Reel } from "/experiment/reel.js";
+import { ask, tell } from "/experiment/wire.js";
+
+await load("/experiment/english.json");
+
+const state = document.getElementById("state");
+const trouble = document.getElementById("trouble");
+const deed = document.getElementById("deed");
+const told = document.getElementById("told");
+const together = document.getElementById("together");
+const tabs = [...document.querySelectorAll("nav button")];
+const MARKED_MS = 2000;
+const reels = [...document.querySelectorAll(".reel")];
+const live = new Reel(reels[0]);
+const one = new Reel(reels[1]);
+const pair = [2, 3].map((at) => new Reel(reels[at], (step) => {
+  if (together.checked) pair.filter((reel) => reel.id !== pair[at - 2].id).forEach((reel) => reel.go(step));
+}, text(at === 2 ? "first_run" : "second_run")));
+const listPast = past(openOne, openTwo);
+let mission = 0;
+let known = -1;
+let marked = 0;
+
+function view(name) {
+  for (const tab of tabs) {
+    tab.setAttribute("aria-pressed", String(tab.dataset.view === name));
+    if (tab.dataset.view === name) tab.hidden = false;
+    document.getElementById(tab.dataset.view).hidden = tab.dataset.view !== name;
+  }
+  if (name === "past") listPast();
+}
+
+function openOne(run) {
+  view("one");
+  document.getElementById("one-title").textContent = run;
+  deed.textContent = "";
+  told.hidden = true;
+  one.open(run);
+}
+
+async function openTwo(first, second) {
+  view("two");
+  const box = document.getElementById("parting");
+  box.replaceChildren(element("p", { role: "status" }, text("comparing", { one: first, other: second })));
+  try {
+    const { parting } = await ask("parting", { one: first, other: second });
+    const step = parting?.tick ?? 0;
+    box.replaceChildren(...parted(parting, first, second));
+    await Promise.all([pair[0].open(first, step), pair[1].open(second, step)]);
+  } catch (error) {
+    box.replaceChildren(element("p", {}, error.message));
+  }
+}
+
+function parted(parting, first, second) {
+  if (!parting) return [element("p", {}, text("alike"))];
+  const where = parting.tick === null ? text("part_at_end") : text("part_at", { tick: parting.tick, time: parting.time_s.toFixed(2) });
+  return [element("p", {}, element("strong", {}, where)),
+    element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": where }, element("table", {},
+      element("thead", {}, element("tr", {}, ...[text("heads.what"), first, second].map((head) => element("th", { scope: "col" }, head)))),
+      element("tbody", {}, ...parting.aspects.map((aspect) => element("tr", {},
+        element("th", { scope: "row" }, aspect.what), element("td", {}, aspect.one), element("td", {}, aspect.other))))))];
+}
+
+async function act(what, doing) {
+  deed.textContent = text(doing);
+  told.hidden = true;
+  try {
+    const answer = await tell(what, { run: one.run });
+    deed.textContent = text(what === "view" ? "shown_in_rerun" : answer.same ? "same_today" : "other_today");
+    told.hidden = !answer.text;
+    told.textContent = answer.text ?? "";
+  } catch (error) {
+    deed.textContent = error.message;
+  }
+}
+
+function showLive(now) {
+  state.textContent = now.over ? text(now.mission ? "mission_over" : "no_mission", now) : text("mission_runs", now);
+  if (now.mission !== mission || now.nodes !== known) {
+    [mission, known] = [now.mission, now.nodes];
+    if (now.nodes) live.open("live", 0, true);
+    return;
+  }
+  if (live.follow.checked && now.last >= 0) live.go(1e9);
+  if (now.over || performance.now() - marked > MARKED_MS) {
+    marked = performance.now();
+    live.refresh();
+  }
+}
+
+for (const tab of tabs) tab.addEventListener("click", () => view(tab.dataset.view));
+document.getElementById("replay").addEventListener("click", () => act("replay", "replaying"));
+document.getElementById("view").addEventListener("click", () => act("view", "opening"));
+
+const connection = { open: "", lost: "disconnected", refused: "refused" };
+follow(["fresh", "live"], (name, value) => {
+  if (name === "live") showLive(value);
+}, (how) => {
+  trouble.hidden = !connection[how];
+  trouble.textContent = connection[how] ? textOr(connection[how], "") : "";
+}, "/experiment");

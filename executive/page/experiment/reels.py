@@ -1,0 +1,109 @@
+"""The reels that pages look at: of the mission that runs, and of the past runs looked at last."""
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable
+from pathlib import Path
+
+from executive.errors import ExecutiveError
+from executive.page.board import Board
+from executive.page.experiment.reel import Reel
+from executive.records import (
+    EventTaken,
+    Finished,
+    LlmCall,
+    Mishap,
+    Planned,
+    Record,
+    Tick,
+    TreeShape,
+    Utterance,
+    Verified,
+)
+from logs.recorder import Stamp
+from logs.recording.reader import Run
+
+MOST_KEPT = 4
+"""Past runs: two side by side, and two before."""
+LIVE = "live"
+"""What pages call the mission that runs, or that ran last."""
+READ = (TreeShape, Tick, Utterance, EventTaken, LlmCall, Verified, Planned, Mishap, Finished)
+
+
+class LiveReel:
+    """Implements Sink: keeps the mission that runs on a reel. It outlives missions."""
+
+    live = True
+    """Someone watches: it is flushed soon."""
+
+    def __init__(self, board: Board) -> None:
+        """Tell this board how far it is."""
+        self._board = board
+        self._number = 0
+        self.name: Callable[[], str] = lambda: ""
+        """Tells the name of the mission's folder; empty if it is not recorded."""
+        self.reel = Reel(LIVE)
+        self.reel.whole = True
+
+    def write(self, stamp: Stamp, record: Record) -> None:
+        """Keep it; the first record after the end of a mission begins another reel."""
+        if self.reel.whole:
+            self._number += 1
+            self.reel = Reel(LIVE)
+        self.reel.take(stamp.mission_s, record)
+
+    def flush(self) -> None:
+        """Tell the pages how far it is."""
+        reel = self.reel
+        self._board.put(
+            "live",
+            {
+                "mission": self._number,
+                "run": self.name(),
+                "nodes": len(reel.nodes),
+                "last": reel.last,
+                "lines": len(reel.lines),
+                "over": reel.whole,
+            },
+        )
+        self._board.flush()
+
+    def close(self) -> None:
+        """The mission is over."""
+        self.reel.whole = True
+        self.flush()
+
+
+class Reels:
+    """Past runs, read in threads of their own: what is read already can be shown meanwhile."""
+
+    def __init__(self) -> None:
+        """None is read yet."""
+        self._lock = threading.Lock()
+        self._kept: OrderedDict[str, Reel] = OrderedDict()
+
+    def of(self, folder: Path) -> Reel:
+        """The reel of a run; it is being read, or was."""
+        with self._lock:
+            reel = self._kept.get(folder.name)
+            if reel is None or (reel.whole and reel.trouble):
+                reel = self._kept[folder.name] = Reel(folder.name)
+                threading.Thread(target=read, args=[reel, folder], daemon=True).start()
+            self._kept.move_to_end(folder.name)
+            while len(self._kept) > MOST_KEPT:
+                _, dropped = self._kept.popitem(last=False)
+                dropped.whole = True  # whoever reads it may stop
+            return reel
+
+
+def read(reel: Reel, folder: Path) -> None:
+    """Read a recording to its end, or until the reel is not wanted any more."""
+    try:
+        for at in Run(folder).records(*READ):
+            if reel.whole:
+                return
+            reel.take(at.time_s, at.value)
+    except (ExecutiveError, OSError) as error:
+        reel.trouble = str(error)
+    finally:
+        reel.whole = True

@@ -1,0 +1,152 @@
+"""The experimenter's page in a real browser."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from browsing import DESKTOP, PHONE, opened
+from paging import Robot, heard, robot
+from playwright.sync_api import Browser, Locator, expect
+from playwright.sync_api import Page as Tab
+
+pytestmark = pytest.mark.browser
+
+RULES = {
+    "runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
+    "resultTypes": ["violations"],
+}
+HOSTILE = "<img src=x onerror=alert(1)> mug"
+
+
+@pytest.fixture(scope="module")
+def busy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Robot]:
+    """A robot that has found something, was told nonsense, and now waits for an answer."""
+    with robot(tmp_path_factory.mktemp("runs"), recorded=True, experimenter=True) as made:
+        page = made.page
+        heard(page, "doing", state="ready")
+        for words, then in (
+            ("Find the peach", {"name": "question", "kind": "where_is"}),
+            ("high_table", {"name": "doing", "state": "ready"}),
+            (HOSTILE, {"name": "outcome"}),
+        ):
+            page.says(words)
+            heard(page, **then)
+        heard(page, "doing", state="ready")
+        page.says("Find a fruit")
+        heard(page, "question", kind="which_object")
+        yield made
+
+
+@contextmanager
+def desk(browser: Browser, robot: Robot, **given: object) -> Iterator[Tab]:
+    with opened(browser, robot.page, robot.page.experimenter_url, **given) as tab:
+        yield tab
+
+
+def row(tab: Tab, name: str) -> Locator:
+    rows = tab.locator("section:visible [role=treeitem]")
+    return rows.filter(has=tab.get_by_text(name, exact=True)).first
+
+
+def open_past(tab: Tab, words: str) -> None:
+    tab.get_by_role("button", name="Past runs").click()
+    tab.get_by_label("Words", exact=True).fill(words)
+    expect(tab.locator("#runs tbody tr")).to_have_count(1)
+    tab.locator("#runs th button").click()
+    expect(tab.locator("#one .moment")).to_contain_text("Tick 0 of")
+
+
+def test_the_branch_at_work_is_shown_and_why(browser: Browser, busy: Robot) -> None:
+    with desk(browser, busy) as tab:
+        asking = row(tab, "ask which object")
+        expect(asking).to_have_attribute("data-status", "RUNNING")
+        row(tab, "which object").click()
+        why = tab.locator("#live .why")
+        expect(why).to_contain_text("It waits for “ask” in it.")
+        expect(why.locator(".because li").last).to_contain_text("ask which object running")
+
+
+def test_what_happens_is_followed_until_one_looks_back(browser: Browser, busy: Robot) -> None:
+    with desk(browser, busy) as tab:
+        expect(tab.locator("#live .moment")).to_have_attribute("data-step", "0")
+        busy.page.says("banana")
+        heard(busy.page, "question", kind="where_is")
+        expect(tab.locator("#live .moment")).to_have_attribute("data-step", "1")
+        tab.locator("#live").get_by_role("button", name="Tick before").click()
+        expect(tab.locator("#live .moment")).to_have_attribute("data-step", "0")
+        expect(tab.locator("#live").get_by_label("Follow what happens")).not_to_be_checked()
+        busy.page.says("Where are you?")
+        heard(busy.page, "said", who="robot")
+        tab.wait_for_timeout(500)
+        expect(tab.locator("#live .moment")).to_have_attribute("data-step", "0")
+
+
+def test_a_past_run_is_found_and_gone_through_by_the_keyboard(
+    browser: Browser, busy: Robot
+) -> None:
+    with desk(browser, busy) as tab:
+        open_past(tab, "peach done")
+        slider = tab.locator("#one input[type=range]")
+        slider.focus()
+        tab.keyboard.press("End")
+        expect(row(tab, "mission")).to_have_attribute("data-status", "SUCCESS")
+        expect(tab.locator("#one .lines li").last).to_contain_text("done: The peach is on")
+        tab.keyboard.press("Home")
+        expect(row(tab, "mission")).to_have_attribute("data-status", "RUNNING")
+        row(tab, "mission").focus()
+        for key in ("ArrowDown", "ArrowDown", "Enter"):
+            tab.keyboard.press(key)
+        expect(tab.locator("#one [aria-selected=true]")).to_have_count(1)
+
+
+def test_a_run_is_held_against_todays_tree(browser: Browser, busy: Robot) -> None:
+    with desk(browser, busy) as tab:
+        open_past(tab, "peach done")
+        tab.get_by_role("button", name="Against today's tree").click()
+        expect(tab.locator("#deed")).to_have_text("Today's tree decides the same.")
+        expect(tab.locator("#told")).to_contain_text("ticks as recorded")
+
+
+def test_two_runs_stand_side_by_side_where_they_part(browser: Browser, busy: Robot) -> None:
+    with desk(browser, busy) as tab:
+        tab.get_by_role("button", name="Past runs").click()
+        expect(tab.locator("#runs tbody tr")).to_have_count(3)
+        for box in tab.locator("#runs input").all()[1:]:
+            box.check()
+        tab.get_by_role("button", name="Two side by side").click()
+        expect(tab.locator("#parting")).to_contain_text("They part at tick 0")
+        expect(tab.locator("#two .moment").first).to_contain_text("Tick 0 of")
+        expect(tab.locator("#two .moment").last).to_contain_text("Tick 0 of")
+        assert not faults(tab)
+
+
+def test_hostile_words_are_words(browser: Browser, busy: Robot) -> None:
+    with desk(browser, busy) as tab:
+        open_past(tab, "onerror")
+        expect(tab.locator("#one .lines")).to_contain_text("<img src=x")
+        assert tab.locator("main img").count() == 0
+
+
+@pytest.mark.parametrize("colors", ["light", "dark"])
+@pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_axe_finds_no_fault(
+    browser: Browser, busy: Robot, size: dict[str, int], colors: str
+) -> None:
+    with desk(browser, busy, viewport=size, color_scheme=colors) as tab:
+        row(tab, "mission").click()
+        assert not faults(tab)
+        open_past(tab, "peach done")
+        assert not faults(tab)
+        tab.get_by_role("button", name="Past runs").click()
+        assert not faults(tab)
+        assert tab.evaluate("document.documentElement.scrollWidth") <= size["width"]
+
+
+def faults(tab: Tab) -> list[str]:
+    response = Axe().run(tab, options=RULES).response
+    return [
+        f"{fault['id']}: {node['html'][:160]} {node.get('failureSummary', '')[:300]}"
+        for fault in response["violations"]
+        for node in fault["nodes"]
+    ]
