@@ -17,6 +17,7 @@ from executive.language.meaning import (
     Request,
     Statement,
 )
+from executive.language.phrases import NEGATION
 from executive.language.spoken import Spoken, resolved, with_names
 from executive.language.wording import either
 from executive.replies import Standing, about, reply
@@ -28,6 +29,8 @@ from trees.telling import in_one_sentence
 
 _IT = frozenset(("it", "that", "this", "them"))
 _ALL = frozenset(("anything", "everything", "all", "any"))
+NOT_KNOWN_WHAT = "I hear '{}', and do not understand the rest."
+"""Said of a negation that is about nothing that there is to do."""
 
 
 def attend_to(context: MissionContext, words: str, now: str) -> str:
@@ -47,6 +50,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
     correction = as_correction(said)
     if isinstance(said, Answer):
         said = resolved(said, spoken)  # "it is on the sofa"
+    if denial := not correction and context.interpreter.denial(words):
+        return _refuse(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
         case Courtesy():
             return context.interpreter.talk(words)
@@ -168,7 +173,7 @@ def _is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
 
 
 def _named(context: MissionContext, words: str) -> set[str]:
-    names = context.knowledge.names_in(words)
+    names = context.knowledge.names_in(NEGATION.sub(" ", words.lower().replace("_", " ")))
     return {one for name in names for one in context.knowledge.objects_named(name)}
 
 

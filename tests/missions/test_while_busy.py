@@ -169,6 +169,29 @@ def test_what_is_to_be_left_alone_is_corrected(heard: str) -> None:
     assert mission.world.resting_place("hammer") == "shelf_lobby"
 
 
+@pytest.mark.parametrize(
+    "heard",
+    [
+        "take care not to bring the hammer",
+        "nobody needs the hammer",
+        "I told you not to bring it",
+        "do_not_bring_the hammer",
+        "bring the hammer nicht",
+        "fetch the hammer? no!",
+    ],
+)
+def test_a_negation_that_is_not_read_takes_back_what_it_names(heard: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert "Then I do not bring the hammer." in answers(mission)
+    assert not any(isinstance(goal, Pick) for goal in mission.goals)
+
+
+def test_a_negation_about_nothing_that_is_to_be_done_does_not_end_it_and_it_is_told_so() -> None:
+    mission = run("Bring the hammer", "take care not to fall")
+    assert any(text.startswith("I hear 'not', and do not") for text in answers(mission))
+    assert tasks(mission) == [("bring", "hammer", DONE)]
+
+
 @pytest.mark.parametrize("heard", ["Do not bring it", "don't bring the hammer"])
 def test_what_is_taken_back_is_not_done(heard: str) -> None:
     mission = run("Bring the hammer", heard)
