@@ -150,9 +150,17 @@ def test_a_class_is_asked_for_without_what_is_refused() -> None:
     assert [one for _, one, _ in tasks(mission)] != ["hammer", "pear"]
 
 
-def test_nothing_at_all_is_nothing_of_all() -> None:
-    mission = run("Bring the hammer, then bring the pear", "don't bring anything")
-    assert all(status == NOT_DONE for _, _, status in tasks(mission))
+@pytest.mark.parametrize(
+    ("heard", "status"),
+    [
+        ("don't bring anything", NOT_DONE),
+        ("bring nothing", NOT_DONE),
+        ("I need nothing else", DONE),
+    ],
+)
+def test_nothing_at_all_is_nothing_of_all(heard: str, status: MissionStatus) -> None:
+    mission = run("Bring the hammer, then bring the pear", heard)
+    assert {ended for _, _, ended in tasks(mission)} == {status}
 
 
 @pytest.mark.parametrize(
