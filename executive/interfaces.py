@@ -402,6 +402,10 @@ class Interpreter(Protocol):
         """
         ...
 
+    def denial(self, words: str) -> str:
+        """A word among them that denies, if it is not known what; empty if there is none."""
+        ...
+
     def not_understood(self, words: str) -> str:
         """Why nobody could read the words, as a clause: they are of another language, for one."""
         ...

@@ -17,6 +17,7 @@ from executive.language.meaning import (
     Request,
     Statement,
 )
+from executive.language.phrases import NEGATION
 from executive.language.spoken import Spoken, resolved, with_names
 from executive.language.wording import either
 from executive.replies import Standing, about, reply
@@ -27,7 +28,9 @@ from trees.context import MissionContext
 from trees.telling import in_one_sentence
 
 _IT = frozenset(("it", "that", "this", "them"))
-_ALL = frozenset(("anything", "everything", "all", "any"))
+_ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
+NOT_KNOWN_WHAT = "I hear '{}', and do not understand the rest."
+"""Said of a negation that is about nothing that there is to do."""
 
 
 def attend_to(context: MissionContext, words: str, now: str) -> str:
@@ -47,6 +50,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
     correction = as_correction(said)
     if isinstance(said, Answer):
         said = resolved(said, spoken)  # "it is on the sofa"
+    if denial := not correction and context.interpreter.denial(words):
+        return _refuse(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
         case Courtesy():
             return context.interpreter.talk(words)
@@ -131,7 +136,7 @@ def _add(context: MissionContext, commands: Commands | str | None, now: str) -> 
 def _refuse(context: MissionContext, words: str, at_hand: Command | None) -> str:
     """Do nothing that the words are about, now or later; empty if none of it was to be done."""
     agenda, named = context.situation.agenda, _named(context, words)
-    everything = not named and bool(_ALL & _words(words))
+    everything = not named and _means_all(words)
     waiting = [t for t in agenda.tasks if everything or named & _objects(context, t.command)]
     is_part = any(task.depth for task in waiting) and not everything
     left_out: list[Command] = []
@@ -164,11 +169,11 @@ def _is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
     request = context.situation.request
     if named := _named(context, words):
         return request.object in named or bool(named & _objects(context, at_hand))
-    return bool((_IT | _ALL) & _words(words))
+    return _means_all(words) or bool(_IT & _words(words))
 
 
 def _named(context: MissionContext, words: str) -> set[str]:
-    names = context.knowledge.names_in(words)
+    names = context.knowledge.names_in(NEGATION.sub(" ", words.lower().replace("_", " ")))
     return {one for name in names for one in context.knowledge.objects_named(name)}
 
 
@@ -176,6 +181,11 @@ def _objects(context: MissionContext, command: Command) -> set[str]:
     """The things that it may be about."""
     names = command.among or (command.target,)
     return {one for name in names for one in context.knowledge.objects_named(name)}
+
+
+def _means_all(words: str) -> bool:
+    """As in "do not bring anything", but not "I need nothing else"."""
+    return bool(_ALL & _words(words)) and "else" not in _words(words)
 
 
 def _words(words: str) -> set[str]:

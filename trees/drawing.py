@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape
 
 from py_trees.behaviour import Behaviour
 from py_trees.composites import Parallel, Selector, Sequence
-from py_trees.decorators import FailureIsSuccess
+from py_trees.decorators import FailureIsSuccess, SuccessIsFailure
 
 from trees.model import ModelAction
 from trees.nodes import EachOf, FirstOf
@@ -27,6 +27,7 @@ SIGNS: tuple[tuple[type, str, str], ...] = (
     (FirstOf, "∃", "loop, until one succeeds"),
     (EachOf, "∀", "loop over all"),
     (FailureIsSuccess, "✓", "failure is success"),
+    (SuccessIsFailure, "↷", "success is failure: what comes next is tried"),
 )
 """What a composite's sign means."""
 WHO: tuple[tuple[tuple[type, ...], str, str], ...] = (

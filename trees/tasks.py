@@ -8,7 +8,7 @@ from py_trees.common import Status
 from executive.records import Activity
 from executive.situation import TAKEN_BACK
 from executive.types import MissionStatus
-from trees.attend import Attend
+from trees.attend import hear_first
 from trees.context import MissionContext
 from trees.nodes import Action, Check, Selector, sequence
 from trees.order import begin_next
@@ -26,7 +26,7 @@ class EachTask(Selector):
 
     def __init__(self, name: str, context: MissionContext, *ways: Behaviour) -> None:
         """`ways` are what is tried for each task, until one succeeds; the last one always does."""
-        self._attend = Attend("hear", context)
+        self._attend = hear_first(context)
         super().__init__(name, memory=True, children=[self._attend, stand_still(context), *ways])
         self._context = context
 

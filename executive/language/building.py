@@ -5,7 +5,7 @@ from typing import Any
 
 from lark import Token
 
-from executive.language.deeds import Deeds, without
+from executive.language.deeds import Deeds
 from executive.language.meaning import (
     About,
     Again,
@@ -35,7 +35,7 @@ class Builder(Deeds):
     def request(self, parts: list[Part]) -> Request | Refusal:
         """Tasks, one after the other; what is to be left alone is no part of any of them."""
         left = tuple(thing for p in parts if isinstance(p, Left) for thing in p.things)
-        tasks = tuple(without(p, left) for p in parts if isinstance(p, Task))
+        tasks = tuple(p.without(left) for p in parts if isinstance(p, Task))
         if not tasks:
             return Refusal(" ".join(thing.said for thing in left))
         in_order = any(is_a(p, "FIRST", "THEN") for p in parts)

@@ -40,14 +40,6 @@ COURTESIES = {
     Courtesy.GOODBYE: "Goodbye!",
 }
 THING = "thing"
-_COUNTED = (
-    CommandKind.FIND,
-    CommandKind.TAKE,
-    CommandKind.BRING,
-    CommandKind.PUT,
-    CommandKind.PUT_BACK,
-)
-"""Deeds that are done with so many things."""
 _LOOKING = (CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL)
 
 
@@ -78,8 +70,8 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
 
 def left_alone(said: Request) -> str:
     """The names of what is not to be touched, whatever else is done."""
-    things = (thing for task in said.tasks if task.things for thing in task.things.members)
-    return " and ".join(but.words for thing in things for but in thing.exceptions if but.alone)
+    exceptions = (but for task in said.tasks if task.things for but in task.things.exceptions)
+    return " and ".join(but.words for but in exceptions if but.alone)
 
 
 def talk(said: Said, things: Sequence[str] = ()) -> str:

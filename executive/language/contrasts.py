@@ -4,7 +4,6 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from executive.language.deeds import without
 from executive.language.meaning import Answer, Refusal, Request, Said, Thing, Things
 
 _TURN = re.compile(r",? but (?:rather |instead )?|, ")
@@ -29,7 +28,7 @@ def in_its_place(said: Refusal, read: Callable[[str], Said]) -> Said:
         return said
     if not wrong or not all(_is_clear(task.things, wrong) for task in meant.tasks):
         return replace(said, more=True)
-    return replace(meant, tasks=tuple(without(task, wrong) for task in meant.tasks))
+    return replace(meant, tasks=tuple(task.without(wrong) for task in meant.tasks))
 
 
 def _same_deed(denied: Said, meant: Answer) -> Said:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from lark import Token
 
-from executive.language.meaning import ALL, ME, Task, Thing, Things, Where
+from executive.language.meaning import ME, Task, Thing, Things, Where
 from executive.language.nouns import Nouns
 from executive.language.parts import (
     From,
@@ -102,16 +102,16 @@ class Deeds(Nouns):
         if task.source is None and task.things:
             if task.things.one_of:
                 raise Unfit(task.things.members[-1].words)
-            places = [Where(thing.words) for thing in task.things.members]
-            left_out = (but for thing in task.things.members for but in thing.exceptions)
-            return without(replace(task, things=None, source=either_of(places)), tuple(left_out))
+            places = either_of([Where(thing.words) for thing in task.things.members])
+            cleared = replace(task, things=None, source=places)
+            return cleared.without(task.things.exceptions)
         return task
 
     def excepting(self, parts: list[Part]) -> Task:
         """As in "bring all the fruit from the table, except the pear"."""
         task = _deed(next(p for p in parts if isinstance(p, Task | Left)))
         left_out = tuple(p for p in parts if isinstance(p, Thing)) or exceptions_of(parts)
-        return without(task, left_out)
+        return task.without(left_out)
 
     def count(self, parts: list[Part]) -> Task:
         """As in "how many fruits are on the table"."""
@@ -148,15 +148,6 @@ class Deeds(Nouns):
         sought, part, *rest = (p for p in parts if not isinstance(p, Token))
         deed = _deed(part)
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
-
-
-def without(task: Task, left_out: tuple[Thing, ...]) -> Task:
-    """The same less some things; what has to do with none is done with all but these."""
-    if not left_out:
-        return task
-    things = task.things or Things((Thing(number=ALL, definite=True, said="everything"),))
-    members = (replace(t, exceptions=(*t.exceptions, *left_out)) for t in things.members)
-    return replace(task, things=replace(things, members=tuple(members)))
 
 
 def _deed(part: Part) -> Task:

@@ -12,21 +12,22 @@ _ALONE = (CommandKind.FIND, CommandKind.TAKE, CommandKind.BRING)
 
 def folded(tasks: Sequence[Task]) -> tuple[Task, ...]:
     """As few tasks as say the same: "find the mug and bring it" is "bring the mug"."""
-    folded: list[Task] = []
+    done: list[Task] = []
     for task in tasks:
-        before = folded[-1] if folded else None
-        if (
-            before
-            and before.verb == CommandKind.GO
-            and before.goal not in (None, ME)
-            and _places(task)
-        ):
-            folded[-1] = replace(task, source=before.goal)
+        before = done[-1] if done else None
+        if before and _is_on_the_way(before) and _places(task):
+            done[-1] = replace(task, source=before.goal)
         elif before and before.verb in _ALONE and not before.goal and _goes_on(task):
-            folded[-1] = replace(before, verb=task.verb, goal=task.goal, said=task.said)
+            goes_on = replace(before, verb=task.verb, goal=task.goal, said=task.said)
+            done[-1] = goes_on.without(task.things.exceptions if task.things else ())
         else:
-            folded.append(task)
-    return tuple(folded)
+            done.append(task)
+    return tuple(done)
+
+
+def _is_on_the_way(task: Task) -> bool:
+    """Whether the robot is only to go somewhere."""
+    return task.verb == CommandKind.GO and task.goal not in (None, ME) and task.things is None
 
 
 def _places(task: Task) -> bool:

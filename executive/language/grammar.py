@@ -52,17 +52,24 @@ class EnglishInterpreter:
     def _read(self, words: str, spoken: Spoken, holds: bool) -> Commands | str | None:
         """The tasks; or what to say; nothing to say if somebody else may read it."""
         read = commands_in(resolved(self._reader.read(words), spoken, holds=holds), words)
-        denial = ""
-        if isinstance(read, tuple):
-            names = [*chain.from_iterable(named_in(one) for group in read for one in group)]
-            denial = next(filter(None, map(self._reader.denial_in_name, names)), "")
-            if self._is_other_language(words, names):
-                read = None
-        if read is None:
-            denial = denial or self._reader.denial(words)
-        if denial:
+        names = _names_in(read) if isinstance(read, tuple) else []
+        if self._is_other_language(words, names):
+            read = None
+        if denial := self._denial(words, names, is_read=read is not None):
             return f"I do nothing: I hear '{denial}', and do not understand the rest."
         return read
+
+    def denial(self, words: str) -> str:
+        """A word among them that denies, if it is not known what; empty if there is none."""
+        read = commands_in(self._reader.read(words), words)
+        names = _names_in(read) if isinstance(read, tuple) else []
+        is_read = read is not None and not self._is_other_language(words, names)
+        return self._denial(words, names, is_read=is_read)
+
+    def _denial(self, words: str, names: Sequence[str], *, is_read: bool) -> str:
+        """The same, of words in which these names were read."""
+        denial = next(filter(None, map(self._reader.denial_in_name, names)), "")
+        return denial or ("" if is_read else self._reader.denial(words))
 
     def _is_other_language(self, words: str, names: Iterable[str]) -> bool:
         """Whether what was read as English is not, but for names that are known in any language."""
@@ -112,6 +119,10 @@ class EnglishInterpreter:
         first, _, rest = self._reader.plain(answer).partition(" ")
         begun = agrees(self._reader.read(first))
         return None if begun and self._reader.denial(rest) else begun
+
+
+def _names_in(commands: Commands) -> list[str]:
+    return [*chain.from_iterable(named_in(one) for group in commands for one in group)]
 
 
 def named_in(command: Command) -> tuple[str, ...]:

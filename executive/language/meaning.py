@@ -3,7 +3,7 @@
 `reader.py` makes these values of what a person says; names are still the person's words.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from executive.types import ALL as ALL  # as a number of things
@@ -74,6 +74,19 @@ class Things:
     members: tuple[Thing, ...]
     one_of: bool = False
 
+    @property
+    def exceptions(self) -> tuple[Thing, ...]:
+        """What none of them is to be."""
+        return tuple(but for thing in self.members for but in thing.exceptions)
+
+    def without(self, left_out: tuple[Thing, ...]) -> "Things":
+        """The same, and none of them is to be one of these."""
+        members = (replace(t, exceptions=(*t.exceptions, *left_out)) for t in self.members)
+        return replace(self, members=tuple(members)) if left_out else self
+
+
+EVERYTHING = Things((Thing(number=ALL, definite=True, said="everything"),))
+
 
 @dataclass(frozen=True, slots=True)
 class Task:
@@ -98,6 +111,12 @@ class Task:
     sought: "Task | None" = None
     unless: "Task | None" = None
     said: str = field(default="", compare=False)
+
+    def without(self, left_out: tuple[Thing, ...]) -> "Task":
+        """The same less some things; what names none is done with all but these."""
+        if not left_out:
+            return self
+        return replace(self, things=(self.things or EVERYTHING).without(left_out))
 
 
 # --- what may be said ---

@@ -102,8 +102,11 @@ class Nouns(Transformer[Token, Said]):
         )
 
     def except_(self, parts: list[Part]) -> tuple[Thing, ...]:
-        """As in "but a banana"."""
-        return tuple(p for p in parts if isinstance(p, Thing))
+        """As in "but a banana", "except the pear and the apple"."""
+        things = tuple(p for p in parts if isinstance(p, Thing))
+        if things[0].definite and any(thing.number and not thing.definite for thing in things):
+            raise Unfit(things[-1].said)  # "not the peach, and a mug": the mug may be wanted
+        return things
 
     def left_alone(self, parts: list[Part]) -> tuple[Thing, ...]:
         """As in "and do not touch the banana", "but leave the apple and the pear alone"."""

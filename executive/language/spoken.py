@@ -166,7 +166,7 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
         return None
     if before:
         named = is_it(task.things) and task.verb != CommandKind.PUT_DOWN
-        return before if named else task.things
+        return before.without(task.things.exceptions) if named else task.things
     in_hand = holds and task.verb in _OF_THE_HAND
     return task.things if in_hand else _things(task.things, spoken)
 

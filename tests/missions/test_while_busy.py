@@ -150,9 +150,17 @@ def test_a_class_is_asked_for_without_what_is_refused() -> None:
     assert [one for _, one, _ in tasks(mission)] != ["hammer", "pear"]
 
 
-def test_nothing_at_all_is_nothing_of_all() -> None:
-    mission = run("Bring the hammer, then bring the pear", "don't bring anything")
-    assert all(status == NOT_DONE for _, _, status in tasks(mission))
+@pytest.mark.parametrize(
+    ("heard", "status"),
+    [
+        ("don't bring anything", NOT_DONE),
+        ("bring nothing", NOT_DONE),
+        ("I need nothing else", DONE),
+    ],
+)
+def test_nothing_at_all_is_nothing_of_all(heard: str, status: MissionStatus) -> None:
+    mission = run("Bring the hammer, then bring the pear", heard)
+    assert {ended for _, _, ended in tasks(mission)} == {status}
 
 
 @pytest.mark.parametrize(
@@ -167,6 +175,29 @@ def test_what_is_to_be_left_alone_is_corrected(heard: str) -> None:
     mission = run("Bring the hammer", heard)
     assert tasks(mission) == [("bring", "power_drill", DONE)]
     assert mission.world.resting_place("hammer") == "shelf_lobby"
+
+
+@pytest.mark.parametrize(
+    "heard",
+    [
+        "take care not to bring the hammer",
+        "nobody needs the hammer",
+        "I told you not to bring it",
+        "do_not_bring_the hammer",
+        "bring the hammer nicht",
+        "fetch the hammer? no!",
+    ],
+)
+def test_a_negation_that_is_not_read_takes_back_what_it_names(heard: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert "Then I do not bring the hammer." in answers(mission)
+    assert not any(isinstance(goal, Pick) for goal in mission.goals)
+
+
+def test_a_negation_about_nothing_that_is_to_be_done_does_not_end_it_and_it_is_told_so() -> None:
+    mission = run("Bring the hammer", "take care not to fall")
+    assert any(text.startswith("I hear 'not', and do not") for text in answers(mission))
+    assert tasks(mission) == [("bring", "hammer", DONE)]
 
 
 @pytest.mark.parametrize("heard", ["Do not bring it", "don't bring the hammer"])

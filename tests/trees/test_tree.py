@@ -7,6 +7,7 @@ from py_trees.common import Status
 from py_trees.composites import Sequence
 
 from executive.records import NodeState
+from executive.testing.bench import run_mission
 from trees.nodes import EachOf, FirstOf
 from trees.tree import MissionTree
 
@@ -106,3 +107,10 @@ def test_paths_are_unique_even_where_names_are_not() -> None:
     tree = MissionTree(Sequence("root", memory=True, children=list(twins)))
     assert [node.path for node in tree.shape().nodes] == ["root", "root/look", "root/look 2"]
     assert [node.parent for node in tree.shape().nodes] == ["", "root", "root"]
+
+
+def test_hearing_is_no_fault_and_what_is_to_be_done_is_tried_next() -> None:
+    ticks = run_mission("Find the hammer", llm=False).ticks
+    heard = [{n.path: n.status for n in tick.nodes}["mission/and go on/hear"] for tick in ticks]
+    assert "SUCCESS" in heard
+    assert "FAILURE" not in heard

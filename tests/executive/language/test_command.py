@@ -81,3 +81,10 @@ def test_hears_yes_and_no(answer: str, agrees: bool | None) -> None:
 @pytest.mark.parametrize("answer", ["on the desk", "the notebook shelf", "bedroom", "kitchen"])
 def test_does_not_take_an_answer_for_a_refusal(answer: str) -> None:
     assert not read.declines(answer)
+
+
+@pytest.mark.parametrize("words", ["clear", "Tidy up, please"])
+def test_who_is_to_clear_is_told_what_it_takes(words: str) -> None:
+    read = EnglishInterpreter()
+    assert not read.commands(words)
+    assert read.remark(words).startswith("I can clear only at a place; say which.")

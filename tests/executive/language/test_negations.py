@@ -151,6 +151,12 @@ def test_who_may_have_asked_for_something_else_is_told_to_say_it_again(words, sa
     assert read.remark(words).startswith(says)
 
 
+@pytest.mark.parametrize("words", ["bring an apple, not the peach, and a mug"])
+def test_what_may_be_denied_or_wanted_is_neither_done_nor_passed_over(words: str) -> None:
+    assert not read.commands(words)
+    assert read.remark(words) == "I do nothing: I hear 'not', and do not understand the rest."
+
+
 def test_who_only_looks_need_not_be_told_to_leave_it() -> None:
     command = read.command("find the mug and do not touch it")
     assert command
