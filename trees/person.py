@@ -18,10 +18,9 @@ from executive.types import DELIVERY, Answered, Command, Question, QuestionKind,
 from trees.attention import attend_to
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
-from trees.telling import sentence, tell
+from trees.telling import NEXT_TO, sentence, tell
 from trees.unknown import nearest, unknown, unresolved
 
-NEXT_TO = "next to "
 NO_PLACE = "I know no such place. "
 
 

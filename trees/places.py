@@ -21,8 +21,8 @@ from executive.types import (
 )
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
-from trees.person import NEXT_TO, NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
-from trees.telling import TO_THE_PERSON, tell
+from trees.person import NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
+from trees.telling import NEXT_TO, TO_THE_PERSON, tell
 
 BESIDE = ("under ", NEXT_TO)
 """Beginnings of where nothing can be put."""

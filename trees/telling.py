@@ -9,6 +9,8 @@ from trees.context import MissionContext
 
 TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
 """Words for the goal that is the person who speaks."""
+NEXT_TO = "next to "
+"""Before the thing beside which something is to be."""
 
 
 def tell(context: MissionContext, text: str) -> None:
@@ -83,4 +85,7 @@ def to_where(context: MissionContext, command: Command) -> str:
     named = context.knowledge.places_named(command.goal)
     if len(named) == 1:
         return context.say.at(named[0])
+    if command.goal.startswith(NEXT_TO):
+        things = context.knowledge.objects_named(command.goal.removeprefix(NEXT_TO))
+        return f"{NEXT_TO}{context.say.the(things[0])}" if len(things) == 1 else command.goal
     return f"{'in' if named else 'to'} {_place(context, command, command.goal)}"

@@ -181,12 +181,21 @@ class Situation:
 
     def _unfinished(self) -> Iterator[TaskOutcome]:
         """The task at hand, and those not begun, if the mission was cut short."""
-        command = self.request.command
-        if self._is_at_hand and command:
-            yield self._of_task(command)
-        for task in self.agenda.tasks:
-            kind, target = task.command.kind, task.command.target
-            yield TaskOutcome(kind, target, None, self.ending.status, NOT_BEGUN, None)
+        command, wholes, tasks = self.request.command, self.agenda.wholes, self.agenda.tasks
+        at_hand = [self._of_task(command)] if self._is_at_hand and command else []
+        if wholes:
+            ended = [part for whole in wholes for part in whole.parts]
+            others = [self._cut_short(task.command, NOT_BEGUN) for task in tasks if task.depth]
+            parts = (*ended, *at_hand, *others)
+            whole = self._cut_short(wholes[0].command, self.ending.why)
+            yield replace(whole, parts=parts, visited=tuple(p for t in parts for p in t.visited))
+        else:
+            yield from at_hand
+        yield from (self._cut_short(task.command, NOT_BEGUN) for task in tasks if not task.depth)
+
+    def _cut_short(self, command: Command, why: str) -> TaskOutcome:
+        kind, target = command.kind, command.target
+        return TaskOutcome(kind, target, None, self.ending.status, why, None)
 
     @property
     def _is_split(self) -> bool:

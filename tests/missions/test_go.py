@@ -67,3 +67,10 @@ def test_what_it_holds_goes_with_it_and_why_it_could_not_go_is_said(tmp_path: Pa
     session.close()
     assert session.folder
     assert replay(session.folder).parting is None
+
+
+def test_where_the_robot_was_just_sent_it_puts_down_what_it_holds() -> None:
+    run = run_mission("Take the scissors, go to the sofa and put them down", llm=False)
+    assert (run.outcome.status, run.world.resting_place("scissors")) == (MissionStatus.DONE, "sofa")
+    run = run_mission("Take the scissors, go to the sofa, come here and put them down", llm=False)
+    assert run.world.resting_place("scissors") == "delivery"

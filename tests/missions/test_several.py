@@ -6,6 +6,7 @@ import pytest
 from replays import recorded
 
 from executive.campaign.truth import completed
+from executive.events import Inbox, StopRequested
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
 from executive.types import DriveTo, Goal, MissionStatus, Pick, PutDown
@@ -221,6 +222,21 @@ def test_furniture_is_cleared_of_all_that_is_seen_on_it() -> None:
 def test_what_belongs_nowhere_else_is_asked_about_when_furniture_is_cleared() -> None:
     shelf = run("Clear the shelf", answers=["on the desk"] * 9)
     assert {"hammer", "power_drill", "tennis_ball"} <= on(shelf, "desk")
+
+
+def test_after_a_stop_the_whole_is_told_with_what_was_done_of_it() -> None:
+    def stop(goal: Goal, inbox: Inbox) -> None:
+        if goal == DriveTo("shelf_lobby"):
+            inbox.post(StopRequested("the person"))
+
+    tools = run("Bring all the tools and the mug", during=stop)
+    stopped = MissionStatus.STOPPED
+    [mug, whole] = tools.outcome.tasks
+    assert (mug.status, whole.status, whole.target) == (DONE, stopped, "tools")
+    ends = [(part.target, part.status) for part in whole.parts]
+    assert ends[0] == ("adjustable_wrench", DONE)
+    assert sorted(ends[1:]) == [("hammer", stopped), ("power_drill", stopped)]
+    assert whole.visited == ("sideboard",)
 
 
 def test_a_recording_has_the_parts_and_replays(tmp_path: Path) -> None:

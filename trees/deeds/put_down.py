@@ -1,4 +1,4 @@
-"""Put down what is in the hand: on the nearest free furniture by the person, or where they say."""
+"""Put down what is in the hand: where the robot was just sent, by the person, or where they say."""
 
 from collections.abc import Iterable, Iterator
 
@@ -36,12 +36,23 @@ class PutDown(Deed):
 
 
 def empty_hand(context: MissionContext) -> Behaviour:
-    """Put down what is in the hand, because the person says so."""
+    """Put down what is in the hand, because the person says so: where they sent it, or by them."""
+    situation = context.situation
+
+    def sent_to() -> Iterator[str]:
+        last = situation.agenda.ended[-1:]
+        if last and last[0].kind == CommandKind.GO and situation.dialogue.at in last[0].goals:
+            yield from (p for p in [situation.dialogue.at] if context.knowledge.has_place(p))
+
+    def choose(place: str) -> None:
+        situation.hand.surface = place
+
     return sequence(
         "empty the hand",
         HoldsWhatIsMeant("holds it", context),
         fallback(
             "put it down",
+            FirstOf("where it was sent", sent_to, choose, go_and_put(context)),
             put_down_somewhere(context, "by the person", DELIVERY),
             StillHolds("still in my hand", context),
         ),
