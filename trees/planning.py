@@ -1,9 +1,9 @@
 """Look on, or ask? Where to look next: the plan that costs least, made anew at every step."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import takewhile
-from math import inf, isfinite
+from math import inf, isfinite, sqrt
 
 from py_trees.common import Status
 
@@ -38,36 +38,45 @@ class Ways:
         self._context = context
         self._told: dict[str, dict[str, float]] = {}
 
-    def seconds(self, start: str, places: Iterable[str]) -> list[float]:
+    def seconds(self, start: str, places: Sequence[str]) -> list[float]:
         """Of the ways from here, and of looking at all of each place (s)."""
-        robot, look_s = self._context.robot, self._context.parameters.look_s
-        wanted = tuple(places)
-        ways = self.driving(start, wanted)
-        return [way + look_s * robot.views(p) for p, way in zip(wanted, ways, strict=True)]
+        ways = self.driving(start, places)
+        return [way + self._look_s(place) for way, place in zip(ways, places, strict=True)]
 
-    def driving(self, start: str, places: Iterable[str]) -> list[float]:
+    def driving(self, start: str, places: Sequence[str]) -> list[float]:
         """Of the ways alone (s)."""
-        told, wanted = self._told.setdefault(start, {}), tuple(places)
-        if new := tuple(place for place in wanted if place not in told):
+        told = self._told.setdefault(start, {})
+        if new := tuple(place for place in places if place not in told):
             told |= {place: self._context.robot.seconds(start, place) for place in new}
             ways = tuple(told[p] if isfinite(told[p]) else -1.0 for p in new)
             self._context.recorder.record(WaysTold(start, new, ways))
-        return [told[place] for place in wanted]
+        return [told[place] for place in places]
 
     def seconds_from_halfway(self, leg: Leg, places: Sequence[str]) -> list[float]:
-        """The same from between two places: on to where it leads and further, or back."""
+        """The same from between two places, as if ways were straight (Stewart's theorem)."""
         driven = self._context.clock.now() - leg.since_s if leg.driven_s is None else leg.driven_s
-        whole, there = self.seconds(leg.start, (leg.place,))[0], self.seconds(leg.place, places)
-        left = max(0.0, whole - self._look_s(leg.place) - driven)
-        back = (driven + seconds for seconds in self.seconds(leg.start, places))
-        on = (
-            left + (self._look_s(place) if place == leg.place else seconds)
-            for place, seconds in zip(places, there, strict=True)
-        )
-        return list(map(min, back, on))
+        whole, *_ = self.driving(leg.start, (leg.place,))
+        part = min(1.0, driven / whole) if whole > 0 else 1.0
+        ends = zip(self.driving(leg.start, places), self.driving(leg.place, places), strict=True)
+        ways = (between(back, on, whole, part) for back, on in ends)
+        return [way + self._look_s(place) for way, place in zip(ways, places, strict=True)]
 
     def _look_s(self, place: str) -> float:
         return self._context.parameters.look_s * self._context.robot.views(place)
+
+
+def between(back: float, on: float, whole: float, part: float) -> float:
+    """How far it is from a part (0 to 1) of a straight way to a point.
+
+    Args:
+        back: how far it is from the beginning of the way.
+        on: how far it is from its end.
+        whole: how long the way is.
+        part: how much of it is behind.
+    """
+    if not isfinite(back + on + whole):
+        return max(back, on)
+    return sqrt(max(0.0, (1 - part) * back**2 + part * on**2 - part * (1 - part) * whole**2))
 
 
 class PlanNext(Step):

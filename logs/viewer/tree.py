@@ -24,7 +24,8 @@ _STATUS_STYLE = rr.StateConfiguration(
     colors=np.array(list(COLORS.values()), np.uint32),
     visible=[status != "INVALID" for status in COLORS],
 )
-_SIGNS = {"sequence": "→", "selector": "?", "parallel": "⇉", "decorator": "◇"}
+_SIGNS = {"sequence": "→", "selector": "?", "parallel": "||", "decorator": "◇"}
+"""The viewer ends at once if its font has not a sign."""
 
 _ROW, _INDENT, _COLUMN, _LETTER, _PADDING = 34.0, 48.0, 170.0, 5.8, 20.0
 """Layout of the graphs (viewer units): a row, a level (of either layout), a letter, a margin."""

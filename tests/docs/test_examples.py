@@ -36,6 +36,16 @@ def test_the_person_changes_their_mind_and_gets_the_other_thing(
     assert "All right: I bring the scissors instead." in capsys.readouterr().err
 
 
+@pytest.mark.physics
+def test_the_robot_searches_while_the_model_thinks(tmp_path: Path) -> None:
+    example("thinking_on_the_way")["main"](str(tmp_path))
+    (run,) = tmp_path.iterdir()
+    told = why_text(why(Run(run)))
+    assert "I look at coffee_table 0.08 (anywhere 0.08)" in told
+    assert "I look at bookshelf_bedroom 0.7" in told
+    assert replay(run).parting is None
+
+
 def test_the_added_behaviour_takes_the_robot_home(tmp_path: Path) -> None:
     own = example("own_behaviour")
     outcome = own["bring"]("Bring the mug", tmp_path)
