@@ -14,6 +14,7 @@ from executive.campaign.campaign import Campaign
 from executive.campaign.policies import POLICIES
 from executive.campaign.weeks.watching import Weeks
 from executive.config import KnowledgeSystem
+from executive.errors import InputError
 from executive.options import add_setting
 from executive.shell import entry_point
 from executive.usage import Parser
@@ -23,7 +24,11 @@ from executive.usage import Parser
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is left of a campaign, write its tables, return the exit code."""
     options = parser().parse_args(arguments)
-    return Weeks(options).run() if options.weeks else Campaign(options).run()
+    if options.weeks:
+        return Weeks(options).run()
+    if options.habits:
+        raise InputError("--habits", "nobody lives in a grid of missions", "add --weeks 8")
+    return Campaign(options).run()
 
 
 def parser() -> argparse.ArgumentParser:
