@@ -12,6 +12,7 @@ from pathlib import Path
 
 from executive.campaign.names import DESCRIPTIONS
 from executive.config import KnowledgeSystem
+from executive.errors import InputError
 from executive.options import add_setting
 from executive.shell import entry_point
 from executive.usage import Parser
@@ -26,6 +27,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from executive.campaign.weeks.watching import Weeks
 
         return Weeks(options).run()
+    if options.habits:
+        raise InputError("--habits", "nobody lives in a grid of missions", "add --weeks 8")
     from executive.campaign.campaign import Campaign
 
     return Campaign(options).run()

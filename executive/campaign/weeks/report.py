@@ -56,7 +56,7 @@ def report(lived: Sequence[Lived], about: Mapping[str, str]) -> list[Part]:
     if lived and not plots:
         parts.append(Text(NO_PLOTS))
     parts += plots
-    parts += [Heading("The last week"), last_week(found)]
+    parts += [Heading("The second half of the weeks"), second_half(found)]
     for name, (title, _) in MEASURES.items():
         parts += [Heading(title[0].upper() + title[1:]), by_week(found, name)]
     return [*parts, Heading("Settings"), Table(["what", "value"], list(about.items()))]
@@ -97,15 +97,16 @@ def by_week(found: Mapping[str, Sequence[Lived]], measure: str) -> Table:
     return Table(heads, lines)
 
 
-def last_week(found: Mapping[str, Sequence[Lived]]) -> Table:
-    """What it comes to in the end, with intervals."""
+def second_half(found: Mapping[str, Sequence[Lived]]) -> Table:
+    """What it comes to when the robot knows the home, with intervals."""
     heads = ["policy", *(title for title, _ in MEASURES.values()), "completed", "n"]
     lines = []
     for name, rows in found.items():
-        *_, last = weeks_of(rows)
-        done = sum(one.completed for one in last) / len(last)
-        cells = [_with_interval(summary(last, measure)) for measure in MEASURES]
-        lines.append([name, *cells, f"{100 * done:.1f} %", str(len(last))])
+        weeks = weeks_of(rows)
+        later = [one for week in weeks[len(weeks) // 2 :] for one in week]
+        done = sum(one.completed for one in later) / len(later)
+        cells = [_with_interval(summary(later, measure)) for measure in MEASURES]
+        lines.append([name, *cells, f"{100 * done:.1f} %", str(len(later))])
     return Table(heads, lines)
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from executive.campaign.__main__ import main
-from executive.campaign.report.document import Table
+from executive.campaign.report.document import Table, to_markdown
 from executive.campaign.weeks.household import Household, live
 from executive.campaign.weeks.lived import Diary, Line, Lived, read_line, read_table
 from executive.campaign.weeks.report import report
@@ -95,6 +95,14 @@ def test_the_report_tells_each_policy_week_by_week() -> None:
     assert stale.rows == [["plan", "0.00", "100.00"], ["paper", "0.00"]]
 
 
+def test_every_table_of_the_committed_report_comes_from_the_committed_results() -> None:
+    folder = Path(__file__).parents[3] / "docs" / "experiment-weeks"
+    committed = (folder / "report.md").read_text(encoding="utf-8").split("## Settings")[0]
+    parts = report(read_table(folder / "results.parquet"), {})
+    again = to_markdown(parts, "plots").split("## Settings")[0]
+    assert again == committed
+
+
 def test_a_robot_that_always_asks_shows() -> None:
     rows = [lived(day=day, inquiries=1, visits=1) for day in range(7)]
     assert tables(rows)[0].rows[0][1] == "1.00 (1.00 to 1.00)"
@@ -128,6 +136,11 @@ def test_options_that_do_not_fit_are_refused(
 ) -> None:
     assert main(["--weeks", "1", "--out", str(tmp_path / "out"), *words]) == 2
     assert sentence in capsys.readouterr().err
+
+
+def test_habits_without_weeks_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--habits", "household"]) == 2
+    assert "nobody lives in a grid of missions; add --weeks 8" in capsys.readouterr().err
 
 
 def test_more_weeks_than_anybody_waits_for_are_refused() -> None:
