@@ -106,3 +106,15 @@ def test_paths_are_unique_even_where_names_are_not() -> None:
     tree = MissionTree(Sequence("root", memory=True, children=list(twins)))
     assert [node.path for node in tree.shape().nodes] == ["root", "root/look", "root/look 2"]
     assert [node.parent for node in tree.shape().nodes] == ["", "root", "root"]
+
+
+def test_what_was_active_inside_of_what_is_not_any_more_is_not_active() -> None:
+    leaf = Leaf("leaf", lambda: Status.RUNNING)
+    inner = Sequence("inner", memory=True, children=[leaf])
+    tree = MissionTree(Sequence("root", memory=True, children=[inner]))
+    tree.tick()
+    assert [state.status for state in tree.states()] == ["RUNNING"] * 3
+    inner.stop(Status.INVALID)
+    assert [state.status for state in tree.states()] == ["RUNNING", "INVALID", "INVALID"]
+    tree.tick()
+    assert [state.status for state in tree.states()] == ["RUNNING"] * 3
