@@ -6,6 +6,7 @@ What takes long to import is imported where it is needed: the model prepares mea
 import logging
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from functools import lru_cache
 from typing import TextIO
 
 from executive.app.embodiment import Embodiment, Setup
@@ -25,12 +26,13 @@ from executive.interfaces import (
     User,
 )
 from executive.language.grammar import EnglishInterpreter
-from executive.types import ChatRequest, RankRequest
+from executive.types import ChatRequest, Place, RankRequest, Thing
 from executive.user import Console, Nobody, Oracle
 from kb.advice.prompts import Prompts
 from kb.facts import FactStore
 from kb.llm.open import model_for_missions
 from kb.ontology.ontology import Ontology
+from kb.ontology.owl import OwlFile, read
 from sim.home.home import Home, load_home
 
 log = logging.getLogger(__name__)
@@ -117,17 +119,30 @@ def learning(
 
 def read_ontology(settings: Settings, home: Home) -> Ontology:
     """What is known of the home; what is odd about that goes to the log."""
-    knowledge = Ontology(
+    knowledge = _ontology(
         home.places(),
-        things=home.things(),
-        defaults=settings.defaults,
-        files=settings.kb,
-        person=settings.person,
-        home=home.file,
+        home.things(),
+        settings.defaults,
+        tuple(map(read, settings.kb)),
+        settings.person,
+        home.file,
     )
     for warning in knowledge.warnings():
         log.warning("%s", warning)
     return knowledge
+
+
+@lru_cache(maxsize=4)
+def _ontology(
+    places: tuple[Place, ...],
+    things: tuple[Thing, ...],
+    defaults: bool,
+    files: tuple[OwlFile, ...],
+    person: str | None,
+    home: str,
+) -> Ontology:
+    """What is known of homes that differ in nothing of this: it only ever answers."""
+    return Ontology(places, things=things, defaults=defaults, files=files, person=person, home=home)
 
 
 def blindness(names: Sequence[str]) -> str:

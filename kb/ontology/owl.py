@@ -7,6 +7,7 @@ imports the Python module that an annotation names, and reads what a file import
 import logging
 import warnings
 from dataclasses import dataclass
+from functools import lru_cache
 from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
@@ -44,9 +45,12 @@ for _kind in (RDF.XMLLiteral, RDF.HTML):
     rdflib.term.bind(_kind, _Markup)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class OwlFile:
-    """A file, the IRI and the versions of the ontology in it, and the IRIs that it imports."""
+    """A file, the IRI and the versions of the ontology in it, and the IRIs that it imports.
+
+    What was read once is the same object again, as long as the file says the same.
+    """
 
     path: Path
     content: bytes
@@ -72,11 +76,15 @@ def parsed(path: Path, content: bytes) -> OwlFile:
         InputError: if it is neither RDF/XML nor Turtle, refers to another file, says too much, or
             names Python code to be run.
     """
-    where = printable(path)
     if len(content) > MOST_BYTES:
         fault = f"is larger than {MOST_BYTES // 1_000_000} MB"
-        raise InputError(where, fault, "give a smaller part of it")
-    here = path.absolute().as_uri()
+        raise InputError(printable(path), fault, "give a smaller part of it")
+    return _parsed(path, content, path.absolute().as_uri())
+
+
+@lru_cache(maxsize=8)
+def _parsed(path: Path, content: bytes, here: str) -> OwlFile:
+    where = printable(path)
     if is_xml(content, where):
         base = base_of_bounded(content, where)
         triples = _triples(content, "xml", "RDF/XML", here, where)

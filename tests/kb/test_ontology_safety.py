@@ -125,6 +125,7 @@ def executive_replay_forgets() -> None:
     from executive.replay.recorded import _ontology
 
     _ontology.cache_clear()
+    kb.ontology.owl._parsed.cache_clear()
 
 
 def test_reading_opens_its_file_and_touches_nothing_else(tmp_path):

@@ -242,3 +242,9 @@ def test_a_missing_home_file_names_the_packaged_ones():
 def test_a_wrong_placement_is_named(four_rooms, placement: dict[str, str], sentence: str):
     with pytest.raises(InputError, match=f"--place: .*{sentence}"):
         four_rooms.with_placement(placement)
+
+
+def test_all_poses_at_once_are_those_of_each(four_rooms):
+    poses = four_rooms.object_poses()
+    assert list(poses) == list(four_rooms.objects)
+    assert poses["mug"] == four_rooms.object_pose("mug")

@@ -114,3 +114,15 @@ def test_hearing_is_no_fault_and_what_is_to_be_done_is_tried_next() -> None:
     heard = [{n.path: n.status for n in tick.nodes}["mission/and go on/hear"] for tick in ticks]
     assert "SUCCESS" in heard
     assert "FAILURE" not in heard
+
+
+def test_what_was_active_inside_of_what_is_not_any_more_is_not_active() -> None:
+    leaf = Leaf("leaf", lambda: Status.RUNNING)
+    inner = Sequence("inner", memory=True, children=[leaf])
+    tree = MissionTree(Sequence("root", memory=True, children=[inner]))
+    tree.tick()
+    assert [state.status for state in tree.states()] == ["RUNNING"] * 3
+    inner.stop(Status.INVALID)
+    assert [state.status for state in tree.states()] == ["RUNNING", "INVALID", "INVALID"]
+    tree.tick()
+    assert [state.status for state in tree.states()] == ["RUNNING"] * 3

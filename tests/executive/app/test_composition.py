@@ -129,3 +129,24 @@ def test_a_session_closes_what_it_opened_once(monkeypatch: pytest.MonkeyPatch) -
         pass
     session.close()
     assert closed == ["facts"]
+
+
+def test_sessions_of_one_home_share_what_is_known_of_it(tmp_path: Path) -> None:
+    one, other = (_knowledge(tmp_path) for _ in range(2))
+    assert one is other
+
+
+def test_a_file_that_has_changed_is_read_again(tmp_path: Path) -> None:
+    file = tmp_path / "mine.ttl"
+    ours = "https://example.org/mine"
+    lines = f"<{ours}> a <http://www.w3.org/2002/07/owl#Ontology> .\n"
+    contents = []
+    for more in ("", "# more\n"):
+        file.write_text(lines + more)
+        contents.append(_knowledge(tmp_path, kb=(file,)).files()["mine.ttl"])
+    assert contents == [lines.encode(), (lines + "# more\n").encode()]
+
+
+def _knowledge(folder: Path, **settings: Any) -> Any:
+    with Session(load_settings(**QUICK, runs=folder, **settings)) as session:
+        return session.parts.knowledge
