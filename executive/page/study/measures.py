@@ -9,6 +9,8 @@ from executive.page.study.questionnaire import ALL
 from executive.page.study.tables import FINISHED, Tables, TaskRow
 from executive.types import MissionStatus
 
+OUTSIDE = ("",)
+"""Of any condition: before the first one, after the last one."""
 OF_TASKS: Mapping[str, Callable[[TaskRow], float]] = {
     "tasks done, say participants [%]": lambda row: 100.0 * (row.ended == FINISHED),
     "tasks done, says the robot [%]": lambda row: 100.0 * (row.last_status == MissionStatus.DONE),
@@ -63,10 +65,10 @@ def of_tasks(tables: Tables, conditions: tuple[str, ...]) -> list[Measure]:
 
 
 def of_questionnaires(tables: Tables, conditions: tuple[str, ...]) -> list[Measure]:
-    """The scales of what was answered after each condition."""
+    """The scales of what was answered after each of these conditions."""
     found: dict[str, dict[str, dict[str, float]]] = {}
     for row in tables.scores:
-        if row.condition:
+        if row.condition in conditions:
             name = row.questionnaire if row.scale == ALL else f"{row.questionnaire}: {row.scale}"
             of_all = found.setdefault(name, {condition: {} for condition in conditions})
             of_all[row.condition][row.participant] = row.score

@@ -17,7 +17,7 @@ from executive.campaign.report.statistics import Summary, stars
 from executive.errors import InputError
 from executive.page.study.data import StudyData, is_last, number_of, write_whole
 from executive.page.study.file import Study
-from executive.page.study.measures import Measure, of_questionnaires, of_tasks
+from executive.page.study.measures import OUTSIDE, Measure, of_questionnaires, of_tasks
 from executive.page.study.steps import order
 from executive.page.study.tables import AnswerRow, Tables, write_tables
 
@@ -69,6 +69,8 @@ def report(data: StudyData, tables: Tables) -> list[Part]:
             parts += [Heading(title), by_condition(measures, conditions)]
             parts += plots.get(title, ())
             parts += [differences(measures)] if len(conditions) > 1 else []
+    if outside := of_questionnaires(tables, OUTSIDE):
+        parts += [Heading("Before and after"), by_condition(outside, OUTSIDE, ("all",))]
     parts += [Heading("Participants"), participants(data, tables)]
     parts += [Heading("At which place each condition came"), places(tables, conditions)]
     if words := [row for row in tables.answers if row.words]:
@@ -76,13 +78,15 @@ def report(data: StudyData, tables: Tables) -> list[Part]:
     return [*parts, Heading("Conditions"), _conditions(study), Text(_consent(study))]
 
 
-def by_condition(measures: Iterable[Measure], conditions: Sequence[str]) -> Table:
-    """Means with intervals, and standard deviations."""
+def by_condition(
+    measures: Iterable[Measure], conditions: Sequence[str], heads: Sequence[str] = ()
+) -> Table:
+    """Means with intervals, and standard deviations; the heads are the conditions."""
     lines = [
         [measure.name, *(_told(measure.summary(condition)) for condition in conditions)]
         for measure in measures
     ]
-    return Table(["mean (95 %)", *conditions], lines)
+    return Table(["mean (95 %)", *(heads or conditions)], lines)
 
 
 def _told(one: Summary | None) -> str:

@@ -23,6 +23,7 @@ STUDY = Study.model_validate(
         "conditions": [{"name": name, "settings": {"seed": 1}} for name in NAMES],
         "tasks": [{"name": "t", "text": "Do."}, {"name": "u", "text": "Do."}],
         "after_each": ["sus", "free"],
+        "at_end": ["godspeed"],
         "questionnaires": {
             "free": {"title": "F", "items": [{"name": "w", "text": "Why?", "answer": "words"}]}
         },
@@ -42,7 +43,7 @@ def goes_through(data: StudyData, code: str, number: int) -> None:
                 journal.append("task", done=step.key, ended="finished", **task, **where)
             elif step.kind == Kind.QUESTIONNAIRE:
                 items = data.study.questionnaire(step.name).items
-                points = POINTS[step.condition]
+                points = POINTS.get(step.condition, 3)
                 answers: dict[str, int | str] = {
                     item.name: 6 - points if item.reversed else points for item in items
                 }
@@ -105,6 +106,16 @@ def test_it_says_how_often_each_condition_came_when(data: StudyData) -> None:
     found = [part for part in report(data, tables(data)) if isinstance(part, Table)]
     places = next(table for table in found if table.heads[0] == "condition" and "1" in table.heads)
     assert [list(row) for row in places.rows] == [["fast", "4", "4"], ["slow", "4", "4"]]
+
+
+def test_what_was_asked_outside_of_the_conditions_is_told_apart(data: StudyData) -> None:
+    found = [part for part in report(data, tables(data)) if isinstance(part, Table)]
+    outside = next(table for table in found if "all" in table.heads)
+    assert [row[0] for row in outside.rows][:2] == [
+        "godspeed: anthropomorphism",
+        "godspeed: animacy",
+    ]
+    assert [one.name for one in of_questionnaires(tables(data), NAMES)] == ["sus"]
 
 
 def test_without_data_there_is_none(tmp_path: Path) -> None:
