@@ -85,6 +85,7 @@ class Arm:
         self.holds: bool | None = None
         """By what the gripper said last; None: it was not asked yet."""
         self._held: tuple[str, Hold] | None = None
+        self._is_out = False
 
     async def pick(self, detection: Detection) -> Succeeded | Failed:
         """Take a thing that is seen."""
@@ -102,6 +103,7 @@ class Arm:
             why = await self._reach(hold)
             if not why:
                 return await self._take(name, hold)
+        await self.fold()
         return Failed(f"I cannot reach the {name}: {why}")
 
     async def _reach(self, hold: Hold) -> str:
@@ -119,11 +121,12 @@ class Arm:
         if why or not (self.holds or self._senses.holding):
             await self._grip(self._gripper.open)
             await self._move(_shifted(hold.hand, _ahead(hold.hand, -BACK_M)))
+            await self.fold()
             return Failed(why or f"my hand closed without the {name}")
         self._held = name, hold
         if why := await self._move(_shifted(hold.hand, np.array([0.0, 0.0, UP_M]))):
             return Failed(f"I cannot lift the {name}: {why}")
-        if why := await self._carry():
+        if why := await self.fold():
             return Failed(f"I cannot carry the {name}: {why}")
         return Succeeded()
 
@@ -140,7 +143,7 @@ class Arm:
             why = await self._move(above) or await self._move(hand)
             if not why:
                 return await self._let_go(hand)
-        await self._carry()
+        await self.fold()
         return Failed(why)
 
     async def _let_go(self, hand: Pose) -> Succeeded | Failed:
@@ -148,8 +151,20 @@ class Arm:
             return Failed(f"my hand does not open: {why}")
         self._held = None
         await self._move(_shifted(hand, _ahead(hand, -BACK_M)))
-        await self._carry()
+        await self.fold()
         return Succeeded()
+
+    async def fold(self) -> str:
+        """Bring the arm to where it carries, if it is elsewhere; why that failed, or nothing.
+
+        The robot does not drive with its arm out, as it may be after a halt.
+        """
+        if not self._is_out:
+            return ""
+        arm = self._arm
+        why = await self._motion(to_joints(arm.group, arm.carry, arm.speed))
+        self._is_out = bool(why)
+        return why
 
     # --- goals ---
 
@@ -157,11 +172,8 @@ class Arm:
         base = self._senses.base
         if base is None:
             return "nobody tells where I am"
-        arm, pose = self._arm, _seen_from(base, hand)
+        arm, pose, self._is_out = self._arm, _seen_from(base, hand), True
         return await self._motion(to_pose(arm.group, arm.tip, self._frames.base, pose, arm.speed))
-
-    async def _carry(self) -> str:
-        return await self._motion(to_joints(self._arm.group, self._arm.carry, self._arm.speed))
 
     async def _motion(self, request: Message) -> str:
         end = await self._act("arm", {"request": request})

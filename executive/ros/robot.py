@@ -243,6 +243,8 @@ class WireRobot:
         if stand is None:
             return Failed(f"there is no {place} in this home")
         self._at = None
+        if self._arm is not None and (why := await self._arm.fold()):
+            return Failed(f"I cannot fold my arm: {why}")
         had = self._senses.holding
         pose = planar_pose(*stand, self._profile.frames.map)
         for leg in await self._actions.legs(pose):

@@ -163,6 +163,17 @@ def test_a_halt_in_the_middle_of_a_pick_ends_all_motions(linked: Linked) -> None
     assert len(linked.there.motions) == done
 
 
+def test_it_does_not_drive_with_its_arm_out(linked: Linked) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.here.robot.start(Pick(seen(at)))
+    while not linked.there.motions:
+        linked.bench.wait(0.02)
+    assert linked.bench.do(Halt()) == Succeeded()
+    assert linked.bench.do(DriveTo("person")) == Succeeded()
+    assert "joint_constraints" in linked.there.motions[-1]["goal_constraints"][0]
+
+
 def test_look_proposes_its_arm_and_gripper(
     linked: Linked, capsys: pytest.CaptureFixture[str]
 ) -> None:
