@@ -4,6 +4,7 @@ from collections.abc import Callable
 from functools import partial
 
 from executive.app.embodiment import Embodiment, Setup
+from executive.app.handling import KnownThings
 from executive.app.simulation import blind_to
 from executive.errors import InputError
 from executive.perception.pipeline import CameraPerception
@@ -41,7 +42,8 @@ def wire(setup: Setup) -> Embodiment:
 
     address = read_address(settings.robot or "")
     ways = ways_of(setup.home, profile)
-    there = connect(address, profile, setup.home, setup.inbox, where, ways, record)
+    hands = KnownThings(setup.home)
+    there = connect(address, profile, setup.home, setup.inbox, where, ways, record, hands)
     return Embodiment(
         there.robot,
         CameraPerception(there.camera, detector, setup.inbox, setup.recorder, far=True),

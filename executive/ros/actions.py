@@ -7,9 +7,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from executive.ros.link import GoalEnd, Link, LinkError
-from executive.ros.profile import Profile, filled
+from executive.ros.profile import Profile
 from executive.ros.protocol import GoalStatus, Message
 from executive.ros.stopping import PARTS
+from executive.ros.templates import filled
 from executive.text import one_line
 from executive.types import Failed
 

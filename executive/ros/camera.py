@@ -7,6 +7,7 @@ from itertools import count
 import numpy as np
 
 from executive.computing import still_wanted
+from executive.geometry import Floats, back_project
 from executive.ros.link import Link, LinkError
 from executive.ros.messages import stamp_of
 from executive.ros.pictures import color_of, depth_of, lens_of
@@ -56,6 +57,13 @@ class WireCamera:
             raise LinkError("the link to the robot was closed") from None
         finally:
             taking.cancel()
+
+    async def points(self) -> Floats:
+        """What it sees now, as points (n, 3) in `map`; called on the thread of the wire."""
+        frame = await self._take()
+        rows, columns = np.mgrid[: frame.intrinsics.height, : frame.intrinsics.width]
+        points: Floats = back_project(frame, rows.ravel(), columns.ravel()).astype(np.float64)
+        return points
 
     async def _take(self) -> Frame:
         await self._link.ready(LINK_S)

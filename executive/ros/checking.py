@@ -85,6 +85,8 @@ def _unheard(profile: Profile, senses: Senses, where: str) -> list[InputError]:
         found.append(InputError(where, f"odometry, joints: {senses.unrest}", right))
     frames = profile.frames
     needed = [frames.base, frames.camera] if profile.camera.in_map else []
+    needed += [profile.arm.tip] if profile.arm else []
+    needed += [profile.look.mount] if profile.look else []
     for frame in filter(None, needed):
         if senses.frames.pose(frame, frames.map) is None:
             known = ", ".join(senses.frames.names[:12]) or "no frames at all"

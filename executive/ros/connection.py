@@ -10,6 +10,7 @@ from executive.events import Inbox
 from executive.guards import in_words
 from executive.interfaces import Clock
 from executive.ros.address import ROS2, Address
+from executive.ros.arm import Hands, NoHands
 from executive.ros.camera import WireCamera
 from executive.ros.checking import faults
 from executive.ros.clock import GoalClock, RobotClock
@@ -86,6 +87,7 @@ def connect(
     where: str,
     ways: Callable[[str, str], float],
     told: Callable[[Pose], None] = lambda pose: None,
+    hands: Hands | None = None,
 ) -> Connection:
     """Open a link to a robot and hold the profile against it; nothing moves.
 
@@ -97,6 +99,7 @@ def connect(
         where: what the profile is called in messages.
         ways: how long it takes from one place to another one (s).
         told: is given where the base is in the map, now and then, on the thread that ticks.
+        hands: how things are held, for a robot that has motions but no skills; None: not known.
 
     Raises:
         InputError: if nobody answers there, or the profile does not fit the robot.
@@ -120,8 +123,20 @@ def connect(
         if (pose := senses.base) is not None:
             told(pose)
 
-    robot = WireRobot(line.wire, line.link, profile, senses, brake, places, ways, inbox, tell)
     camera = WireCamera(line.wire, line.link, profile, senses)
+    robot = WireRobot(
+        line.wire,
+        line.link,
+        profile,
+        senses,
+        brake,
+        places,
+        ways,
+        inbox,
+        tell,
+        hands or NoHands(),
+        camera.points,
+    )
     return Connection(line, robot, camera, _clock(profile, inbox, robot, senses), tell)
 
 

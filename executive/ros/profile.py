@@ -13,33 +13,10 @@ from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.files import read_bytes
+from executive.ros.templates import GOALS, OFFERED, placeholders
 from executive.toml_file import MOST_BYTES, parse_toml
 
 EXAMPLE = "see docs/own-robot.md"
-GOALS: Mapping[str, Mapping[str, Any]] = {
-    "nav2_msgs/action/NavigateToPose": {"pose": "$pose"},
-    "nav2_msgs/action/Spin": {"target_yaw": "$turn"},
-    "control_msgs/action/PointHead": {
-        "target": "$point",
-        "pointing_frame": "$camera",
-        "pointing_axis": {"x": 0.0, "y": 0.0, "z": 1.0},
-    },
-    "executive_msgs/action/Pick": {
-        "label": "$label",
-        "points": "$points",
-        "confidence": "$confidence",
-        "cut_off": "$cut_off",
-    },
-    "executive_msgs/action/Place": {"place": "$place"},
-}
-"""The goals of types that are known; another type's is given by the profile."""
-OFFERED: Mapping[str, tuple[str, ...]] = {
-    "drive": ("pose", "place"),
-    "look": ("point", "turn", "camera", "place"),
-    "pick": ("label", "points", "confidence", "cut_off", "point", "pose", "place"),
-    "place": ("point", "pose", "place"),
-}
-"""What stands for what in a goal, by section: `$pose` and so on."""
 
 
 def _graph_name(name: str) -> str:
@@ -122,10 +99,56 @@ class Drive(Action):
 class Look(Action):
     """Turning the head, or all of the robot.
 
-    `views` is how many looks it takes to see a place; left out: one for each of its surfaces.
+    Attributes:
+        views: how many looks it takes to see a place; left out: one for each of its surfaces.
+        joints: of a head that follows trajectories: the one that turns it to the left, and the one
+            that turns it down.
+        mount: the frame that carries these joints, with x ahead and z up.
     """
 
     views: Annotated[int, Field(ge=1, le=20)] | None = None
+    joints: tuple[str, str] | None = None
+    mount: str = ""
+
+    @model_validator(mode="after")
+    def _trajectories_need_joints(self) -> Self:
+        if "$angles" in str(self.template) and not (self.joints and self.mount):
+            raise ValueError("joints and mount are missing: which joints turn the head, on what")
+        return self
+
+
+class ArmAction(Action):
+    """Motions of the arm, by MoveIt 2: for a robot that has no action of its own for picking up.
+
+    Attributes:
+        group: MoveIt's planning group.
+        tip: the frame of the point between the fingers; z points out of the hand, y to a finger.
+        carry: positions of the joints in which things are carried (radians, metres).
+        speed: part of the greatest one.
+    """
+
+    group: str
+    tip: str
+    carry: dict[str, Annotated[float, Field(ge=-100, le=100)]] = Field(min_length=1)
+    speed: Annotated[float, Field(gt=0, le=1)] = 0.2
+
+
+class GripperAction(Action):
+    """The gripper. Something is held if it stalls before it is closed.
+
+    Attributes:
+        open: the command that opens it.
+        closed: the command that closes it.
+        effort: the greatest one (as the action has it).
+        joint: for ParallelGripperCommand: the joint's name.
+        opens_m: how far it opens (metres).
+    """
+
+    open: float
+    closed: float
+    effort: float
+    joint: str = ""
+    opens_m: Annotated[float, Field(gt=0, le=1)]
 
 
 class Hand(_Section):
@@ -216,6 +239,8 @@ class Profile(_Section):
     look: Look | None = None
     pick: Action | None = None
     place: Action | None = None
+    arm: ArmAction | None = None
+    gripper: GripperAction | None = None
     hand: Hand | None = None
     camera: CameraTopics
     odometry: Topic
@@ -232,48 +257,34 @@ class Profile(_Section):
                     f"{section}.goal is missing: I know only the goals of {known}; "
                     "write what goes into its fields"
                 )
-            for word in _placeholders(action.template):
+            for word in placeholders(action.template):
                 if word not in OFFERED[section]:
                     offered = ", ".join(f"${one}" for one in OFFERED[section])
                     raise ValueError(f"{section}.goal has ${word}; there are {offered}")
         if (self.pick is None) != (self.place is None):
             raise ValueError("pick and place belong together: give both, or neither")
+        if (self.arm is None) != (self.gripper is None):
+            raise ValueError("arm and gripper belong together: give both, or neither")
+        if self.arm is not None and self.pick is not None:
+            raise ValueError("give pick and place, or arm and gripper, not all of them")
         return self
 
     def actions(self) -> dict[str, Action]:
         """The actions by their sections: all that can be under way, and has to be stopped."""
-        sections = {"drive": self.drive, "look": self.look, "pick": self.pick, "place": self.place}
+        sections: dict[str, Action | None] = {
+            "drive": self.drive,
+            "look": self.look,
+            "pick": self.pick,
+            "place": self.place,
+            "arm": self.arm,
+            "gripper": self.gripper,
+        }
         return {name: action for name, action in sections.items() if action is not None}
 
     @property
     def has_arm(self) -> bool:
         """Whether it can take things."""
-        return self.pick is not None
-
-
-def _placeholders(value: Any) -> tuple[str, ...]:
-    match value:
-        case str() if value.startswith("$"):
-            return (value[1:],)
-        case Mapping():
-            return tuple(word for one in value.values() for word in _placeholders(one))
-        case list():
-            return tuple(word for one in value for word in _placeholders(one))
-        case _:
-            return ()
-
-
-def filled(template: Any, values: Mapping[str, Any]) -> Any:
-    """The template with the values put in where `$` and their names stand."""
-    match template:
-        case str() if template.startswith("$"):
-            return values[template[1:]]
-        case Mapping():
-            return {key: filled(one, values) for key, one in template.items()}
-        case list():
-            return [filled(one, values) for one in template]
-        case _:
-            return template
+        return self.pick is not None or self.arm is not None
 
 
 # --- reading ---

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from executive.ros.offers import Offers
-from executive.ros.profile import GOALS
+from executive.ros.templates import GOALS
 from executive.text import printable
 
 IMAGE = "sensor_msgs/msg/Image"
@@ -12,6 +12,18 @@ ACTIONS = {
     "look": ("control_msgs/action/PointHead", "nav2_msgs/action/Spin"),
     "pick": ("executive_msgs/action/Pick",),
     "place": ("executive_msgs/action/Place",),
+}
+ARM = {
+    "arm": ("moveit_msgs/action/MoveGroup",),
+    "gripper": (
+        "control_msgs/action/ParallelGripperCommand",
+        "control_msgs/action/GripperCommand",
+    ),
+}
+"""The same, for a robot without actions of its own for picking up; what is theirs is asked for."""
+UNKNOWN = {
+    "arm": ("group", "tip", "carry"),
+    "gripper": ("open", "closed", "effort", "opens_m"),
 }
 """The types that each section may have, the best first."""
 
@@ -22,6 +34,8 @@ def proposal(offers: Offers, frames: Iterable[str]) -> str:
     lines += _frames(tuple(frames))
     for section, kinds in ACTIONS.items():
         lines += _action(offers, section, kinds)
+    if not any(offers.actions_of(kind) for kind in ACTIONS["pick"]):
+        lines += _arm(offers)
     lines += _camera(offers)
     lines += _section("odometry", {"topic": _first(offers.topics_of("nav_msgs/msg/Odometry"))})
     if offers.topics_of("rosgraph_msgs/msg/Clock"):
@@ -58,6 +72,15 @@ def _action(offers: Offers, section: str, kinds: Iterable[str]) -> list[str]:
     if section == "drive":
         return _section("drive", {"action": _first(untold), "type": next(iter(GOALS))})
     return []
+
+
+def _arm(offers: Offers) -> list[str]:
+    """Both sections, or none."""
+    found = {name: _action(offers, name, kinds) for name, kinds in ARM.items()}
+    if not all(found.values()):
+        return []
+    asked = {name: [f"# {key} = ...  # say which" for key in UNKNOWN[name]] for name in ARM}
+    return [line for name, lines in found.items() for line in (*lines[:-1], *asked[name], "")]
 
 
 def _camera(offers: Offers) -> list[str]:

@@ -2,14 +2,18 @@
 
 import asyncio
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from datetime import datetime
 from typing import Any, Protocol
 
+import numpy as np
+
 from executive.errors import InputError
 from executive.events import Inbox
+from executive.geometry import Floats, transform
 from executive.guards import in_words
 from executive.ros.actions import Actions
+from executive.ros.arm import Arm, Hands
 from executive.ros.link import GoalEnd, Link, LinkError
 from executive.ros.messages import planar_pose, point_cloud, point_stamped, pose_stamped
 from executive.ros.profile import Profile
@@ -39,7 +43,7 @@ FLOOR_AHEAD_M = 0.9
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
 FACING_S = 0.5
-HANDLING = ("pick", "place")
+HANDLING = ("pick", "place", "gripper")
 STOPPING_S = 3.0
 """So long a halt waits for a link that was lost: with it come the means to stop."""
 
@@ -74,12 +78,16 @@ class WireRobot:
         ways: Callable[[str, str], float],
         inbox: Inbox,
         begins: Callable[[], None],
+        hands: Hands,
+        see: Callable[[], Awaitable[Floats]],
     ) -> None:
         """Be where it is, and at nothing.
 
         `ways` tells how long ways between places take (s); `begins` is called when a goal does, on
-        the thread that ticks.
+        the thread that ticks; `hands` is for a robot that has motions, but no skills, and `see`
+        tells which points (n, 3) of `map` the camera sees.
         """
+        self._see = see
         self._ways = ways
         self._begins = begins
         self._wire = wire
@@ -93,6 +101,7 @@ class WireRobot:
         self._real = profile.clock is None or profile.clock.counts_while_idle
         self._request: int | None = None
         self._task: asyncio.Task[None] | None = None
+        self._arm = Arm(profile, senses, hands, self._act) if profile.arm else None
         self._at: str | None = None
         self._spent = 0.0
         self._began: float | None = None
@@ -103,6 +112,8 @@ class WireRobot:
     @property
     def holding(self) -> bool | None:
         """Whether something is in the hand; None if the robot cannot tell."""
+        if self._profile.hand is None and self._arm is not None:
+            return self._arm.holds
         return self._senses.holding
 
     @property
@@ -232,6 +243,8 @@ class WireRobot:
         if stand is None:
             return Failed(f"there is no {place} in this home")
         self._at = None
+        if self._arm is not None and (why := await self._arm.fold()):
+            return Failed(f"I cannot fold my arm: {why}")
         had = self._senses.holding
         pose = planar_pose(*stand, self._profile.frames.map)
         for leg in await self._actions.legs(pose):
@@ -271,18 +284,31 @@ class WireRobot:
             return Failed(f"there are only {self.views(place)} views of the {place}")
         target = point or self._targets(place)[view]
         if self._profile.look is not None:
-            values = {
-                "place": place,
-                "point": point_stamped(target, self._profile.frames.map),
-                "camera": self._profile.frames.camera,
-                "turn": self._turn(target),
-            }
-            end = await self._act("look", values)
+            end = await self._act("look", self._looking(place, target))
             if not end.succeeded:
                 return self._actions.failure(end, f"I cannot look at the {place}")
             if self._profile.look.type.endswith("/PointHead"):
                 return Succeeded()
         return await self._checked(place, target)
+
+    def _looking(self, place: str, target: Vector3) -> dict[str, Any]:
+        """What a goal of looking may consist of."""
+        look, frames = self._profile.look, self._profile.frames
+        assert look is not None
+        values: dict[str, Any] = {
+            "place": place,
+            "point": point_stamped(target, frames.map),
+            "camera": frames.camera,
+            "turn": self._turn(target),
+        }
+        if look.joints is not None:
+            mount = self._senses.frames.pose(frames.map, look.mount)
+            if mount is None:
+                raise LinkError(f"nobody tells where {look.mount} is in {frames.map}")
+            x, y, z = (float(one) for one in transform(mount, np.array([target]))[0])
+            angles = [math.atan2(y, x), math.atan2(-z, math.hypot(x, y))]
+            values |= {"joints": list(look.joints), "angles": angles}
+        return values
 
     def _targets(self, place: str) -> Sequence[Vector3]:
         """Points of `map` to look at, to see all of a place."""
@@ -310,15 +336,31 @@ class WireRobot:
         They may come a little later than the end of the goal that turned it.
         """
         latest = asyncio.get_running_loop().time() + FACING_S
-        while self._senses.base is not None and abs(self._turn(target)) > BESIDE_RAD:
+        while self._away(target) > BESIDE_RAD:
             if asyncio.get_running_loop().time() > latest:
                 return Failed(f"I cannot turn to look at the {place}")
             await asyncio.sleep(0.02)
         return Succeeded()
 
+    def _away(self, target: Vector3) -> float:
+        """How far the camera, or the base if that turns, is turned away from a point (radians).
+
+        0 if nobody tells.
+        """
+        look, frames = self._profile.look, self._profile.frames
+        if look is None or look.joints is None or not frames.camera:
+            return abs(self._turn(target)) if self._senses.base is not None else 0.0
+        eye = self._senses.frames.pose(frames.map, frames.camera)
+        if eye is None:
+            return 0.0
+        x, y, z = (float(one) for one in transform(eye, np.array([target]))[0])
+        return math.atan2(math.hypot(x, y), z)
+
     # --- handling ---
 
     async def _pick(self, detection: Detection) -> Succeeded | Failed:
+        if self._arm is not None:
+            return await self._arm.pick(detection)
         if self._profile.pick is None:
             return Failed("I have no arm")
         within = self._profile.frames.map
@@ -341,12 +383,14 @@ class WireRobot:
         return self._actions.failure(end, f"I could not pick up the {detection.label}")
 
     async def _put_down(self, place: str) -> Succeeded | Failed:
-        if self._profile.place is None:
+        if not self._profile.has_arm:
             return Failed("I have no arm")
         if self._at != place:
             return Failed(f"I am not at the {place}")
         if place == PERSON:
             return Failed("I can only put things down on furniture")
+        if self._arm is not None:
+            return await self._set_down(self._arm, place)
         within = self._profile.frames.map
         point = self._places.view_targets(place)[0]
         values: dict[str, Any] = {
@@ -358,6 +402,13 @@ class WireRobot:
         if end.succeeded:
             return Succeeded()
         return self._actions.failure(end, f"I could not put it down on the {place}")
+
+    async def _set_down(self, arm: Arm, place: str) -> Succeeded | Failed:
+        """By motions, among what is seen there now."""
+        looked = await self._look(place, 0, None)
+        if isinstance(looked, Failed):
+            return looked
+        return await arm.put_down(place, await self._see())
 
 
 def _yaw(pose: Pose) -> float:

@@ -26,7 +26,14 @@ REFUSED = 1
 """`action_msgs/srv/CancelGoal`: the server goes on."""
 SPEED_TOPIC, SPEED_TYPE = "/speed_limit", "nav2_msgs/msg/SpeedLimit"
 """What Nav2's controller heeds."""
-PARTS = {"drive": "base", "look": "head", "pick": "arm", "place": "arm"}
+PARTS = {
+    "drive": "base",
+    "look": "head",
+    "pick": "arm",
+    "place": "arm",
+    "arm": "arm",
+    "gripper": "fingers",
+}
 """What moves, by the profile's sections."""
 
 log = logging.getLogger(__name__)

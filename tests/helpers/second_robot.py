@@ -60,6 +60,8 @@ WIDTH, HEIGHT, FOCAL = 64, 48, 60.0
 class SecondRobot:
     """The robot and its server, on a thread of its own; `with` ends it."""
 
+    topics, actions = TOPICS, ACTIONS
+
     def __init__(self, at: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         self.at = at
         self.speed = 0.0
@@ -164,12 +166,14 @@ class SecondRobot:
                 return {"return_code": 1, "goals_canceling": []}
             asyncio.ensure_future(self._end(action, GoalStatus.CANCELED))
             return {"return_code": 0, "goals_canceling": []}
-        feedbacks = {f"{n}/_action/feedback": f"{k}_FeedbackMessage" for n, k in ACTIONS.items()}
-        told = {**TOPICS, **feedbacks}
+        feedbacks = {
+            f"{n}/_action/feedback": f"{k}_FeedbackMessage" for n, k in self.actions.items()
+        }
+        told = {**self.topics, **feedbacks}
         return {
             "/rosapi/topics": {"topics": list(told), "types": list(told.values())},
             "/rosapi/services": {"services": ["/rosapi/topics"]},
-            "/rosapi/action_servers": {"action_servers": list(ACTIONS)},
+            "/rosapi/action_servers": {"action_servers": list(self.actions)},
         }.get(service, {})
 
     async def _end(self, action: str, status: GoalStatus, said: str = "", **more: Any) -> None:

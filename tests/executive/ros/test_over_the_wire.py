@@ -69,7 +69,7 @@ def test_where_nobody_answers_is_said(capsys: pytest.CaptureFixture[str]) -> Non
 
 def test_a_robot_needs_a_profile(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("--robot", NOBODY, "Find a mug") == 2
-    assert "--profile nav2, served" in capsys.readouterr().err
+    assert "--profile nav2, nav2_moveit2, served" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -3,12 +3,15 @@
 from pathlib import Path
 
 import pytest
+from motion_robot import PROFILE as MOTION_PROFILE
 from second_robot import PROFILE
 
 from executive.errors import InputError
-from executive.ros.profile import filled, load_profile, packaged_profiles
+from executive.ros.profile import load_profile, packaged_profiles
+from executive.ros.templates import filled
 
 WHOLE = PROFILE.read_text()
+MOTIONS = MOTION_PROFILE.read_text()
 
 
 def fault_of(tmp_path: Path, text: str) -> str:
@@ -45,8 +48,30 @@ def test_who_can_pick_up_has_to_put_down(tmp_path: Path) -> None:
     assert "pick and place belong together" in fault_of(tmp_path, text)
 
 
+@pytest.mark.parametrize(
+    ("then", "now", "said"),
+    [
+        ('mount = "neck"', "", "joints and mount are missing"),
+        ("carry = { shoulder = 0.0, elbow = 2.0 }", "", "arm.carry is missing"),
+        ("opens_m = 0.08", "opens_m = 0", "gripper.opens_m is '0'"),
+        ("[arm]", "[odometer]", "there is no key odometer"),
+    ],
+)
+def test_what_is_wrong_with_an_arm_is_told(tmp_path: Path, then: str, now: str, said: str) -> None:
+    assert then in MOTIONS
+    assert said in fault_of(tmp_path, MOTIONS.replace(then, now, 1))
+
+
+def test_an_arm_needs_a_gripper_and_no_skills(tmp_path: Path) -> None:
+    parts = MOTIONS.split("\n\n")
+    alone = "\n\n".join(part for part in parts if not part.startswith("[gripper]"))
+    assert "arm and gripper belong together" in fault_of(tmp_path, alone)
+    skills = [part for part in WHOLE.split("\n\n") if part.startswith(("[pick]", "[place]"))]
+    assert "not all of them" in fault_of(tmp_path, "\n\n".join([*parts, *skills]))
+
+
 def test_an_unknown_name_lists_those_that_come_along() -> None:
-    with pytest.raises(InputError, match="packaged are nav2, served"):
+    with pytest.raises(InputError, match="packaged are nav2, nav2_moveit2, served"):
         load_profile("r2d2")
 
 

@@ -1,0 +1,229 @@
+"""Picking up and putting down by a robot that has motions and a gripper, but no skills of its own.
+
+The way to grasp comes from elsewhere (`Hands`): this reaches for it, closes, and carries.
+"""
+
+import asyncio
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from executive.geometry import Floats
+from executive.ros.link import GoalEnd
+from executive.ros.moveit import failure, to_joints, to_pose
+from executive.ros.profile import ArmAction, GripperAction, Profile
+from executive.ros.protocol import Message
+from executive.ros.senses import Senses
+from executive.types import Detection, Failed, Pose, Succeeded
+
+BACK_M, UP_M = 0.10, 0.10
+"""So far before a grasp the straight last part begins; so high a thing is lifted."""
+MOST_TRIES = 6
+"""So many ways to grasp are reached for."""
+ABOVE_M = 0.12
+"""So far above where it is to stand a thing is brought first."""
+
+Act = Callable[[str, Mapping[str, Any]], Awaitable[GoalEnd]]
+"""Has an action of a section pursue a goal."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """A way to hold a thing.
+
+    Attributes:
+        hand: the point between the fingers in `map`; z points out of the hand, y to a finger.
+        gap: how far the fingers have to be open (metres).
+        thing: where the thing is in `map` then.
+    """
+
+    hand: Pose
+    gap: float
+    thing: Pose
+
+
+class Hands(Protocol):
+    """Knows how things are held and where they can stand. Not called on the wire's thread."""
+
+    def grasps(self, detection: Detection, base: Pose) -> Sequence[Hold]:
+        """Ways to hold what is seen, the best first; none if there is no model of it."""
+        ...
+
+    def spots(self, place: str, label: str, seen: Floats) -> Sequence[Pose]:
+        """Where on a place the thing can stand, among the points (n, 3) that are seen."""
+        ...
+
+
+class NoHands:
+    """Implements `Hands`: nothing is known."""
+
+    def grasps(self, detection: Detection, base: Pose) -> Sequence[Hold]:
+        """None."""
+        return ()
+
+    def spots(self, place: str, label: str, seen: Floats) -> Sequence[Pose]:
+        """None."""
+        return ()
+
+
+class Arm:
+    """Belongs to the thread of the wire."""
+
+    def __init__(self, profile: Profile, senses: Senses, hands: Hands, act: Act) -> None:
+        """The hand is believed to be as the profile's `[hand]` tells, if it does."""
+        assert profile.arm is not None
+        assert profile.gripper is not None
+        self._arm: ArmAction = profile.arm
+        self._gripper: GripperAction = profile.gripper
+        self._frames = profile.frames
+        self._senses = senses
+        self._hands = hands
+        self._act = act
+        self.holds: bool | None = None
+        """By what the gripper said last; None: it was not asked yet."""
+        self._held: tuple[str, Hold] | None = None
+        self._is_out = False
+
+    async def pick(self, detection: Detection) -> Succeeded | Failed:
+        """Take a thing that is seen."""
+        name, base = detection.label, self._senses.base
+        if base is None:
+            return Failed("nobody tells where I am")
+        found = await asyncio.to_thread(self._hands.grasps, detection, base)
+        ways = [hold for hold in found if hold.gap <= self._gripper.opens_m]
+        if not ways:
+            return Failed(f"I know no way to grasp the {name}")
+        if why := await self._grip(self._gripper.open):
+            return Failed(f"my hand does not open: {why}")
+        self._held, why = None, ""
+        for hold in ways[:MOST_TRIES]:
+            why = await self._reach(hold)
+            if not why:
+                return await self._take(name, hold)
+        await self.fold()
+        return Failed(f"I cannot reach the {name}: {why}")
+
+    async def _reach(self, hold: Hold) -> str:
+        """Bring the open hand around the thing; why that could not be, or nothing."""
+        before = _shifted(hold.hand, _ahead(hold.hand, -BACK_M))
+        if why := await self._move(before):
+            return why
+        if why := await self._move(hold.hand):
+            await self._move(before)
+            return why
+        return ""
+
+    async def _take(self, name: str, hold: Hold) -> Succeeded | Failed:
+        why = await self._grip(self._gripper.closed)
+        if why or not (self.holds or self._senses.holding):
+            await self._grip(self._gripper.open)
+            await self._move(_shifted(hold.hand, _ahead(hold.hand, -BACK_M)))
+            await self.fold()
+            return Failed(why or f"my hand closed without the {name}")
+        self._held = name, hold
+        if why := await self._move(_shifted(hold.hand, np.array([0.0, 0.0, UP_M]))):
+            return Failed(f"I cannot lift the {name}: {why}")
+        if why := await self.fold():
+            return Failed(f"I cannot carry the {name}: {why}")
+        return Succeeded()
+
+    async def put_down(self, place: str, seen: Floats) -> Succeeded | Failed:
+        """Put down what is held on a place, of which these points (n, 3) in `map` are seen."""
+        if self._held is None:
+            return Failed("I do not know how I hold it")
+        name, hold = self._held
+        spots = await asyncio.to_thread(self._hands.spots, place, name, seen)
+        why = f"there is no room on the {place}"
+        for spot in spots[:MOST_TRIES]:
+            hand = _moved_with(hold, spot)
+            above = _shifted(hand, np.array([0.0, 0.0, ABOVE_M]))
+            why = await self._move(above) or await self._move(hand)
+            if not why:
+                return await self._let_go(hand)
+        await self.fold()
+        return Failed(why)
+
+    async def _let_go(self, hand: Pose) -> Succeeded | Failed:
+        if why := await self._grip(self._gripper.open):
+            return Failed(f"my hand does not open: {why}")
+        self._held = None
+        await self._move(_shifted(hand, _ahead(hand, -BACK_M)))
+        await self.fold()
+        return Succeeded()
+
+    async def fold(self) -> str:
+        """Bring the arm to where it carries, if it is elsewhere; why that failed, or nothing.
+
+        The robot does not drive with its arm out, as it may be after a halt.
+        """
+        if not self._is_out:
+            return ""
+        arm = self._arm
+        why = await self._motion(to_joints(arm.group, arm.carry, arm.speed))
+        self._is_out = bool(why)
+        return why
+
+    # --- goals ---
+
+    async def _move(self, hand: Pose) -> str:
+        base = self._senses.base
+        if base is None:
+            return "nobody tells where I am"
+        arm, pose, self._is_out = self._arm, _seen_from(base, hand), True
+        return await self._motion(to_pose(arm.group, arm.tip, self._frames.base, pose, arm.speed))
+
+    async def _motion(self, request: Message) -> str:
+        end = await self._act("arm", {"request": request})
+        why = failure(end.values)
+        return why or ("" if end.succeeded else end.reason or "my arm did not get there")
+
+    async def _grip(self, position: float) -> str:
+        """Move the fingers; something between them may stop these. Why it failed, or nothing."""
+        gripper = self._gripper
+        values = {"position": position, "effort": gripper.effort, "joint": gripper.joint}
+        self.holds = None
+        end = await self._act("gripper", values)
+        stalled, reached = end.values.get("stalled"), end.values.get("reached_goal")
+        if not end.succeeded and stalled is not True:
+            return end.reason or "it did not get there"
+        closing = position == gripper.closed
+        self.holds = closing and stalled is True and reached is not True
+        return ""
+
+
+def _ahead(hand: Pose, distance: float) -> Floats:
+    """So far the way the hand points (metres, in `map`)."""
+    return np.asarray(Rotation.from_quat(hand.orientation).apply((0.0, 0.0, distance)))
+
+
+def _shifted(pose: Pose, offset: Floats) -> Pose:
+    x, y, z = (float(one) for one in np.add(pose.position, offset))
+    return Pose((x, y, z), pose.orientation)
+
+
+def _seen_from(base: Pose, pose: Pose) -> Pose:
+    back = Rotation.from_quat(base.orientation).inv()
+    return _pose(
+        back.apply(np.subtract(pose.position, base.position)),
+        back * Rotation.from_quat(pose.orientation),
+    )
+
+
+def _moved_with(hold: Hold, spot: Pose) -> Pose:
+    """Where the hand is when what it holds so is at the spot."""
+    thing = Rotation.from_quat(hold.thing.orientation)
+    turn = Rotation.from_quat(spot.orientation) * thing.inv()
+    offset = np.subtract(hold.hand.position, hold.thing.position)
+    return _pose(
+        np.add(spot.position, turn.apply(offset)),
+        turn * Rotation.from_quat(hold.hand.orientation),
+    )
+
+
+def _pose(position: Floats, turn: Rotation) -> Pose:
+    x, y, z = (float(one) for one in position)
+    a, b, c, d = (float(one) for one in turn.as_quat())
+    return Pose((x, y, z), (a, b, c, d))

@@ -1,0 +1,183 @@
+"""A robot that has MoveIt 2 and a gripper, but no skills, takes things and puts them down."""
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from motion_robot import PROFILE, MotionRobot
+from second_robot import SPEED_M_S
+
+from executive.app.handling import KnownThings
+from executive.events import Inbox
+from executive.ros.__main__ import main as look
+from executive.ros.address import read_address
+from executive.ros.connection import Connection, connect
+from executive.ros.profile import load_profile
+from executive.testing.bench import four_rooms
+from executive.testing.contracts.robot import Bench, RobotContract
+from executive.types import Box, Detection, DriveTo, Failed, Halt, LookAt, Pick, PutDown, Succeeded
+from sim.fake import straight_s
+from sim.objects.objects import load_objects
+from sim.objects.solids import sample_surface
+
+THING = "sugar_box"
+
+
+@dataclass
+class Linked:
+    there: MotionRobot
+    here: Connection
+    bench: Bench
+
+
+@pytest.fixture
+def linked() -> Iterator[Linked]:
+    home, inbox = four_rooms(), Inbox()
+    with MotionRobot(home.robot_start) as there:
+
+        def ways(start: str, place: str) -> float:
+            return straight_s(home, start, place, SPEED_M_S)
+
+        def advance(at_most: float) -> float:
+            began = there.time_s
+            time.sleep(min(at_most, 0.02))
+            return there.time_s - began
+
+        here = connect(
+            read_address(there.url),
+            load_profile(str(PROFILE)),
+            home,
+            inbox,
+            PROFILE.name,
+            ways,
+            hands=KnownThings(home),
+        )
+        try:
+            yield Linked(there, here, Bench(here.robot, inbox, advance))
+        finally:
+            here.close()
+
+
+class TestMotionRobot(RobotContract):
+    @pytest.fixture
+    def bench(self, linked: Linked) -> Bench:
+        return linked.bench
+
+
+def seen(at: np.ndarray) -> Detection:
+    """The thing, upright, its middle there: what of its surface is seen from the robot."""
+    points, normals = sample_surface(load_objects()[THING].shapes)
+    points = points - (0.0, 0.0, load_objects()[THING].size[2] / 2)  # they begin at its foot
+    facing = points[(normals[:, 1] < -0.5) | (normals[:, 2] > 0.5)]
+    mask = np.ones((1, 1), np.bool_)
+    return Detection(THING, 1.0, Box(0, 0, 1, 1), mask, (facing + at).astype(np.float32))
+
+
+def standing_on(linked: Linked, place: str) -> np.ndarray:
+    """Put the thing there; where its middle is in the map."""
+    x, y, _ = four_rooms().view_targets(place)[0]
+    _, front, _ = four_rooms().stand(place)
+    linked.there.thing = np.array([x, y - 0.15 * np.sign(y - front), middle_on(place)])
+    return linked.there.thing
+
+
+def middle_on(place: str) -> float:
+    """How high its middle is there (metres)."""
+    surface = four_rooms().furniture_named(place).surfaces()[0]
+    return float(surface.center[2] + load_objects()[THING].size[2] / 2)
+
+
+def taken(linked: Linked) -> None:
+    """Have it take the thing."""
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    assert linked.bench.do(Pick(seen(at))) == Succeeded()
+
+
+def test_it_takes_what_it_sees_and_feels_that_it_holds_it(linked: Linked) -> None:
+    taken(linked)
+    assert linked.here.robot.holding is True
+    assert linked.there.thing is not None
+    assert linked.there.thing[2] > 0.9
+
+
+def test_it_puts_down_what_it_holds_where_there_is_room(linked: Linked) -> None:
+    taken(linked)
+    assert linked.bench.do(DriveTo("coffee_table")) == Succeeded()
+    assert linked.bench.do(PutDown("coffee_table")) == Succeeded()
+    assert linked.here.robot.holding is False
+    x, y, _ = four_rooms().view_targets("coffee_table")[0]
+    assert linked.there.thing == pytest.approx((x, y, middle_on("coffee_table")), abs=0.1)
+
+
+def test_what_is_not_there_any_more_is_not_held(linked: Linked) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.there.thing = None
+    result = linked.bench.do(Pick(seen(at)))
+    assert result == Failed("my hand closed without the sugar_box")
+    assert linked.here.robot.holding is False
+
+
+def test_what_is_out_of_reach_is_told(linked: Linked) -> None:
+    at = standing_on(linked, "desk") + (0.0, 0.0, 3.0)
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    result = linked.bench.do(Pick(seen(at)))
+    assert result == Failed("I cannot reach the sugar_box: I cannot reach there")
+
+
+def test_a_thing_without_a_model_is_not_grasped(linked: Linked) -> None:
+    unknown = Detection(
+        "vase", 1.0, Box(0, 0, 1, 1), np.ones((1, 1), np.bool_), np.ones((9, 3), np.float32)
+    )
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    assert linked.bench.do(Pick(unknown)) == Failed("I know no way to grasp the vase")
+
+
+def test_what_was_not_taken_is_not_put_down(linked: Linked) -> None:
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    assert linked.bench.do(PutDown("desk")) == Failed("I do not know how I hold it")
+
+
+def test_its_head_turns_to_what_it_looks_at(linked: Linked) -> None:
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    x, y, yaw = linked.there.at
+    left = (x - np.sin(yaw), y + np.cos(yaw), 0.5)
+    assert linked.bench.do(LookAt("desk", point=left)) == Succeeded()
+    pan, tilt = linked.there.head
+    assert pan == pytest.approx(np.pi / 2, abs=0.2)
+    assert tilt > 0.3
+
+
+def test_a_halt_in_the_middle_of_a_pick_ends_all_motions(linked: Linked) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.here.robot.start(Pick(seen(at)))
+    linked.bench.wait(0.1)
+    assert linked.bench.do(Halt()) == Succeeded()
+    assert not linked.there.busy
+    done = len(linked.there.motions)
+    linked.bench.wait(0.3)
+    assert len(linked.there.motions) == done
+
+
+def test_it_does_not_drive_with_its_arm_out(linked: Linked) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.here.robot.start(Pick(seen(at)))
+    while not linked.there.motions:
+        linked.bench.wait(0.02)
+    assert linked.bench.do(Halt()) == Succeeded()
+    assert linked.bench.do(DriveTo("person")) == Succeeded()
+    assert "joint_constraints" in linked.there.motions[-1]["goal_constraints"][0]
+
+
+def test_look_proposes_its_arm_and_gripper(
+    linked: Linked, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert look(["look", linked.there.url]) == 0
+    said = capsys.readouterr().out
+    assert '[arm]\naction = "/move_action"' in said
+    assert "# opens_m = ...  # say which" in said

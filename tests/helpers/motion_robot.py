@@ -1,0 +1,130 @@
+"""A robot of the tests' own with what MoveIt 2 and a gripper offer, and no skill of its own.
+
+Its arm is where it is sent, as far as it reaches; its fingers hold what is between them.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+from second_robot import ACTIONS, EYE_M, SecondRobot
+
+from executive.ros.protocol import GoalStatus
+
+PROFILE = Path(__file__).with_name("motion_robot.toml")
+REACH_M, SHOULDER_M = 1.3, 0.8
+BETWEEN_M = 0.06
+"""What is so near to the point between the fingers is held."""
+CARRIED = np.array([0.3, 0.0, 1.0])
+NO_WAY = -31
+
+
+class MotionRobot(SecondRobot):
+    """Besides driving: a head that follows trajectories, an arm, fingers."""
+
+    actions = {
+        "/acme/go": ACTIONS["/acme/go"],
+        "/acme/head": "control_msgs/action/FollowJointTrajectory",
+        "/move_action": "moveit_msgs/action/MoveGroup",
+        "/acme/gripper": "control_msgs/action/GripperCommand",
+    }
+
+    def __init__(self, at: tuple[float, float, float]) -> None:
+        super().__init__(at)
+        self.head = (0.0, 0.0)
+        self.tip, self.turn = CARRIED, Rotation.from_euler("y", np.pi)
+        """In the frame of the base."""
+        self.thing: np.ndarray | None = None
+        """The middle of the only thing there is, in the map."""
+        self.turned = Rotation.identity()
+        self.grasp: tuple[np.ndarray, Rotation] | None = None
+        """Where it is in the hand, if it is there."""
+        self.motions: list[dict[str, Any]] = []
+
+    async def _pursue(self, action: str) -> None:
+        _, goal = self._under_way[action]
+        assert isinstance(goal.args, dict)
+        match action:
+            case "/acme/head":
+                pan, tilt = goal.args["trajectory"]["points"][0]["positions"]
+                self.head = pan, tilt
+                await self._end(action, GoalStatus.SUCCEEDED)
+            case "/move_action":
+                await self._move(goal.args["request"])
+            case "/acme/gripper":
+                await self._grip(goal.args["command"]["position"])
+            case _:
+                await super()._pursue(action)
+
+    async def _move(self, request: dict[str, Any]) -> None:
+        self.motions.append(request)
+        [wanted] = request["goal_constraints"]
+        to, turn = CARRIED, self.turn
+        if "position_constraints" in wanted:
+            region = wanted["position_constraints"][0]["constraint_region"]
+            at = region["primitive_poses"][0]["position"]
+            turned = wanted["orientation_constraints"][0]["orientation"]
+            to = np.array([at[axis] for axis in "xyz"])
+            turn = Rotation.from_quat([turned[axis] for axis in "xyzw"])
+        if np.linalg.norm(to - (0.0, 0.0, SHOULDER_M)) > REACH_M:
+            code = {"val": NO_WAY}
+            await self._end("/move_action", GoalStatus.ABORTED, error_code=code)
+            return
+        self.tip, self.turn = to, turn
+        self._bring()
+        await self._end("/move_action", GoalStatus.SUCCEEDED, error_code={"val": 1})
+
+    async def _grip(self, position: float) -> None:
+        at, turn = self._hand()
+        closes, near = position == 0.0, False
+        if closes and self.thing is not None:
+            near = bool(np.linalg.norm(self.thing - at) < BETWEEN_M)
+            if near:
+                self.grasp = turn.inv().apply(self.thing - at), turn.inv() * self.turned
+        elif not closes:
+            self.grasp = None
+        self.holds = "thing" if self.grasp is not None else ""
+        said = {"position": position, "stalled": near, "reached_goal": not near}
+        await self._end("/acme/gripper", GoalStatus.SUCCEEDED, **said)
+
+    def _hand(self) -> tuple[np.ndarray, Rotation]:
+        """Where the point between the fingers is in the map."""
+        x, y, yaw = self.at
+        base = Rotation.from_euler("z", yaw)
+        return base.apply(self.tip) + (x, y, 0.0), base * self.turn
+
+    def _bring(self) -> None:
+        if self.grasp is not None:
+            at, turn = self._hand()
+            self.thing = at + turn.apply(self.grasp[0])
+            self.turned = turn * self.grasp[1]
+
+    def _frames(self) -> dict[str, Any]:
+        self._bring()
+        told = super()._frames()
+        pan, tilt = self.head
+        ahead = Rotation.from_quat([-0.5, 0.5, -0.5, 0.5])
+        eye = Rotation.from_euler("ZY", (pan, tilt)) * ahead
+        told["transforms"] = [
+            told["transforms"][0],
+            self._frame("body", "neck", np.array([0.1, 0.0, EYE_M]), Rotation.identity()),
+            self._frame("neck", "eye", np.zeros(3), eye),
+            self._frame("body", "grip", self.tip, self.turn),
+        ]
+        return told
+
+    def _range(self) -> dict[str, Any]:
+        """Nothing was measured."""
+        return {**super()._range(), "data": bytes(len(super()._range()["data"]))}
+
+    def _frame(self, parent: str, child: str, at: np.ndarray, turn: Rotation) -> dict[str, Any]:
+        transform = {
+            "translation": dict(zip("xyz", map(float, at), strict=True)),
+            "rotation": dict(zip("xyzw", map(float, turn.as_quat()), strict=True)),
+        }
+        return {
+            "header": self._header(parent),
+            "child_frame_id": child,
+            "transform": transform,
+        }
