@@ -138,7 +138,7 @@ def post(page: Page, path: str, value: Any, **given: Any) -> int:
 
 def told(page: Page, **given: Any) -> Iterator[Told]:
     """What a page is told, as it comes; `given` as for `ask`."""
-    connection = _sent(page, "/events", **given)
+    connection = _sent(page, given.pop("path", "/events"), **given)
     with closing(connection), connection.getresponse() as answer:
         fields: dict[str, str] = {}
         while raw := answer.readline():
@@ -151,9 +151,11 @@ def told(page: Page, **given: Any) -> Iterator[Told]:
                 fields = {}
 
 
-def heard(page: Page, name: str, *, token: str = TOKEN, **values: Any) -> Any:
+def heard(
+    page: Page, name: str, *, token: str = TOKEN, path: str = "/events", **values: Any
+) -> Any:
     """The first of this name that a page is told, and that has these values."""
-    with closing(told(page, token=token)) as reading:
+    with closing(told(page, token=token, path=path)) as reading:
         return next(
             one.value
             for one in reading

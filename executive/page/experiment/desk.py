@@ -10,17 +10,20 @@ from pathlib import Path
 from typing import Any
 
 from executive.errors import InputError
+from executive.events import Inbox
 from executive.page.board import Board
 from executive.page.experiment.because import because
 from executive.page.experiment.reel import Line, Reel
 from executive.page.experiment.reels import LIVE, LiveReel, Reels
 from executive.page.experiment.runs import Runs
+from executive.page.experiment.wizard import Wizard
+from executive.page.person import PagePerson
 from executive.types import Replied, Scored
 from logs.questions.difference import parting
 from logs.recording.reader import FILE_NAME, Run
 
 MOST_LINES = 300
-MARKED = ("said", "model", "mishap", "end")
+MARKED = ("said", "model", "intervened", "mishap", "end")
 """What stands in the strip above the slider."""
 MOST_MARKS = 2000
 REPLAY_S = 900.0
@@ -39,12 +42,34 @@ class Desk:
         self.live = LiveReel(self.board)
         self._reels = Reels()
         self._runs: Runs | None = None
+        self.wizard: Wizard | None = None
         self._replaying = threading.Lock()
         self._viewers: list[subprocess.Popen[bytes]] = []
+
+    def step_in(self, inbox: Inbox, person: PagePerson) -> None:
+        """Have the experimenter speak for this person, and to the robot."""
+
+        def asking(question: dict[str, Any] | None) -> None:
+            self.board.put("question", question)
+            self.board.flush()
+
+        person.asking = asking
+        self.wizard = Wizard(inbox, person, self.board)
+        self.wizard.going = self.live.going
 
     def look_in(self, folder: Path) -> None:
         """The past runs are in this folder."""
         self._runs = Runs(folder)
+
+    def intervene(self, sent: dict[str, Any]) -> dict[str, Any]:
+        """Step in.
+
+        Raises:
+            InputError: if that cannot be, or is over.
+        """
+        if self.wizard is None:
+            raise InputError("deed", "nobody can step in here")
+        return self.wizard.do(sent)
 
     # --- runs ---
 

@@ -52,6 +52,13 @@ class LiveReel:
             self.reel = Reel(LIVE)
         self.reel.take(stamp.mission_s, record)
 
+    def going(self) -> str:
+        """To which place the robot goes to look, or where it looks; empty if it does not."""
+        reel = self.reel
+        fact = reel.fact
+        searches = fact("candidate") and not fact("found") and not reel.whole
+        return str(fact("candidate")["place"]) if searches else ""
+
     def flush(self) -> None:
         """Tell the pages how far it is."""
         reel = self.reel

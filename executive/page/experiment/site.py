@@ -44,6 +44,7 @@ def experiment_site(desk: Desk) -> Starlette:
     }
     told: dict[str, Callable[[dict[str, Any]], Any]] = {
         "replay": lambda sent: desk.replay(_text(sent, "run")),
+        "intervene": desk.intervene,
         "view": lambda sent: desk.view(_text(sent, "run")),
     }
     assets = {path: entry.read_bytes() for path, entry in ASSETS.items()}

@@ -5,9 +5,9 @@ import { text, textOr } from "/texts.js";
 import { Tree } from "/experiment/tree.js";
 import { ask } from "/experiment/wire.js";
 
-const KINDS = ["said", "event", "model", "plan", "note", "mishap", "end"];
-const SHOWN_AT_FIRST = ["said", "model", "plan", "mishap", "end"];
-const MARKS = ["said", "model", "mishap", "end"];
+const KINDS = ["said", "event", "intervened", "model", "plan", "note", "mishap", "end"];
+const SHOWN_AT_FIRST = ["said", "intervened", "model", "plan", "mishap", "end"];
+const MARKS = ["said", "model", "intervened", "mishap", "end"];
 const LATEST = 1e9;
 const REST_MS = 80; // the slider rests: now the lists beside the tree may follow
 const READING_MS = 400;
