@@ -77,12 +77,13 @@ class Desk:
         """The past runs that have these words and ended so."""
         return self._past.found(words, status)
 
-    def run(self, name: str, known: int) -> dict[str, Any]:
+    def run(self, name: str, known: int = 0, *, anew: bool = False) -> dict[str, Any]:
         """A run's tree, how far it is read, and what is marked in it.
 
         The tree is left out if so many behaviours of it are known already: then it is all of it.
+        One that had not ended when it was read is read again, `anew`.
         """
-        reel = self._reel(name)
+        reel = self._reel(name, anew=anew)
         outcome = reel.outcome
         marks = [(ln.step, ln.kind) for ln in tuple(reel.lines) if ln.kind in MARKED]
         return {
@@ -216,7 +217,7 @@ class Desk:
             raise InputError("run", "the robot is getting ready", "wait a little")
         return self._runs
 
-    def _reel(self, name: str) -> Reel:
+    def _reel(self, name: str, *, anew: bool = False) -> Reel:
         """The reel of a run.
 
         Raises:
@@ -224,7 +225,7 @@ class Desk:
         """
         if name == LIVE or name == self.live.name():
             return self.live.reel
-        return self._reels.of(self._past.path(name))
+        return self._reels.of(self._past.path(name), anew=anew)
 
 
 def _within(reel: Reel, step: int) -> int:

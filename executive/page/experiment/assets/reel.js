@@ -80,16 +80,16 @@ export class Reel {
     this.follow.checked = live;
     this.values = new Map();
     this.why.replaceChildren(element("p", {}, text("choose_behaviour")));
-    await this.refresh(run);
+    await this.refresh(run, { anew: 1 });
     if (this.run === run) await this.go(live ? LATEST : step);
   }
 
   /** Learn how far it is; what is still being read is asked for again. */
-  async refresh(run = this.run) {
+  async refresh(run = this.run, values = {}) {
     if (run !== this.run || run === null) return;
     let told;
     try {
-      told = await ask("run", { run, known: this.known });
+      told = await ask("run", { run, known: this.known, ...values });
     } catch (error) {
       return this.#say(error.message);
     }

@@ -134,3 +134,9 @@ def test_a_recording_that_breaks_off_is_told_as_far_as_it_goes(ran: Robot) -> No
     while not (run := told(ran.page, "run", run=broken.name))["whole"]:
         pass
     assert run["status"] == ""
+    assert run["last"] == told(ran.page, "step", run=broken.name, step=10**9)["step"]
+    (broken / "mission.mcap").write_bytes(content)
+    told(ran.page, "run", run=broken.name, anew=1)
+    while not (run := told(ran.page, "run", run=broken.name))["whole"]:
+        pass
+    assert run["status"] == "done"
