@@ -26,14 +26,12 @@ def busy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Robot]:
     with robot(tmp_path_factory.mktemp("runs"), recorded=True, experimenter=True) as made:
         page = made.page
         heard(page, "doing", state="ready")
-        for words, then in (
-            ("Find the peach", {"name": "question", "kind": "where_is"}),
-            ("high_table", {"name": "doing", "state": "ready"}),
-            (HOSTILE, {"name": "outcome"}),
-        ):
-            page.says(words)
-            heard(page, **then)
-        heard(page, "doing", state="ready")
+        page.says("Find the peach")
+        heard(page, "question", kind="where_is")
+        page.says("high_table")
+        made.ended(1)
+        page.says(HOSTILE)
+        made.ended(2)
         page.says("Find a fruit")
         heard(page, "question", kind="which_object")
         yield made
@@ -169,7 +167,7 @@ def test_an_experimenter_steps_in(browser: Browser, tmp_path: Path) -> None:
         panel.get_by_label("Hold what the robot says").uncheck()
         panel.get_by_label("Answer for the person").fill("on the high table")
         panel.get_by_role("button", name="Send", exact=True).click()
-        heard(made.page, "outcome")
+        made.ended(1)
         expect(tab.locator("#live .lines .of-intervened").last).to_contain_text(
             "Anna: answer: Where is the peach? → on the high table"
         )

@@ -40,12 +40,6 @@ def notice(page: Page, name: str, **values: Any) -> Any:
     return heard(page, name, token=token, path="/experiment/events", **values)
 
 
-def ended(robot: Robot, ends: int = 1) -> Outcome:
-    heard(robot.page, "doing", state="ready")
-    assert len(robot.outcomes) == ends
-    return robot.outcomes[-1]
-
-
 def interventions(outcome: Outcome) -> list[tuple[str, str, str, str]]:
     """As recorded, once as events and once by themselves; and the replay is tick for tick so."""
     run = Run(Path(outcome.run_dir or ""))
@@ -64,7 +58,7 @@ def test_a_question_is_answered_in_the_persons_stead(stepped: Robot) -> None:
     step_in(stepped.page, "answer", question=question["id"], words="peach")
     question = notice(stepped.page, "question", kind="where_is")
     step_in(stepped.page, "answer", question=question["id"], words="high_table")
-    outcome = ended(stepped)
+    outcome = stepped.ended(1)
     assert (outcome.status, outcome.object) == ("done", "peach")
     (_, _, asked, peach), (by, deed, _, place) = interventions(outcome)
     assert asked.startswith("Which fruit do you mean")
@@ -94,7 +88,7 @@ def test_words_that_are_held_are_said_otherwise_or_never(stepped: Robot) -> None
     page.says("high_table")
     step_in(page, "words", number=notice(page, "words", holds=True)["held"][0]["number"], words="")
     step_in(page, "hold", on=False)
-    outcome = ended(stepped)
+    outcome = stepped.ended(1)
     deeds = [(deed, was, became) for _, deed, was, became in interventions(outcome)]
     assert deeds[0] == ("words", "Where is the peach?", "Where did you put it?")
     assert deeds[1][0] == "words"
@@ -107,7 +101,7 @@ def test_what_was_held_is_said_in_order_when_nothing_is_held_any_more(stepped: R
     page = stepped.page
     step_in(page, "hold", on=True)
     page.says("Find the peach at the high_table")
-    ended(stepped)
+    stepped.ended(1)
     assert not any('"robot"' in one.json for one in page.board.since(0) if one.name == "said")
     held = [one["text"] for one in notice(page, "words", holds=True)["held"]]
     step_in(page, "hold", on=False)
@@ -122,7 +116,7 @@ def test_a_stop_is_answered_although_words_are_held(stepped: Robot) -> None:
     notice(stepped.page, "question", kind="which_object")
     step_in(stepped.page, "stop")
     assert heard(stepped.page, "said", who="robot")["text"].startswith("Stopping.")
-    outcome = ended(stepped)
+    outcome = stepped.ended(1)
     assert outcome.status == "stopped"
     assert interventions(outcome)[-1] == (ANNA, "stop", "", "")
 
@@ -131,7 +125,7 @@ def test_the_robot_is_sent_elsewhere_on_its_way(stepped: Robot) -> None:
     stepped.page.says("Find the peach at the sofa")
     heard(stepped.page, "doing", activity="driving")
     step_in(stepped.page, "place", place="high_table")
-    outcome = ended(stepped)
+    outcome = stepped.ended(1)
     assert outcome.status == "done"
     assert outcome.visited == ("high_table",)
     assert outcome.location == "high_table"
@@ -164,6 +158,6 @@ def test_who_it_was_is_one_line_of_few_letters(stepped: Robot) -> None:
     step_in(stepped.page, "answer", question=question, words="peach", by=by)
     notice(stepped.page, "question", kind="where_is")
     stepped.page.stops()
-    ((who, *_),) = interventions(ended(stepped))
+    ((who, *_),) = interventions(stepped.ended(1))
     assert who.isprintable()
     assert len(who) == 60
