@@ -1,6 +1,7 @@
 """Makes the pictures of docs/page.md: `python docs/page_pictures.py`, with Debian's chromium.
 
-A mission in the simulated home is talked through in the page, as a person would.
+Missions in the simulated home are talked through in the page, as a person would, and looked at in
+the experimenter's. With the names of pictures, only these are kept.
 """
 
 import re
@@ -17,15 +18,24 @@ DESKTOP = {"width": 1440, "height": 900}
 PHONE = {"width": 390, "height": 780}
 
 
-def begin(runs: str) -> tuple["subprocess.Popen[str]", str]:
-    """Start the robot; its process, and the address of its page."""
-    command = [sys.executable, "-m", "executive", "--page", "0", "--runs", runs]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+def begin(runs: str) -> tuple["subprocess.Popen[str]", str, str]:
+    """Start the robot; its process, and the addresses of both pages."""
+    command = [sys.executable, "-m", "executive", "--page", "0", "--page-experimenter"]
+    process = subprocess.Popen([*command, "--runs", runs], stderr=subprocess.PIPE, text=True)
     assert process.stderr is not None
+    found: list[str] = []
     for line in process.stderr:
-        if found := re.search(r"Open (http\S+)", line):
-            return process, found[1]
+        found += re.findall(r"http\S+token=\S+", line)
+        if len(found) == 2:
+            return process, found[0], found[1]
     raise SystemExit("the robot did not start")
+
+
+def keep(tab: Page, name: str) -> None:
+    """Take a picture, if it is wanted."""
+    wanted = sys.argv[1:]
+    if not wanted or name in wanted:
+        tab.screenshot(path=HERE / name)
 
 
 def ready(tab: Page) -> None:
@@ -33,39 +43,82 @@ def ready(tab: Page) -> None:
     expect(tab.locator("#doing")).to_contain_text("I am ready", timeout=PATIENCE_MS)
 
 
-def take_pictures(tab: Page) -> None:
+def say(tab: Page, words: str) -> None:
+    """Say something."""
+    tab.fill("#words", words)
+    tab.keyboard.press("Enter")
+
+
+def do(tab: Page, words: str) -> None:
+    """Have something done, and wait for it."""
+    say(tab, words)
+    expect(tab.locator("#doing")).not_to_contain_text("I am ready", timeout=PATIENCE_MS)
+    ready(tab)
+
+
+def of_the_person(tab: Page) -> None:
     """One while it looks for something, one in the dark with a reason, one on a phone."""
     ready(tab)
-    tab.fill("#words", "Bring a sugar_box")
-    tab.keyboard.press("Enter")
+    say(tab, "Bring a sugar_box")
     tab.locator(".picture rect").first.wait_for(state="attached", timeout=PATIENCE_MS)
-    tab.screenshot(path=HERE / "page.png")
+    keep(tab, "page.png")
     ready(tab)
     tab.emulate_media(color_scheme="dark")
     tab.get_by_role("button", name=re.compile("^Why did the robot say: I look")).first.click()
     tab.locator(".because li").first.wait_for()
-    tab.screenshot(path=HERE / "page-dark.png")
+    keep(tab, "page-dark.png")
     tab.emulate_media(color_scheme="light")
     tab.set_viewport_size(PHONE)
-    tab.fill("#words", "Find a fruit")
-    tab.keyboard.press("Enter")
+    say(tab, "Find a fruit")
     tab.locator("#answers img").last.wait_for()
     tab.wait_for_timeout(1000)
     tab.locator("#answers").evaluate("box => { box.scrollTop = 0; }")
-    tab.screenshot(path=HERE / "page-phone.png")
+    keep(tab, "page-phone.png")
+    tab.keyboard.press("Escape")
+    expect(tab.locator("#last")).to_contain_text("stopped", timeout=PATIENCE_MS)
+
+
+def of_the_experimenter(desk: Page, tab: Page) -> None:
+    """One with a sentence held, one with two runs, one on a phone."""
+    for _ in range(2):
+        do(tab, "Find the sugar_box")
+    desk.get_by_label("Your name").fill("Anna")
+    desk.get_by_label("Hold what the robot says").check()
+    say(tab, "Find a fruit")
+    desk.get_by_label("Held sentence 1").wait_for()
+    desk.locator("#live [role=treeitem]").filter(has_text="which object").first.click()
+    desk.wait_for_timeout(1000)
+    keep(desk, "experiment.png")
+    desk.emulate_media(color_scheme="dark")
+    desk.set_viewport_size(PHONE)
+    desk.wait_for_timeout(500)
+    keep(desk, "experiment-phone.png")
+    desk.emulate_media(color_scheme="light")
+    desk.set_viewport_size(DESKTOP)
+    desk.get_by_role("button", name="Past runs").click()
+    desk.get_by_label("Words", exact=True).fill("sugar find")
+    expect(desk.locator("#runs tbody tr")).to_have_count(2)
+    for box in desk.locator("#runs tbody input").all():
+        box.check()
+    desk.get_by_role("button", name="Two side by side").click()
+    expect(desk.locator("#two .moment").last).to_contain_text("Tick", timeout=PATIENCE_MS)
+    desk.wait_for_timeout(1500)
+    keep(desk, "experiment-two.png")
 
 
 def main() -> None:
     """Run the robot, take the pictures, end it."""
     with tempfile.TemporaryDirectory() as runs, sync_playwright() as started:
-        process, url = begin(runs)
+        process, url, experimenter = begin(runs)
         browser = started.chromium.launch(
             executable_path="/usr/bin/chromium", args=["--no-sandbox"]
         )
         try:
-            tab = browser.new_page(viewport=DESKTOP)
+            tab, desk = (browser.new_page(viewport=DESKTOP) for _ in range(2))
             tab.goto(url)
-            take_pictures(tab)
+            desk.goto(experimenter)
+            of_the_person(tab)
+            of_the_experimenter(desk, tab)
         finally:
             browser.close()
             process.terminate()

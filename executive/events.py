@@ -9,6 +9,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from functools import partial
 from typing import Any, TypeVar
 
@@ -73,7 +74,38 @@ class Broke:
     reason: str
 
 
-Event = Started | Ended | DeadlinePassed | StopRequested | Heard | HandFelt | Broke
+class Deed(StrEnum):
+    """What an experimenter may do in somebody's stead."""
+
+    ANSWER = "answer"
+    """Answer a question in the person's stead."""
+    HOLD = "hold"
+    """Hold what the robot says from here on, or let it go."""
+    WORDS = "words"
+    """Let a sentence go that was held, as it was or otherwise; empty: it is never said."""
+    PLACE = "place"
+    """Send the robot elsewhere than it would go in its search."""
+    STOP = "stop"
+
+
+@dataclass(frozen=True, slots=True)
+class Intervened:
+    """An experimenter stepped in.
+
+    Attributes:
+        by: who.
+        deed: what was done: a `Deed`.
+        was: the question; the sentence as the robot made it; the place that it had chosen.
+        became: the answer; the sentence as it was said; the place where it was sent.
+    """
+
+    by: str
+    deed: str
+    was: str
+    became: str
+
+
+Event = Started | Ended | DeadlinePassed | StopRequested | Heard | HandFelt | Broke | Intervened
 
 
 @dataclass(frozen=True, slots=True, eq=False)

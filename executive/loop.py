@@ -4,11 +4,20 @@ import logging
 import time
 
 from executive.errors import ExecutiveError
-from executive.events import Broke, DeadlinePassed, Ended, Event, HandFelt, Inbox, StopRequested
+from executive.events import (
+    Broke,
+    DeadlinePassed,
+    Ended,
+    Event,
+    HandFelt,
+    Inbox,
+    Intervened,
+    StopRequested,
+)
 from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
 from executive.interfaces import Clock, Recorder, Robot, Tree
 from executive.pending import Pending
-from executive.records import EventTaken, LlmCall, Note, Record, Tick
+from executive.records import EventTaken, Intervention, LlmCall, Note, Record, Tick
 from executive.situation import Situation
 from executive.text import printable
 from executive.types import Failed, Halt, Replied, Result, Scored, Succeeded
@@ -130,6 +139,9 @@ class Executive:
         self._recorder.record(EventTaken(event))
         if isinstance(event, StopRequested):
             self.stops.append(event.by)
+        if isinstance(event, Intervened):
+            told = Intervention(event.by, event.deed, event.was, event.became)
+            self._recorder.record(told)
         result = getattr(event, "result", None)
         if isinstance(result, Replied | Scored):
             self._recorder.record(LlmCall(result))

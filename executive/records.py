@@ -302,6 +302,16 @@ class Mishap:
 
 
 @dataclass(frozen=True, slots=True)
+class Intervention:
+    """What an experimenter did, beside its event (`Intervened`): for who only reads of these."""
+
+    by: str
+    deed: str
+    was: str
+    became: str
+
+
+@dataclass(frozen=True, slots=True)
 class Finished:
     """The mission is over."""
 
@@ -326,5 +336,6 @@ Record = (
     | Transforms
     | PlannedPath
     | Mishap
+    | Intervention
     | Finished
 )

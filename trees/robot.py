@@ -29,6 +29,9 @@ from trees.nodes import UNSAID, Action, why_of
 from trees.progress import on_the_way, on_to_the_next
 from trees.telling import tell
 
+EXPERIMENTER = "experimenter"
+"""Who names a place to which an experimenter sends the robot."""
+
 
 class BodyAction(Action):
     """Something that the robot does with its body or its eyes.
@@ -173,8 +176,26 @@ class DriveToCandidate(RobotAction):
 class Visit(DriveToCandidate):
     """Goes to a place for the first time: it counts as visited if it is reached.
 
-    Reads search.candidate and search.looks; writes search.looks.
+    Where an experimenter sends the robot meanwhile, it goes instead, without a word.
+
+    Reads search.candidate, search.sent_to and search.looks; writes search.looks.
     """
+
+    def start(self) -> int:
+        """Go where it is sent, if it is."""
+        search = self.situation.search
+        if search.sent_to:
+            search.candidate = Candidate(search.sent_to, EXPERIMENTER)
+            search.sent_to = ""
+        return super().start()
+
+    def update(self) -> Status:
+        """Turn round where it is sent elsewhere."""
+        if self.situation.search.sent_to and (request := self._request) is not None:
+            self._wait_no_more(request)
+            self.cancel(request)
+            return self.start_again()
+        return super().update()
 
     def progress(self) -> str:
         """The first place was announced; of the next ones, say why."""

@@ -58,6 +58,7 @@ class Page:
         self.experimenter_url = ""
         """What the experimenter opens; empty if there is no such page."""
         if self.desk:
+            self.desk.step_in(inbox, self.person)
             own = secrets.token_urlsafe(16)
             self.experimenter_url = address.url(self._server.port, own, ROOT)
             theirs = Guard(experiment_site(self.desk), own, address.host, EXPERIMENT_PUBLIC)
@@ -98,6 +99,8 @@ class Page:
         if self.desk:
             self.desk.live.name = lambda: session.folder.name if session.folder else ""
             self.desk.look_in(session.settings.runs)
+            if self.desk.wizard:
+                self.desk.wizard.know({p.name: spoken(p.name) for p in home.furniture})
 
     @property
     def sinks(self) -> tuple[Sink, ...]:

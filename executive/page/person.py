@@ -2,11 +2,13 @@
 
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, cast
 
-from executive.events import Inbox
+from executive.events import Deed, Inbox, Intervened
 from executive.page.board import Board
+from executive.page.gate import Gate
 from executive.page.lines import Lines, Said
 from executive.text import LONGEST, one_line, writable
 from executive.types import Question
@@ -33,6 +35,10 @@ class PagePerson(Console):
         self._session: Session | None = None
         self._before: Path | None = None
         """The last mission that was over when a command was listened for."""
+        self.gate = Gate(board.say)
+        """What the mission says goes through it."""
+        self.asking: Callable[[dict[str, Any] | None], None] = lambda question: None
+        """Is told which question waits for an answer, whether the person was asked it or not."""
         super().__init__(inbox, cast(TextIO, self._typing), cast(TextIO, Said(self._shown)))
         board.put("question", None)
 
@@ -83,15 +89,18 @@ class PagePerson(Console):
         self._board.say({"who": "person", "text": line[:LONGEST], "at": time.time()})
         self._typing.put(words)
 
-    def answers(self, words: str, question: int) -> bool:
+    def answers(self, words: str, question: int, by: str = "") -> bool:
         """They chose an answer of this question; False if it does not wait for one any more.
 
-        So what was chosen a moment too late never answers the next question, unseen.
+        So what was chosen a moment too late never answers the next question, unseen. `by` is who
+        answers in their stead.
         """
         with self._lock:
             if self._question is None or self._request is None or self._request != question:
                 return False
             line = one_line(writable(words))[: LONGEST + 1]
+            if by:
+                self._inbox.post(Intervened(by, Deed.ANSWER, self._question.text, line))
             self._board.say({"who": "person", "text": line[:LONGEST], "at": time.time()})
             self._lines.append(line)
             self._serve()
@@ -102,8 +111,19 @@ class PagePerson(Console):
         self._board.say({"who": "person", "stop": True, "at": time.time()})
         self._stop()
 
+    def show_question(self) -> None:
+        """Show it as it is by now, after what the robot said was let go."""
+        with self._lock:
+            self._show_question()
+        self._board.flush()
+
     def _shown(self, line: str) -> None:
-        self._board.say({"who": "robot", "text": line, "at": time.time(), **self._moment()})
+        """What the mission says may be held; what is said at once to who speaks, is not."""
+        entry = {"who": "robot", "text": line, "at": time.time(), **self._moment()}
+        if threading.get_ident() == self._ticking:
+            self.gate.say(entry)
+        else:
+            self._board.say(entry)
 
     def _moment(self) -> dict[str, Any]:
         """In which mission, if it is recorded, and when in it (mission time, s).
@@ -128,10 +148,10 @@ class PagePerson(Console):
     def _show_question(self) -> None:
         """Show the question as long as an answer would be taken for one; the lock is held."""
         asked, request = self._question, self._request
-        if asked is None or request is None:
-            self._board.put("question", None)
-        else:
-            self._board.put("question", shown(asked, request))
+        waits = None if asked is None or request is None else shown(asked, request)
+        said = self.gate.as_said(waits["text"]) if waits else None
+        self._board.put("question", {**waits, "text": said} if waits and said else None)
+        self.asking(waits)
 
 
 def shown(question: Question, number: int) -> dict[str, Any]:

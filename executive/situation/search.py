@@ -49,6 +49,8 @@ class Search:
     candidates: tuple[Candidate, ...] = ()
     candidate: Candidate | None = None
     """Where the robot is going or looking now."""
+    sent_to: str = ""
+    """Where an experimenter wants the robot to look next; empty if nobody does."""
     view: int = 0
     """The part of the place that it looks at."""
     looks: Looks = field(default_factory=Looks, metadata=PART)
@@ -63,6 +65,11 @@ class Search:
     """Where the thing was seen."""
     gone: bool = False
     """Whether the thing was seen, and then was there no more."""
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether the robot is on its way to look, or looks, and has not seen the thing."""
+        return self.candidate is not None and self.found is None
 
     @property
     def is_delivered(self) -> bool:

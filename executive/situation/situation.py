@@ -8,10 +8,12 @@ from typing import Any, Self
 from executive.events import (
     Broke,
     DeadlinePassed,
+    Deed,
     Ended,
     Event,
     HandFelt,
     Heard,
+    Intervened,
     Started,
     StopRequested,
 )
@@ -88,7 +90,9 @@ class Situation:
                 self.dialogue.heard.append(words)
             case HandFelt(holding):
                 self.hand.feel(holding)
-            case Ended() | DeadlinePassed():
+            case Intervened(deed=Deed.PLACE, became=place) if self.search.goes_on:
+                self.search.sent_to = place
+            case Ended() | DeadlinePassed() | Intervened():
                 pass
 
     def begin(self, command: Command) -> None:

@@ -18,6 +18,7 @@ from google.protobuf.descriptor_pool import Default
 from executive.records import (
     EventTaken,
     Finished,
+    Intervention,
     LlmCall,
     Mishap,
     Note,
@@ -165,6 +166,7 @@ CHANNELS: tuple[Channel[Any], ...] = (
     _foxglove("/scene", PlannedPath, SceneUpdate, foxglove.path_update),
     _line(Mishap, "warning", lambda mishap: f"{mishap.fault}: {mishap.text}"),
     _plain("/mishap", Mishap),
+    _plain("/intervention", Intervention),
     _foxglove("/log", Note, Log, foxglove.log_line),
     _line(Finished, "info", lambda end: f"{end.outcome.status}: {end.outcome.reason}"),
     _own("/outcome", Finished, "Outcome", OUTCOME, finished_to_fields, finished_from_message),

@@ -13,6 +13,7 @@ from executive.events import (
     Event,
     HandFelt,
     Heard,
+    Intervened,
     Started,
     StopRequested,
 )
@@ -51,6 +52,8 @@ def _beside_its_gist(event: Event) -> dict[str, Any]:
             return {"holding": bool(holding), "numb": holding is None}
         case Ended(request, result):
             return {"request": request, "result": type(result).__name__, **_result_fields(result)}
+        case Intervened(by, deed, was):
+            return {"by": by, "deed": deed, "was": was}
         case Started() | StopRequested() | Heard() | Broke():
             return {}
         case _:
@@ -79,6 +82,7 @@ _EVENTS: dict[type, Callable[[Any], Event]] = {
     Heard: lambda message: Heard(message.text),
     HandFelt: lambda message: HandFelt(None if message.numb else message.holding),
     Broke: lambda message: Broke(message.text),
+    Intervened: lambda m: Intervened(m.by, m.deed, m.was, m.text),
 }
 _RESULTS: dict[type, Callable[[Any], Result]] = {
     Succeeded: lambda _: Succeeded(),
@@ -148,6 +152,8 @@ def _detection(message: Any) -> Detection:
 def in_words(event: Event) -> str:
     """An event on one line: its name, that of its result, its gist."""
     result = type(event.result).__name__ if isinstance(event, Ended) else ""
+    if isinstance(event, Intervened):
+        result = f"{event.by}: {event.deed}:"
     return " ".join(filter(None, (type(event).__name__, result, gist(event))))
 
 
@@ -166,6 +172,8 @@ def gist(event: Event) -> str:
             return "I cannot tell" if holding is None else "something" if holding else "nothing"
         case Broke(reason):
             return reason
+        case Intervened(became=became):
+            return became
 
 
 def _gist_of_result(result: Result) -> str:

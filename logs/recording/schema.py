@@ -123,6 +123,9 @@ EVENT: Definitions = {
         "lost": "bool",
         "holding": "bool",
         "numb": "bool",
+        "by": "string",
+        "deed": "string",
+        "was": "string",
     },
 }
 

@@ -11,6 +11,7 @@ from rerun_bindings import flush_and_cleanup_orphaned_recordings
 from executive.records import (
     EventTaken,
     Finished,
+    Intervention,
     LlmCall,
     Mishap,
     Note,
@@ -124,6 +125,9 @@ class RerunSink:
             case WaysTold(start, places):
                 text = f"ways from {start} to {', '.join(places)}"
                 self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
+            case Intervention(by, deed, was, became):
+                text = f"{by}: {deed}: {was} -> {became}"
+                self._stream.log(blueprint.LOG, rr.TextLog(text, level="WARN"))
             case Mishap(fault, text):
                 self._stream.log(blueprint.LOG, rr.TextLog(f"{fault}: {text}", level="WARN"))
             case EventTaken():

@@ -3,6 +3,7 @@
 import http.client
 import json
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
@@ -20,6 +21,8 @@ from executive.page.page import Page
 from executive.types import Outcome
 
 TOKEN = "the-token"
+PATIENCE_S = 90.0
+"""How long anything may take on a busy machine."""
 
 
 @dataclass
@@ -37,6 +40,15 @@ class Robot:
     outcomes: list[Outcome] = field(default_factory=list)
     ticks: list[int] = field(default_factory=list)
     over: threading.Event = field(default_factory=threading.Event)
+
+    def ended(self, count: int) -> Outcome:
+        """Wait until so many missions have ended and the robot listens again; how the last did."""
+        latest = time.monotonic() + PATIENCE_S
+        while len(self.outcomes) < count:
+            assert time.monotonic() < latest, "the mission does not end"
+            time.sleep(0.05)
+        heard(self.page, "doing", state="ready")
+        return self.outcomes[count - 1]
 
     def converse(self, session: Session) -> None:
         """Do what the person says, until they end it."""
@@ -137,11 +149,12 @@ def post(page: Page, path: str, value: Any, **given: Any) -> int:
 
 
 def told(page: Page, **given: Any) -> Iterator[Told]:
-    """What a page is told, as it comes; `given` as for `ask`."""
-    connection = _sent(page, "/events", **given)
+    """What a page is told, as it comes, for a while; `given` as for `ask`."""
+    connection = _sent(page, given.pop("path", "/events"), **given)
     with closing(connection), connection.getresponse() as answer:
         fields: dict[str, str] = {}
-        while raw := answer.readline():
+        latest = time.monotonic() + PATIENCE_S
+        while time.monotonic() < latest and (raw := answer.readline()):
             line = raw.decode().rstrip("\n")
             if line:
                 key, _, value = line.partition(": ")
@@ -151,14 +164,15 @@ def told(page: Page, **given: Any) -> Iterator[Told]:
                 fields = {}
 
 
-def heard(page: Page, name: str, *, token: str = TOKEN, **values: Any) -> Any:
+def heard(
+    page: Page, name: str, *, token: str = TOKEN, path: str = "/events", **values: Any
+) -> Any:
     """The first of this name that a page is told, and that has these values."""
-    with closing(told(page, token=token)) as reading:
-        return next(
-            one.value
-            for one in reading
-            if one.name == name and one.value and values.items() <= one.value.items()
-        )
+    with closing(told(page, token=token, path=path)) as reading:
+        for one in reading:
+            if one.name == name and one.value and values.items() <= one.value.items():
+                return one.value
+    raise AssertionError(f"no {name} like {values}")
 
 
 def _sent(

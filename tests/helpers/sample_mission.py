@@ -10,6 +10,7 @@ from executive.records import (
     Entity,
     EventTaken,
     Finished,
+    Intervention,
     LlmCall,
     Mishap,
     NodeShape,
@@ -265,6 +266,7 @@ def mission() -> Iterator[tuple[float, Record]]:
     yield 6.0, Seen(0, (detection(),))
     yield 6.0, tick(2, "mission/see", done, done, done, done, done, candidates=CANDIDATES)
     yield 6.2, Mishap("moved=sugar_box:desk@6", "the sugar_box is taken to desk")
+    yield 6.3, Intervention("Anna", "words", "Here it is.", "Here is the sugar_box.")
     yield 6.5, Utterance("robot", "Here is the sugar_box.")
     yield 6.5, Note("info", "the sugar_box was in the cupboard")
     yield 6.5, Finished(outcome())

@@ -58,6 +58,11 @@ def _tick(number: int, shapes: list[NodeShape]) -> Tick:
         status = "SUCCESS" if at < step else "RUNNING" if at == step else "INVALID"
         return NodeState(shape.path, status, f"try {number}" if at == step else "")
 
-    situation = {"words": "Tidy up", "round": number // 50, "visited": [works], "object": "mug"}
+    situation = {
+        "words": "Tidy up",
+        "round": number // 50,
+        "visited": [f"place {works}"],
+        "object": "mug",
+    }
     nodes = tuple(map(state, shapes))
     return Tick(number, "DeadlinePassed", f"mission/branch {works}", nodes, situation, 0.001)

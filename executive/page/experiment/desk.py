@@ -10,17 +10,20 @@ from pathlib import Path
 from typing import Any
 
 from executive.errors import InputError
+from executive.events import Inbox
 from executive.page.board import Board
 from executive.page.experiment.because import because
 from executive.page.experiment.reel import Line, Reel
 from executive.page.experiment.reels import LIVE, LiveReel, Reels
 from executive.page.experiment.runs import Runs
+from executive.page.experiment.wizard import Wizard
+from executive.page.person import PagePerson
 from executive.types import Replied, Scored
 from logs.questions.difference import parting
 from logs.recording.reader import FILE_NAME, Run
 
 MOST_LINES = 300
-MARKED = ("said", "model", "mishap", "end")
+MARKED = ("said", "model", "intervened", "mishap", "end")
 """What stands in the strip above the slider."""
 MOST_MARKS = 2000
 REPLAY_S = 900.0
@@ -39,12 +42,34 @@ class Desk:
         self.live = LiveReel(self.board)
         self._reels = Reels()
         self._runs: Runs | None = None
+        self.wizard: Wizard | None = None
         self._replaying = threading.Lock()
         self._viewers: list[subprocess.Popen[bytes]] = []
+
+    def step_in(self, inbox: Inbox, person: PagePerson) -> None:
+        """Have the experimenter speak for this person, and to the robot."""
+
+        def asking(question: dict[str, Any] | None) -> None:
+            self.board.put("question", question)
+            self.board.flush()
+
+        person.asking = asking
+        self.wizard = Wizard(inbox, person, self.board)
+        self.wizard.going = self.live.going
 
     def look_in(self, folder: Path) -> None:
         """The past runs are in this folder."""
         self._runs = Runs(folder)
+
+    def intervene(self, sent: dict[str, Any]) -> dict[str, Any]:
+        """Step in.
+
+        Raises:
+            InputError: if that cannot be, or is over.
+        """
+        if self.wizard is None:
+            raise InputError("deed", "nobody can step in here")
+        return self.wizard.do(sent)
 
     # --- runs ---
 
@@ -52,12 +77,13 @@ class Desk:
         """The past runs that have these words and ended so."""
         return self._past.found(words, status)
 
-    def run(self, name: str, known: int) -> dict[str, Any]:
+    def run(self, name: str, known: int = 0, *, anew: bool = False) -> dict[str, Any]:
         """A run's tree, how far it is read, and what is marked in it.
 
         The tree is left out if so many behaviours of it are known already: then it is all of it.
+        One that had not ended when it was read is read again, `anew`.
         """
-        reel = self._reel(name)
+        reel = self._reel(name, anew=anew)
         outcome = reel.outcome
         marks = [(ln.step, ln.kind) for ln in tuple(reel.lines) if ln.kind in MARKED]
         return {
@@ -191,7 +217,7 @@ class Desk:
             raise InputError("run", "the robot is getting ready", "wait a little")
         return self._runs
 
-    def _reel(self, name: str) -> Reel:
+    def _reel(self, name: str, *, anew: bool = False) -> Reel:
         """The reel of a run.
 
         Raises:
@@ -199,7 +225,7 @@ class Desk:
         """
         if name == LIVE or name == self.live.name():
             return self.live.reel
-        return self._reels.of(self._past.path(name))
+        return self._reels.of(self._past.path(name), anew=anew)
 
 
 def _within(reel: Reel, step: int) -> int:

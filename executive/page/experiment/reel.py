@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
+from executive.events import Intervened
 from executive.records import (
     EventTaken,
     Finished,
@@ -72,7 +73,7 @@ class Line:
     Attributes:
         step: the tick that followed.
         time_s: mission time.
-        kind: `said`, `event`, `model`, `plan`, `note`, `mishap`, `end`.
+        kind: `said`, `event`, `intervened`, `model`, `plan`, `note`, `mishap`, `end`.
         text: what.
         call: of the model's calls the number of this one, from 0; None if it is none.
     """
@@ -116,6 +117,8 @@ class Reel:
                 self._tick(time_s, record)
             case Utterance(speaker, text):
                 self._add(time_s, "said", f"{speaker}: {text}")
+            case EventTaken(Intervened(by, deed, was, became)):
+                self._add(time_s, "intervened", f"{by}: {deed}: {was} → {became}")
             case EventTaken(event):
                 self._add(time_s, "event", in_words(event))
             case LlmCall(result):
@@ -203,6 +206,11 @@ class Reel:
             for key, track in tuple(self._facts.items())
             if (at := track.index(step)) != track.index(before)
         }
+
+    def fact(self, key: str) -> Any:
+        """What the mission knows now under this key; None if nothing."""
+        track = self._facts.get(key)
+        return track.values[-1] if track and track.values else None
 
     def lines_to(self, step: int, most: int, wanted: Callable[[Line], bool]) -> list[Line]:
         """The latest lines up to a step that are wanted, oldest first; no more than `most`."""

@@ -52,6 +52,13 @@ class LiveReel:
             self.reel = Reel(LIVE)
         self.reel.take(stamp.mission_s, record)
 
+    def going(self) -> str:
+        """To which place the robot goes to look, or where it looks; empty if it does not."""
+        reel = self.reel
+        fact = reel.fact
+        searches = fact("candidate") and not fact("found") and not reel.whole
+        return str(fact("candidate")["place"]) if searches else ""
+
     def flush(self) -> None:
         """Tell the pages how far it is."""
         reel = self.reel
@@ -82,11 +89,11 @@ class Reels:
         self._lock = threading.Lock()
         self._kept: OrderedDict[str, Reel] = OrderedDict()
 
-    def of(self, folder: Path) -> Reel:
-        """The reel of a run; it is being read, or was."""
+    def of(self, folder: Path, *, anew: bool = False) -> Reel:
+        """The reel of a run; it is being read, or was. `anew`: it may go on further by now."""
         with self._lock:
             reel = self._kept.get(folder.name)
-            if reel is None or (reel.whole and reel.trouble):
+            if reel is None or (anew and reel.whole and reel.outcome is None):
                 reel = self._kept[folder.name] = Reel(folder.name)
                 threading.Thread(target=read, args=[reel, folder], daemon=True).start()
             self._kept.move_to_end(folder.name)

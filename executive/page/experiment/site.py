@@ -33,7 +33,9 @@ def experiment_site(desk: Desk) -> Starlette:
     """The application, still open to all: `Guard` comes around it."""
     asked: dict[str, Callable[[Request], Any]] = {
         "runs": lambda r: desk.runs(_word(r, "words"), _word(r, "status")),
-        "run": lambda r: desk.run(_word(r, "run"), _perhaps(r, "known") or 0),
+        "run": lambda r: desk.run(
+            _word(r, "run"), _perhaps(r, "known") or 0, anew=_word(r, "anew") != ""
+        ),
         "step": lambda r: desk.step(_word(r, "run"), _number(r, "step"), _perhaps(r, "shown")),
         "lines": lambda r: desk.lines(
             _word(r, "run"), _number(r, "step"), _word(r, "kinds"), _word(r, "words")
@@ -44,6 +46,7 @@ def experiment_site(desk: Desk) -> Starlette:
     }
     told: dict[str, Callable[[dict[str, Any]], Any]] = {
         "replay": lambda sent: desk.replay(_text(sent, "run")),
+        "intervene": desk.intervene,
         "view": lambda sent: desk.view(_text(sent, "run")),
     }
     assets = {path: entry.read_bytes() for path, entry in ASSETS.items()}

@@ -118,6 +118,8 @@ def lead(data: StudyData, code: str, address: Any) -> int:
             raise InputError("--participant", f"{code} has come to the end", right)
         leader = Leader(data, journal, page)
         print(f"{code}: open {page.url}", file=sys.stderr, flush=True)
+        if page.experimenter_url:
+            print(f"Experimenter: {page.experimenter_url}", file=sys.stderr, flush=True)
         try:
             with on_stop_signals(_stopping(leader)):
                 took_part = leader.lead()

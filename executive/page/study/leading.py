@@ -135,7 +135,7 @@ class Leader:
         self._inbox = Inbox()
         person, watch = self._page.converse(self._inbox), Watch()
         with Session(
-            settings, inbox=self._inbox, user=person, sinks=[self._page.sink, watch]
+            settings, inbox=self._inbox, user=person, sinks=[*self._page.sinks, watch]
         ) as session:
             self._page.follow(session)
             yield _Talks(session, self._page, self._journal, watch, self._data.folder)

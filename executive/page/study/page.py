@@ -54,6 +54,8 @@ class StudyPage(Page):
         self.board.forget()
         self.sink = PageSink(self.board)
         self.person = Participant(inbox, self.board)
+        if self.desk:
+            self.desk.step_in(inbox, self.person)
         self.board.put("study", self._shown)
         self.board.flush()
         return self.person

@@ -104,6 +104,8 @@ class InterventionRow:
     """Mission time."""
     what: str
     by: str
+    was: str
+    became: str
 
 
 Row = TaskRow | AnswerRow | ScoreRow | InterventionRow

@@ -3,7 +3,7 @@
 import threading
 from dataclasses import dataclass
 
-from executive.events import StopRequested
+from executive.events import Intervened, StopRequested
 from executive.page.study.tables import STOP
 from executive.records import EventTaken, Record
 from logs.recorder import Stamp
@@ -11,11 +11,13 @@ from logs.recorder import Stamp
 
 @dataclass(frozen=True)
 class SteppedIn:
-    """What somebody did, who, and when (mission time, s)."""
+    """What somebody did, who, and when (mission time, s); what was, and what became of it."""
 
     what: str
     by: str
     time_s: float
+    was: str = ""
+    became: str = ""
 
 
 class Watch:
@@ -32,6 +34,9 @@ class Watch:
             case EventTaken(StopRequested(by)):
                 with self._lock:
                     self._seen.append(SteppedIn(STOP, by, stamp.mission_s))
+            case EventTaken(Intervened(by, deed, was, became)):
+                with self._lock:
+                    self._seen.append(SteppedIn(deed, by, stamp.mission_s, was, became))
             case _:
                 pass
 

@@ -5,6 +5,7 @@ import { follow } from "/robot.js";
 import { load, text, textOr } from "/texts.js";
 import { past } from "/experiment/past.js";
 import { Reel } from "/experiment/reel.js";
+import { stepIn } from "/experiment/wizard.js";
 import { ask, tell } from "/experiment/wire.js";
 
 await load("/experiment/english.json");
@@ -22,6 +23,7 @@ const one = new Reel(reels[1]);
 const pair = [2, 3].map((at) => new Reel(reels[at], (step) => {
   if (together.checked) pair.filter((reel) => reel.id !== pair[at - 2].id).forEach((reel) => reel.go(step));
 }, text(at === 2 ? "first_run" : "second_run")));
+const wizard = stepIn(document.getElementById("wizard"));
 const listPast = past(openOne, openTwo);
 let mission = 0;
 let known = -1;
@@ -100,9 +102,8 @@ document.getElementById("replay").addEventListener("click", () => act("replay", 
 document.getElementById("view").addEventListener("click", () => act("view", "opening"));
 
 const connection = { open: "", lost: "disconnected", refused: "refused" };
-follow(["fresh", "live"], (name, value) => {
-  if (name === "live") showLive(value);
-}, (how) => {
+const show = { fresh() {}, live: showLive, ...wizard };
+follow(Object.keys(show), (name, value) => show[name](value), (how) => {
   trouble.hidden = !connection[how];
   trouble.textContent = connection[how] ? textOr(connection[how], "") : "";
 }, "/experiment");

@@ -5,9 +5,9 @@ import { text, textOr } from "/texts.js";
 import { Tree } from "/experiment/tree.js";
 import { ask } from "/experiment/wire.js";
 
-const KINDS = ["said", "event", "model", "plan", "note", "mishap", "end"];
-const SHOWN_AT_FIRST = ["said", "model", "plan", "mishap", "end"];
-const MARKS = ["said", "model", "mishap", "end"];
+const KINDS = ["said", "event", "intervened", "model", "plan", "note", "mishap", "end"];
+const SHOWN_AT_FIRST = ["said", "intervened", "model", "plan", "mishap", "end"];
+const MARKS = ["said", "model", "intervened", "mishap", "end"];
 const LATEST = 1e9;
 const REST_MS = 80; // the slider rests: now the lists beside the tree may follow
 const READING_MS = 400;
@@ -80,16 +80,16 @@ export class Reel {
     this.follow.checked = live;
     this.values = new Map();
     this.why.replaceChildren(element("p", {}, text("choose_behaviour")));
-    await this.refresh(run);
+    await this.refresh(run, { anew: 1 });
     if (this.run === run) await this.go(live ? LATEST : step);
   }
 
   /** Learn how far it is; what is still being read is asked for again. */
-  async refresh(run = this.run) {
+  async refresh(run = this.run, values = {}) {
     if (run !== this.run || run === null) return;
     let told;
     try {
-      told = await ask("run", { run, known: this.known });
+      told = await ask("run", { run, known: this.known, ...values });
     } catch (error) {
       return this.#say(error.message);
     }

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
@@ -25,14 +26,12 @@ def busy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Robot]:
     with robot(tmp_path_factory.mktemp("runs"), recorded=True, experimenter=True) as made:
         page = made.page
         heard(page, "doing", state="ready")
-        for words, then in (
-            ("Find the peach", {"name": "question", "kind": "where_is"}),
-            ("high_table", {"name": "doing", "state": "ready"}),
-            (HOSTILE, {"name": "outcome"}),
-        ):
-            page.says(words)
-            heard(page, **then)
-        heard(page, "doing", state="ready")
+        page.says("Find the peach")
+        heard(page, "question", kind="where_is")
+        page.says("high_table")
+        made.ended(1)
+        page.says(HOSTILE)
+        made.ended(2)
         page.says("Find a fruit")
         heard(page, "question", kind="which_object")
         yield made
@@ -150,3 +149,25 @@ def faults(tab: Tab) -> list[str]:
         for fault in response["violations"]
         for node in fault["nodes"]
     ]
+
+
+def test_an_experimenter_steps_in(browser: Browser, tmp_path: Path) -> None:
+    with robot(tmp_path, recorded=True, experimenter=True) as made, desk(browser, made) as tab:
+        heard(made.page, "doing", state="ready")
+        panel = tab.locator("#wizard")
+        panel.get_by_label("Your name").fill("Anna")
+        panel.get_by_label("Hold what the robot says").check()
+        made.page.says("Find the peach")
+        sentence = panel.get_by_label("Held sentence 1")
+        expect(sentence).to_have_value("Where is the peach?")
+        assert not faults(tab)
+        sentence.fill("Where may it be?")
+        panel.get_by_role("button", name="Say it", exact=True).click()
+        assert heard(made.page, "said", who="robot")["text"] == "Where may it be?"
+        panel.get_by_label("Hold what the robot says").uncheck()
+        panel.get_by_label("Answer for the person").fill("on the high table")
+        panel.get_by_role("button", name="Send", exact=True).click()
+        made.ended(1)
+        expect(tab.locator("#live .lines .of-intervened").last).to_contain_text(
+            "Anna: answer: Where is the peach? → on the high table"
+        )

@@ -1,0 +1,73 @@
+// Stepping in: answers in the person's stead, what the robot says, where it goes.
+
+import { element } from "/elements.js";
+import { spoken, text } from "/texts.js";
+import { tell } from "/experiment/wire.js";
+
+const LONGEST = 1000;
+const NAME = "experimenter";
+
+/** Build the panel in this box; what is to be called for which notice of the board. */
+export function stepIn(box) {
+  const field = (label, values = {}) => element("input", { type: "text", maxlength: LONGEST, "aria-label": label, autocomplete: "off", ...values });
+  const button = (label, act, values = {}) => element("button", { type: "button", onclick: act, ...values }, label);
+  const name = field(text("your_name"), { maxlength: 60, placeholder: text("your_name"), value: localStorage.getItem(NAME) ?? "" });
+  name.addEventListener("change", () => localStorage.setItem(NAME, name.value));
+  const said = element("span", { role: "status" });
+  const question = element("div", {});
+  const hold = element("input", { type: "checkbox" });
+  const held = element("ol", { hidden: true });
+  const places = element("select", { "aria-label": text("send_to") });
+
+  async function act(deed, values = {}) {
+    try {
+      await tell("intervene", { deed, by: name.value, ...values });
+      said.textContent = text("done_so");
+    } catch (error) {
+      said.textContent = error.message;
+    }
+  }
+
+  hold.addEventListener("change", () => act("hold", { on: hold.checked }));
+  box.replaceChildren(
+    element("h3", {}, text("step_in")), name, question,
+    element("label", {}, hold, text("hold_words")),
+    element("div", {}, places, button(text("send_there"), () => act("place", { place: places.value }))),
+    button(text("stop"), () => act("stop"), { class: "stop" }), said, held);
+
+  function ask(asked) {
+    if (!asked) return question.replaceChildren(element("span", {}, text("asks_nothing")));
+    const answer = (words) => act("answer", { question: asked.id, words });
+    const options = asked.kind === "confirm" ? [text("yes"), text("no")] : asked.options;
+    const words = field(text("answer_for"), { placeholder: text("answer_for") });
+    const form = element("form", {}, words, element("button", {}, text("send")));
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (words.value.trim()) answer(words.value);
+    });
+    question.replaceChildren(element("span", {}, text("asked_now", asked)),
+      ...[...options, text("unknown")].map((one) => button(spoken(one), () => answer(one))), form);
+  }
+
+  function row({ number, text: sentence }) {
+    const words = field(text("held_words", { number }), { value: sentence });
+    return element("li", { "data-number": number }, words,
+      button(text("say_it"), () => act("words", { number, words: words.value })),
+      button(text("drop_it"), () => act("words", { number, words: "" })));
+  }
+
+  return {
+    question: ask,
+    words({ holds, held: waiting }) {
+      hold.checked = holds;
+      held.hidden = !waiting.length;
+      const numbers = waiting.map((one) => String(one.number));
+      for (const one of [...held.children]) if (!numbers.includes(one.dataset.number)) one.remove();
+      const shown = [...held.children].map((one) => one.dataset.number);
+      held.append(...waiting.filter((one) => !shown.includes(String(one.number))).map(row));
+    },
+    places(known) {
+      places.replaceChildren(...known.map((one) => element("option", { value: one.name }, one.label)));
+    },
+  };
+}

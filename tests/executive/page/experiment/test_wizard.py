@@ -1,0 +1,163 @@
+"""An experimenter steps in: it is done, it stands in the recording, and a replay is the same."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from paging import Robot, ask, heard, robot
+
+from executive.events import Intervened
+from executive.page.page import Page
+from executive.records import Intervention
+from executive.replay import replay
+from executive.types import Outcome
+from logs.recording.reader import Run
+
+ANNA = "Anna"
+
+
+@pytest.fixture
+def stepped(tmp_path: Path) -> Iterator[Robot]:
+    with robot(tmp_path, recorded=True, experimenter=True, world="paging:in_real_time") as made:
+        heard(made.page, "doing", state="ready")
+        yield made
+
+
+def step_in(page: Page, deed: str, *, status: int = 200, **values: Any) -> Any:
+    token = parse_qs(urlsplit(page.experimenter_url).query)["token"][0]
+    body = json.dumps({"deed": deed, "by": ANNA, **values}).encode()
+    answer = ask(page, "/experiment/intervene", method="POST", body=body, token=token)
+    assert answer.status == status, answer.body
+    return json.loads(answer.body)
+
+
+def notice(page: Page, name: str, **values: Any) -> Any:
+    """What the experimenter's page is told."""
+    token = parse_qs(urlsplit(page.experimenter_url).query)["token"][0]
+    return heard(page, name, token=token, path="/experiment/events", **values)
+
+
+def interventions(outcome: Outcome) -> list[tuple[str, str, str, str]]:
+    """As recorded, once as events and once by themselves; and the replay is tick for tick so."""
+    run = Run(Path(outcome.run_dir or ""))
+    events = [at.value for at in run.events() if isinstance(at.value, Intervened)]
+    told = [at.value for at in run.records(Intervention)]
+    assert [(e.by, e.deed, e.was, e.became) for e in events] == [
+        (t.by, t.deed, t.was, t.became) for t in told
+    ]
+    assert replay(run.path).parting is None
+    return [(t.by, t.deed, t.was, t.became) for t in told]
+
+
+def test_a_question_is_answered_in_the_persons_stead(stepped: Robot) -> None:
+    stepped.page.says("Find a fruit")
+    question = notice(stepped.page, "question", kind="which_object")
+    step_in(stepped.page, "answer", question=question["id"], words="peach")
+    question = notice(stepped.page, "question", kind="where_is")
+    step_in(stepped.page, "answer", question=question["id"], words="high_table")
+    outcome = stepped.ended(1)
+    assert (outcome.status, outcome.object) == ("done", "peach")
+    (_, _, asked, peach), (by, deed, _, place) = interventions(outcome)
+    assert asked.startswith("Which fruit do you mean")
+    assert (by, deed, peach, place) == (ANNA, "answer", "peach", "high_table")
+
+
+def test_what_is_over_is_not_answered(stepped: Robot) -> None:
+    stepped.page.says("Find a fruit")
+    question = notice(stepped.page, "question", kind="which_object")
+    stepped.page.says("peach")
+    notice(stepped.page, "question", kind="where_is")
+    told = step_in(stepped.page, "answer", status=404, question=question["id"], words="banana")
+    assert "over" in told["error"]
+
+
+def test_words_that_are_held_are_said_otherwise_or_never(stepped: Robot) -> None:
+    page = stepped.page
+    step_in(page, "hold", on=True)
+    page.says("Find the peach")
+    question = notice(
+        page, "words", holds=True, held=[{"number": 1, "text": "Where is the peach?"}]
+    )
+    assert json.loads(next(c.json for c in page.board.since(0) if c.name == "question")) is None
+    step_in(page, "words", number=question["held"][0]["number"], words="Where did you put it?")
+    assert heard(page, "question", kind="where_is")["text"] == "Where did you put it?"
+    assert heard(page, "said", who="robot")["text"] == "Where did you put it?"
+    page.says("high_table")
+    step_in(page, "words", number=notice(page, "words", holds=True)["held"][0]["number"], words="")
+    step_in(page, "hold", on=False)
+    outcome = stepped.ended(1)
+    deeds = [(deed, was, became) for _, deed, was, became in interventions(outcome)]
+    assert deeds[0] == ("words", "Where is the peach?", "Where did you put it?")
+    assert deeds[1][0] == "words"
+    assert deeds[1][2] == ""
+    said = [json.loads(c.json)["text"] for c in page.board.since(0) if c.name == "said"]
+    assert deeds[1][1] not in said
+
+
+def test_what_was_held_is_said_in_order_when_nothing_is_held_any_more(stepped: Robot) -> None:
+    page = stepped.page
+    step_in(page, "hold", on=True)
+    page.says("Find the peach at the high_table")
+    stepped.ended(1)
+    assert not any('"robot"' in one.json for one in page.board.since(0) if one.name == "said")
+    held = [one["text"] for one in notice(page, "words", holds=True)["held"]]
+    step_in(page, "hold", on=False)
+    said = [json.loads(c.json) for c in page.board.since(0) if c.name == "said"]
+    assert [one["text"] for one in said if one["who"] == "robot"] == held
+    assert len(held) > 1
+
+
+def test_a_stop_is_answered_although_words_are_held(stepped: Robot) -> None:
+    step_in(stepped.page, "hold", on=True)
+    stepped.page.says("Find a fruit")
+    notice(stepped.page, "question", kind="which_object")
+    step_in(stepped.page, "stop")
+    assert heard(stepped.page, "said", who="robot")["text"].startswith("Stopping.")
+    outcome = stepped.ended(1)
+    assert outcome.status == "stopped"
+    assert interventions(outcome)[-1] == (ANNA, "stop", "", "")
+
+
+def test_the_robot_is_sent_elsewhere_on_its_way(stepped: Robot) -> None:
+    stepped.page.says("Find the peach at the sofa")
+    heard(stepped.page, "doing", activity="driving")
+    step_in(stepped.page, "place", place="high_table")
+    outcome = stepped.ended(1)
+    assert outcome.status == "done"
+    assert outcome.visited == ("high_table",)
+    assert outcome.location == "high_table"
+    assert interventions(outcome) == [(ANNA, "place", "sofa", "high_table")]
+
+
+def test_a_robot_that_does_not_search_is_sent_nowhere(stepped: Robot) -> None:
+    assert "over" in step_in(stepped.page, "place", status=404, place="sofa")["error"]
+    assert "no such place" in step_in(stepped.page, "place", status=404, place="moon")["error"]
+
+
+@pytest.mark.parametrize(
+    "sent",
+    [
+        {},
+        {"deed": "fly"},
+        {"deed": "answer", "question": "1", "words": "peach"},
+        {"deed": "words", "number": 99, "words": "Hello"},
+        {"deed": ["hold"]},
+    ],
+)
+def test_what_is_no_deed_is_refused(stepped: Robot, sent: dict[str, Any]) -> None:
+    step_in(stepped.page, sent.pop("deed", ""), status=404, **sent)
+
+
+def test_who_it_was_is_one_line_of_few_letters(stepped: Robot) -> None:
+    stepped.page.says("Find a fruit")
+    question = notice(stepped.page, "question", kind="which_object")["id"]
+    by = "<b>A\x1b\n" + "n" * 200
+    step_in(stepped.page, "answer", question=question, words="peach", by=by)
+    notice(stepped.page, "question", kind="where_is")
+    stepped.page.stops()
+    ((who, *_),) = interventions(stepped.ended(1))
+    assert who.isprintable()
+    assert len(who) == 60
