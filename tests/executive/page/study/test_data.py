@@ -34,7 +34,16 @@ MISSION = {
     "mission_time_s": 9.5,
     "recording": "P01/runs/a/1",
 }
-STOP = {"task": "t", "recording": "", "time_s": 1.0, "what": "stop", "by": "the person", **IN_A, "was": "", "became": ""}
+STOP = {
+    "task": "t",
+    "recording": "",
+    "time_s": 1.0,
+    "what": "stop",
+    "by": "the person",
+    **IN_A,
+    "was": "",
+    "became": "",
+}
 
 
 @pytest.fixture
