@@ -13,11 +13,7 @@ from executive.language.grammar import EnglishInterpreter
 from executive.replay.replaying import replay
 from executive.situation import Agenda, Situation
 from executive.testing.bench import Run, run_mission
-<<<<<<< HEAD
-from executive.types import Command, CommandKind, DriveTo, Goal, LookAt, MissionStatus
-=======
-from executive.types import Command, CommandKind, DriveTo, Goal, MissionStatus, Pick
->>>>>>> dialog
+from executive.types import Command, CommandKind, DriveTo, Goal, LookAt, MissionStatus, Pick
 from kb.facts import FactStore
 from logs.questions.why import why
 from logs.recording.reader import Run as Recorded
