@@ -23,7 +23,7 @@ from executive.language.meaning import (
     Unable,
     Where,
 )
-from executive.language.parts import From, Left, Part, To, Unfit, is_a, rest_of
+from executive.language.parts import From, Further, Left, Part, To, Unfit, is_a, rest_of
 
 
 class Builder(Deeds):
@@ -35,7 +35,7 @@ class Builder(Deeds):
     def request(self, parts: list[Part]) -> Request | Refusal:
         """Tasks, one after the other; what is to be left alone is no part of any of them."""
         left = tuple(thing for p in parts if isinstance(p, Left) for thing in p.things)
-        tasks = tuple(p.without(left) for p in parts if isinstance(p, Task))
+        tasks = tuple(task.without(left) for task in self._tasks(parts))
         if not tasks:
             return Refusal(" ".join(thing.said for thing in left))
         in_order = any(is_a(p, "FIRST", "THEN") for p in parts)
@@ -45,6 +45,26 @@ class Builder(Deeds):
             too=any(is_a(p, "TOO", "LATER") for p in parts),
             agrees=any(is_a(p, "YES") for p in parts),
         )
+
+    def _tasks(self, parts: list[Part]) -> list[Task]:
+        """Each task, with those that say no verb of their own.
+
+        Raises:
+            Unfit: if it is not clear what "them" are.
+        """
+        tasks: list[Task] = []
+        further = False
+        for part in parts:
+            if isinstance(part, Further):
+                if not tasks:
+                    raise Unfit("and")
+                tasks += self.once_more(tasks[-1], part)
+                further = True
+            elif isinstance(part, Task):
+                if further and part.things and part.things.members[0].pronoun:
+                    raise Unfit(part.things.members[0].words)
+                tasks.append(part)
+        return tasks
 
     def more(self, parts: list[Part]) -> Correction:
         """As in "and the pear", "the pear, too": the same as before, with more things."""

@@ -1,5 +1,6 @@
 """What is to be done, as the rules of a grammar have it."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from lark import Token
@@ -8,6 +9,7 @@ from executive.language.meaning import ME, Task, Thing, Things, Where
 from executive.language.nouns import Nouns
 from executive.language.parts import (
     From,
+    Further,
     Left,
     Otherwise,
     Part,
@@ -20,6 +22,14 @@ from executive.language.parts import (
 )
 from executive.types import CommandKind
 
+_ELSEWHERE = (
+    CommandKind.GO,
+    CommandKind.TELL,
+    CommandKind.COUNT,
+    CommandKind.CHECK,
+    CommandKind.CLEAR,
+)
+"""Deeds that can be done at one place after the other."""
 MOST_INNER = 4
 """Places that say where another place is; nobody says more in one breath."""
 
@@ -70,6 +80,24 @@ class Deeds(Nouns):
     def wish(self, parts: list[Part]) -> Task:
         """As in "I need the mug"."""
         return _task(CommandKind.BRING, parts)
+
+    def further(self, parts: list[Part]) -> Further:
+        """As in "... and the pear on the desk", "..., then to the sofa"."""
+        return Further(tuple(p for p in parts if not isinstance(p, Token)))
+
+    def once_more(self, task: Task, further: Further) -> tuple[Task, ...]:
+        """The same deed with other things, or at other places.
+
+        Raises:
+            Unfit: if the words do not say what is meant of the task before.
+        """
+        things = next((p for p in further.parts if isinstance(p, Things)), None)
+        places = [p for p in further.parts if not isinstance(p, Things)]
+        if task.conditional or (not (things and places) and task.verb not in _ELSEWHERE):
+            raise Unfit(task.said)
+        if things and not places:
+            return tuple(_again(task, task.things, [p]) for p in _same_way(task, things))
+        return (_again(task, things or task.things, places),)
 
     def put(self, parts: list[Part]) -> Task:
         """As in "put the mug on the desk"; where to may be left for the robot to ask."""
@@ -148,6 +176,29 @@ class Deeds(Nouns):
         sought, part, *rest = (p for p in parts if not isinstance(p, Token))
         deed = _deed(part)
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
+
+
+def _again(task: Task, things: Things | None, places: list[Part]) -> Task:
+    """The deed of a task with these things, at these places."""
+    brings = task.verb == CommandKind.BRING
+    parts = [Token("DEED", task.said), things, *places]
+    again = _task(task.verb, parts, goes=task.goal is not None and not brings)
+    if brings and again.goal not in (None, ME):
+        return replace(again, verb=CommandKind.PUT)
+    if bool(again.goal) != bool(task.goal) and not brings:
+        raise Unfit(task.said)
+    return again
+
+
+def _same_way(task: Task, things: Things) -> Iterator[Where]:
+    """Places that were said like things: "go to the desk and the sofa"."""
+    before = task.goal or task.source
+    if before is None or things.one_of or things.exceptions:
+        raise Unfit(task.said)
+    for thing in things.members:
+        if thing.pronoun or thing.number:
+            raise Unfit(thing.said)
+        yield Where(thing.words, before.relation)
 
 
 def _deed(part: Part) -> Task:

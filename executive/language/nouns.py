@@ -121,8 +121,11 @@ class Nouns(Transformer[Token, Said]):
         return Things((replace(meant, exceptions=(replace(wrong, exceptions=()),)),))
 
     def all_of(self, parts: list[Part]) -> Things:
-        """As in "an apple and a banana"."""
-        return Things(tuple(p for p in parts if isinstance(p, Thing)))
+        """As in "an apple and a banana", "both the apple and the banana"."""
+        things = tuple(p for p in parts if isinstance(p, Thing))
+        if is_a(parts[0], "BOTH_AND") and len(things) == 1:  # "both mugs and go to the desk"
+            return Things((replace(things[0], number=2),))
+        return Things(things)
 
     def one_of(self, parts: list[Part]) -> Things:
         """As in "either the hammer or the drill"."""

@@ -43,6 +43,13 @@ class Otherwise:
     deed: Task | Things
 
 
+@dataclass(frozen=True, slots=True)
+class Further:
+    """Other things, or another place, of the deed that was said last."""
+
+    parts: tuple[Part, ...]
+
+
 def is_a(part: Part, *types: str) -> bool:
     """Whether it is a token of one of these terminals."""
     return isinstance(part, Token) and part.type in types

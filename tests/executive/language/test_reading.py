@@ -73,6 +73,27 @@ IT = Things((Thing("it", pronoun=True, definite=True),))
             "Put a mug next to the pear",
             asks(Task(CommandKind.PUT, some("mug"), goal=Where("pear", Relation.NEXT_TO))),
         ),
+        (
+            "Put the mug on the desk, and the pear in the kitchen",
+            asks(
+                Task(CommandKind.PUT, certain("mug"), goal=DESK),
+                Task(CommandKind.PUT, certain("pear"), goal=KITCHEN),
+            ),
+        ),
+        (
+            "Bring the mug to me and the pear to the kitchen",
+            asks(
+                Task(CommandKind.BRING, certain("mug"), goal=ME),
+                Task(CommandKind.PUT, certain("pear"), goal=Where("kitchen")),
+            ),
+        ),
+        (
+            "Go to the kitchen, then to the bed",
+            asks(
+                Task(CommandKind.GO, goal=Where("kitchen")), Task(CommandKind.GO, goal=Where("bed"))
+            ),
+        ),
+        ("Bring both the mug and the pear", asks(Task(CommandKind.BRING, certain("mug", "pear")))),
         ("Put it back", asks(Task(CommandKind.PUT_BACK, IT))),
         ("Put it down", asks(Task(CommandKind.PUT_DOWN, IT))),
         ("Bring an apple and a pear", asks(Task(CommandKind.BRING, some("apple", "pear")))),
@@ -170,7 +191,13 @@ def test_reads_what_else_is_said(words: str, meaning: Said) -> None:
 
 @pytest.mark.parametrize(
     ("words", "at"),
-    [("Bring the mug which I used", "which"), ("Bring me no apple", "no"), ("", "")],
+    [
+        ("Bring the mug which I used", "which"),
+        ("Bring me no apple", "no"),
+        ("Put the mug on the desk and on the sofa", "put"),
+        ("Find the mug on the desk and the pear on the sofa and bring them", "them"),
+        ("", ""),
+    ],
 )
 def test_what_does_not_fit_is_not_read_and_it_is_told_where(words: str, at: str) -> None:
     assert read(words) == Unread(words, at)
