@@ -129,6 +129,8 @@ class Command:
     """Names of which one is meant, or as many as the number says: "the hammer or the drill"."""
     superlative: str = ""
     """Which of them by a measure: "biggest"; empty if that was not said."""
+    plural: bool = False
+    """Whether all are meant, if it turns out that there are several: "the fruits"."""
     conditional: bool = False
     """Whether it is to be done only if there is such a thing, or what is `sought` is so."""
     sought: "Command | None" = None

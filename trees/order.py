@@ -1,10 +1,13 @@
 """Which task comes next: in the order said, or, where none was said, in the cheapest."""
 
+from dataclasses import replace
 from itertools import permutations
 
 from executive.situation import Task
+from executive.types import ALL, Command
 from trees.context import MissionContext
 from trees.expected import Expected, is_in_hand
+from trees.meant import things_meant
 from trees.wholes import left_to_do, settle
 
 WEIGHED = 5
@@ -19,8 +22,14 @@ def begin_next(context: MissionContext) -> bool:
     if not situation.agenda.tasks:
         return False
     task = cheapest(context, situation.agenda.next_ones())
-    situation.begin(situation.agenda.take(task))
+    situation.begin(in_full(context, situation.agenda.take(task)))
     return True
+
+
+def in_full(context: MissionContext, command: Command) -> Command:
+    """The same about all of the things, if the words are for several, and there are."""
+    several = command.plural and len(things_meant(context, command)) > 1
+    return replace(command, number=ALL) if several else command
 
 
 def cheapest(context: MissionContext, tasks: tuple[Task, ...]) -> Task:

@@ -11,7 +11,7 @@ from executive.types import MissionStatus
 from trees.attend import hear_first
 from trees.context import MissionContext
 from trees.nodes import Action, Check, Selector, sequence
-from trees.order import begin_next
+from trees.order import begin_next, in_full
 from trees.robot import ComeToRest
 
 
@@ -58,7 +58,7 @@ class EachTask(Selector):
         self.stop(Status.INVALID)
         if instead := agenda.instead:
             agenda.instead, agenda.taken_back = None, False
-            situation.begin(instead)
+            situation.begin(in_full(self._context, instead))
             return True
         agenda.taken_back = False
         situation.ending.status = MissionStatus.NOT_DONE

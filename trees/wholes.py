@@ -45,7 +45,7 @@ def decide(context: MissionContext, whole: Whole) -> None:
     if len(whole.parts) != 1 or agenda.has_parts:
         return
     [last] = whole.parts
-    if command.sought:
+    if command.sought or command.kind == CommandKind.CHECK:
         seen = bool(last.things) or last.location is not None
         holds = seen if last.status == MissionStatus.DONE else None
     else:

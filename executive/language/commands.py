@@ -23,6 +23,7 @@ from executive.language.meaning import (
     Unable,
     Where,
 )
+from executive.language.phrases import is_plural
 from executive.types import HELD, Command, CommandKind, Commands
 
 _QUESTIONS = {
@@ -135,6 +136,7 @@ def _command(task: Task, things: Things | None, words: str) -> Command:
         number=_number(task, members),
         among=tuple(map(_name, members)) if len(members) > 1 else (),
         superlative=_superlative(task),
+        plural=task.verb.means.searches and _means_several(members),
     )
 
 
@@ -145,13 +147,14 @@ def _conditional(task: Task, words: str) -> Command:
     if is_it(task.things):
         task = replace(task, things=sought.things, source=task.source or sought.source)
     [deed] = (_command(replace(task, conditional=False), task.things, words),)
+    asks = task.verb == CommandKind.CHECK  # "is it there? If not, ..."
     unless = task.unless
     if unless and is_it(unless.things):
         unless = replace(unless, things=sought.things)
     return replace(
         deed,
         conditional=True,
-        sought=_command(sought, sought.things, words) if sought.source else None,
+        sought=_command(sought, sought.things, words) if sought.source and not asks else None,
         unless=_command(unless, unless.things, words) if unless else None,
     )
 
@@ -164,6 +167,13 @@ def _number(task: Task, members: Sequence[Thing]) -> int:
         return 0
     number = members[0].number or 0
     return number if number != 1 or task.source else 0
+
+
+def _means_several(members: Sequence[Thing]) -> bool:
+    """Whether these are all of a kind, but for a name like "scissors"."""
+    if len(members) != 1 or members[0].number is not None:
+        return False
+    return members[0].definite and not members[0].pronoun and is_plural(members[0].words)
 
 
 def _superlative(task: Task) -> str:

@@ -149,6 +149,16 @@ class Deeds(Nouns):
         """As in "what is on the table"."""
         return _task(CommandKind.TELL, parts)
 
+    def tell_most(self, parts: list[Part]) -> Task:
+        """As in "which fruit is the smallest on the desk"."""
+        *_, word = (p for p in parts if type(p) is str)
+        task = _task(CommandKind.TELL, parts)
+        assert task.things
+        if not (most := self.most(word)) or len(task.things.members) > 1:
+            raise Unfit(word)
+        [thing] = task.things.members
+        return replace(task, things=Things((replace(thing, superlative=most),)))
+
     def check(self, parts: list[Part]) -> Task:
         """As in "is the mug on the sofa", "is there any milk"."""
         return _task(CommandKind.CHECK, parts)
@@ -172,9 +182,12 @@ class Deeds(Nouns):
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
 
     def if_then(self, parts: list[Part]) -> Task:
-        """As in "if there is an apple, bring it, otherwise bring a pear"."""
+        """As in "if there is an apple, bring it", "is there an apple? If so, bring it"."""
         sought, part, *rest = (p for p in parts if not isinstance(p, Token))
         deed = _deed(part)
+        sought = _deed(sought)
+        if sought.verb != CommandKind.CHECK:
+            raise Unfit(sought.said)
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
 
 

@@ -55,7 +55,7 @@ class Nouns(Transformer[Token, Said]):
         """As in "box of sugar", "tool for nails"."""
         name = " ".join(p for p in parts if type(p) is str or is_a(p, "OF", "POSE"))
         first, _, rest = name.partition(" ")
-        most = self._superlatives.get(first, "")
+        most = self.most(first)
         words = rest if most else name
         return Thing(words, purpose=purpose_of(parts, "USE"), superlative=most, said=said_of(parts))
 
@@ -100,6 +100,12 @@ class Nouns(Transformer[Token, Said]):
         return replace(
             noun, number=ALL, definite=True, exceptions=exceptions_of(parts), said=said_of(parts)
         )
+
+    def some_of(self, parts: list[Part]) -> Thing:
+        """As in "one of the tools", "two of my mugs"."""
+        noun = next(p for p in parts if isinstance(p, Thing))
+        number = next((self.number_of(p) for p in parts if is_a(p, "NUMBER")), 1)
+        return replace(noun, number=number, exceptions=exceptions_of(parts))
 
     def except_(self, parts: list[Part]) -> tuple[Thing, ...]:
         """As in "but a banana", "except the pear and the apple"."""
@@ -179,6 +185,10 @@ class Nouns(Transformer[Token, Said]):
     def there(self, parts: list[Part]) -> Where:
         """As in "there": where it was spoken of."""
         return Where(parts[0], pronoun=True)
+
+    def most(self, words: str) -> str:
+        """Which measure a word like "biggest" is about; empty if about none."""
+        return self._superlatives.get(words.partition(" ")[0], "")
 
     def number_of(self, token: Token) -> int:
         """What a number or an ordinal stands for."""

@@ -154,7 +154,8 @@ def _tasks(tasks: tuple[Task, ...], spoken: Spoken, holds: bool) -> tuple[Task, 
         source, goal = (_where(where, things, place, spoken) for where in (task.source, task.goal))
         if _is_there(source) and (task.verb in _ANYWHERE or asks_for_things(task)):
             source = None  # "how many fruits are there"
-        done.append(replace(task, things=meant, source=source, goal=goal))
+        sought = _tasks((task.sought,), spoken, holds)[0] if task.sought else None
+        done.append(replace(task, things=meant, source=source, goal=goal, sought=sought))
         things = meant if meant and not is_it(meant) else things
         place = next((p for p in (goal, source) if p and not p.pronoun and p != ME), place)
     return tuple(done)

@@ -245,3 +245,39 @@ def test_a_recording_has_the_parts_and_replays(tmp_path: Path) -> None:
     assert outcome
     assert [len(task.parts) for task in outcome.tasks] == [2, 0]
     assert replay(folder).parting is None
+
+
+def test_a_question_of_where_the_fruits_are_tells_of_all() -> None:
+    fruits = run("Where are the fruits?")
+    assert fruits.outcome.status == DONE
+    assert fruits.outcome.reason.startswith("I found all six: the apple, the banana and ")
+
+
+def test_a_name_in_the_plural_is_one_thing() -> None:
+    scissors = run("Where are the scissors?")
+    assert scissors.outcome.reason == "The scissors are on the desk in the bedroom."
+
+
+@pytest.mark.parametrize(
+    ("words", "brought"),
+    [
+        ("Is there an apple on the dining table? If so, bring it", {"apple"}),
+        ("Is the apple on the desk? If so, bring it, otherwise bring a pear", {"pear"}),
+        ("Is the mug on the desk? If not, bring the pear", {"pear"}),
+        ("Is the apple on the dining table? If not, bring the pear", set()),
+        ("Is the mug there? If so, bring it", {"mug"}),
+    ],
+)
+def test_what_is_asked_decides_what_is_done(words: str, brought: set[str]) -> None:
+    asked = run(words)
+    assert (asked.outcome.status, on(asked, "delivery")) == (DONE, brought)
+
+
+def test_the_fruits_from_a_table_are_all_that_are_there() -> None:
+    fruits = run("Put the fruits from the dining table on the desk")
+    assert on(fruits, "desk") >= {"apple", "banana", "strawberry"}
+
+
+def test_one_of_the_fruits_from_a_table_is_any_that_is_there() -> None:
+    one = run("Bring me one of the fruits from the dining table")
+    assert (one.outcome.status, on(one, "delivery")) == (DONE, {"apple"})
