@@ -8,9 +8,7 @@ from executive.types import DELIVERY, CommandKind, MissionStatus, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds import deed_of
 from trees.survey import found_where
-from trees.telling import to_where
-
-NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+from trees.telling import number, to_where
 
 
 def how_many(context: MissionContext, whole: Whole, wanted: int) -> str:
@@ -62,8 +60,3 @@ def reason_now(context: MissionContext, part: TaskOutcome) -> str:
 def sentences(parts: Iterable[TaskOutcome]) -> str:
     """Why none of several was done of which one would have been enough."""
     return "; ".join(dict.fromkeys(part.reason.rstrip(".") for part in parts))
-
-
-def number(count: int) -> str:
-    """A small number in letters."""
-    return NUMBERS[count] if count < len(NUMBERS) else str(count)

@@ -11,6 +11,7 @@ TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
 """Words for the goal that is the person who speaks."""
 NEXT_TO = "next to "
 """Before the thing beside which something is to be."""
+NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
 def tell(context: MissionContext, text: str) -> None:
@@ -54,6 +55,8 @@ def _things(context: MissionContext, command: Command) -> str:
         what = (
             "something" if command.kind.means.searches and command.number != ALL else "everything"
         )
+    elif command.number > 1 and not command.among:
+        what = f"{number(command.number)} {as_said(command.words, target)}"
     elif names and " and ".join(names) == target:
         what = " and ".join(map(context.say.the, names))
     elif len(named) == 1:
@@ -62,6 +65,11 @@ def _things(context: MissionContext, command: Command) -> str:
         what = as_said(command.words, target)
     left_out = either([_one_thing(context, but) for but in command.exceptions])
     return what + f" but not {left_out}" * bool(left_out)
+
+
+def number(count: int) -> str:
+    """A small number in letters."""
+    return NUMBERS[count] if count < len(NUMBERS) else str(count)
 
 
 def _one_thing(context: MissionContext, words: str) -> str:

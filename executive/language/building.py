@@ -91,9 +91,11 @@ class Builder(Deeds):
         """As in "do that again"."""
         return Again()
 
-    def correction(self, parts: list[Part]) -> Correction:
+    def correction(self, parts: list[Part]) -> Correction | Refusal:
         """As in "no, the banana", "no, to the kitchen", "no, the mug from the desk"."""
         said = [p for p in parts if not isinstance(p, Token)]
+        if len(said) == 1 and isinstance(said[0], Refusal):
+            return said[0]
         found: dict[str, Any] = {"denies": any(is_a(p, "NO", "NO_BUT") for p in parts)}
         new: dict[str, Any]
         for part in said:
@@ -112,6 +114,16 @@ class Builder(Deeds):
                 raise Unfit(str(parts[0]))
             found |= new
         return Correction(**found)
+
+    def left(self, parts: list[Part]) -> Request | Refusal:
+        """As in "no, leave the apple", "no, leave the apple and bring the pear"."""
+        things = next(p for p in parts if isinstance(p, Things))
+        if not isinstance(request := parts[-1], Request):
+            return Refusal(" and ".join(thing.said for thing in things.members))
+        if any(thing.pronoun for thing in things.members):
+            raise Unfit(things.members[0].said)
+        left = tuple(replace(thing, alone=True) for thing in things.members)
+        return replace(request, tasks=tuple(task.without(left) for task in request.tasks))
 
     def not_that(self, parts: list[Part]) -> Correction:
         """As in "not the apple, the banana"."""

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from executive.language.commands import commands_in, in_words
 from executive.language.meaning import Answer, Correction, Request, Said, Task, Thing, Things
-from executive.types import Command, Commands
+from executive.types import Command, CommandKind, Commands
 
 
 def corrected(said: Correction, at_hand: Command, words: str) -> Commands | str:
@@ -41,6 +41,8 @@ def as_correction(said: Said) -> Correction | None:
 def _elsewhere(said: Correction, at_hand: Command, words: str) -> Command:
     """The same in another place; one without "from" and "to" is where the verb has use for one."""
     source, goal = said.source, said.goal
+    if at_hand.sought and at_hand.sought.kind == CommandKind.FIND:  # beside what was to be found
+        at_hand = replace(at_hand, conditional=False, sought=None)
     if said.place and at_hand.kind.means.at_goal:
         goal = said.place
     elif said.place:

@@ -283,3 +283,22 @@ def test_what_comes_too_late_is_kept_for_the_next(tmp_path: Path) -> None:
     session.run("Bring the hammer")
     assert list(session.heard) == ["And the power drill"]
     session.close()
+
+
+@pytest.mark.parametrize("words", ["Bring the hammer", "Bring the power drill and the hammer"])
+def test_what_is_to_be_left_is_not_brought(words: str) -> None:
+    mission = run(words, "No, leave the hammer")
+    assert "Then I do not bring the hammer." in answers(mission)
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+
+
+def test_another_thing_to_be_put_beside_takes_the_place_of_the_first() -> None:
+    mission = run("Put the pear next to the mug", "No, next to the hammer")
+    assert "All right: I put the pear next to the hammer instead." in answers(mission)
+    assert mission.world.resting_place("pear") == "shelf_lobby"
+
+
+def test_how_many_it_is_to_be_instead_is_told() -> None:
+    mission = run("Bring two fruits", "No, three fruits")
+    assert "All right: I bring three fruits instead." in answers(mission)
+    assert mission.outcome.reason.startswith("I brought all three: ")

@@ -165,6 +165,11 @@ def test_reads_what_is_to_be_done(words: str, meaning: Said) -> None:
         ("Leave the hammer on the desk", Refusal("hammer")),
         ("Throw the ball", Unable("throw", "the ball")),
         ("no, the pear", Correction(certain("pear"), denies=True)),
+        (
+            "No, next to the hammer",
+            Correction(place=Where("hammer", Relation.NEXT_TO), denies=True),
+        ),
+        ("No, leave the pear", Refusal("pear")),
         ("I mean the pear", Correction(certain("pear"))),
         ("and the pear", Correction(certain("pear"), adds=True)),
         (
