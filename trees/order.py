@@ -1,10 +1,11 @@
 """Which task comes next: in the order said, or, where none was said, in the cheapest."""
 
 from dataclasses import replace
-from itertools import permutations
+from itertools import chain, permutations
 
+from executive.interfaces import Knowledge
 from executive.situation import Task
-from executive.types import ALL, Command
+from executive.types import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.expected import Expected, is_in_hand
 from trees.meant import things_meant
@@ -27,9 +28,31 @@ def begin_next(context: MissionContext) -> bool:
 
 
 def in_full(context: MissionContext, command: Command) -> Command:
-    """The same about all of the things, if the words are for several, and there are."""
+    """The same about all of the things, if the words are for several, and there are.
+
+    What is to be cleared may be a place or things, which only who knows their names can tell.
+    """
+    if command.kind == CommandKind.CLEAR:
+        return _cleared(context.knowledge, command)
     several = command.plural and len(things_meant(context, command)) > 1
     return replace(command, number=ALL) if several else command
+
+
+def _cleared(knowledge: Knowledge, command: Command) -> Command:
+    """As in "clear the table in the kitchen", which is no thing, and "clear the mugs"."""
+    target, source = command.target, command.source
+    if target and not knowledge.objects_named(target) and knowledge.is_place(target):
+        return replace(command, target="", source=f"{target} in {source}")
+    names = [knowledge.objects_named(words) for words in source.split(" or ")]
+    if target or not all(names) or knowledge.is_place(source):
+        return command
+    put = replace(command, kind=CommandKind.PUT_BACK, source="")
+    things = tuple(dict.fromkeys(chain.from_iterable(names)))
+    if len(things) == 1:
+        return replace(put, target=things[0])
+    target = source.replace(" or ", " and ")
+    among = things if len(names) > 1 else ()
+    return replace(put, target=target, number=len(things) if among else ALL, among=among)
 
 
 def cheapest(context: MissionContext, tasks: tuple[Task, ...]) -> Task:

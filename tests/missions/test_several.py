@@ -10,6 +10,7 @@ from executive.events import Inbox, StopRequested
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
 from executive.types import DriveTo, Goal, MissionStatus, Pick, PutDown
+from executive.user import Oracle
 from kb.facts import FactStore
 from logs.recording.reader import Run as Recorded
 
@@ -219,9 +220,29 @@ def test_furniture_is_cleared_of_all_that_is_seen_on_it() -> None:
     assert truly_done(table)
 
 
-def test_what_belongs_nowhere_else_is_asked_about_when_furniture_is_cleared() -> None:
-    shelf = run("Clear the shelf", answers=["on the desk"] * 9)
-    assert {"hammer", "power_drill", "tennis_ball"} <= on(shelf, "desk")
+def test_what_belongs_nowhere_else_goes_to_one_place_that_is_told() -> None:
+    shelf = run("Clear the shelf in the lobby")
+    assert {"hammer", "power_drill", "tennis_ball"} <= on(shelf, "sideboard")
+    assert shelf.outcome.inquiries == 0
+    assert isinstance(shelf.user, Oracle)
+    [told] = [said for said in shelf.user.told if said.startswith("I know no other place")]
+    assert told.endswith(" belong; I put them on the sideboard.")
+
+
+@pytest.mark.parametrize("words", ["Clear the table in the living room", "Clear the dining table"])
+def test_a_table_is_a_place_to_be_cleared_wherever_it_is(words: str) -> None:
+    table = run(words, answers=["the dining table"])
+    assert (table.outcome.status, on(table, "dining_table")) == (DONE, set())
+
+
+def test_things_that_are_to_be_cleared_go_where_they_belong() -> None:
+    tools = run("Clear the tools", place={"hammer": "desk", "power_drill": "sofa"})
+    assert {"hammer", "power_drill"} <= on(tools, "shelf_lobby")
+
+
+def test_of_a_table_only_what_is_named_is_cleared() -> None:
+    fruits = run("Clear the fruits from the coffee table", place={"apple": "coffee_table"})
+    assert on(fruits, "coffee_table") == {"mug", "pudding_box"}
 
 
 def test_after_a_stop_the_whole_is_told_with_what_was_done_of_it() -> None:

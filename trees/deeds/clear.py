@@ -1,6 +1,6 @@
 """Clear furniture: see what is on it, and put each thing where it belongs, or where one says."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from py_trees.behaviour import Behaviour
@@ -8,6 +8,7 @@ from py_trees.common import Status
 
 from executive.language.answers import picked
 from executive.language.phrases import is_plural
+from executive.language.wording import listed
 from executive.types import CommandKind, Outcome, Question, QuestionKind, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
@@ -97,20 +98,40 @@ class PutEachAway(Step):
     """
 
     def update(self) -> Status:
-        """Of what has no other place, the person is asked where to put it."""
+        """What has no other place goes to one that serves for all such things, which is told."""
         command, found = self.situation.request.command, self.situation.survey.found
         assert command
         if not found:
             return self.fail(nothing_there(self.context))
         parts = []
+        goals = {name: command.goal or " or ".join(self._usual(name)) for name in found}
+        spare = "" if all(goals.values()) else self._spare([n for n in found if not goals[n]])
         for name, here in found.items():
-            usual = self.context.knowledge.usual_places(name)
-            elsewhere = (place for place in usual if place not in self.situation.survey.seen)
-            goal = command.goal or " or ".join(elsewhere)
+            goal = goals[name] or spare
             part = replace(command, kind=CommandKind.PUT, target=name, source=here, goal=goal)
             parts.append(replace(part, exceptions=(), purpose=""))
         self.situation.agenda.split(command, parts, len(parts), not_seen(self.context))
         return self.succeed(", ".join(found))
+
+    def _usual(self, name: str) -> list[str]:
+        """Where a thing usually is, but for what is to be cleared."""
+        seen = self.situation.survey.seen
+        return [p for p in self.context.knowledge.usual_places(name) if p not in seen]
+
+    def _spare(self, names: Sequence[str]) -> str:
+        """Where things that belong nowhere go: in the same room if possible; empty if nowhere."""
+        say, seen = self.context.say, self.situation.survey.seen
+        rooms = {place.name: place.room for place in self.context.knowledge.places()}
+        here = {rooms.get(place) for place in seen}
+        others = [place for place in self.context.handiest if place not in seen]
+        spare = min(others, key=lambda place: rooms.get(place) not in here, default="")
+        if spare:
+            things = listed([say.the(name) for name in names])
+            they = "them" if len(names) > 1 else say.it(names[0])
+            verb = say.agree(names[0], "belongs", "belong") if len(names) == 1 else "belong"
+            why = f"I know no other place where {things} {verb}"
+            tell(self.context, f"{why}; I put {they} {say.at(spare)}.")
+        return spare
 
 
 class NothingThere(Step):
