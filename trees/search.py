@@ -49,8 +49,14 @@ def look_where_the_words_say(context: MissionContext) -> Behaviour:
     """Where the thing is as it was asked for: "the mug from the desk"; nothing if nobody said."""
     situation = context.situation
 
+    def who() -> Source:
+        """Of what is done in parts, the robot may have seen itself where each thing is."""
+        known = set(context.facts.places_of(situation.request.object or ""))
+        seen = situation.agenda.wholes and known & set(situation.request.from_places)
+        return Source.MEMORY if seen else Source.USER
+
     def named() -> list[tuple[Candidate, ...]]:
-        places = candidates_from(situation.request.from_places, Source.USER)
+        places = candidates_from(situation.request.from_places, who())
         new = situation.search.not_visited(places)
         return [new] if new else []
 

@@ -62,7 +62,7 @@ class OnACondition(Step):
         """Without a place where to look first, trying to do it shows whether there is one."""
         command = self.situation.request.command
         assert command
-        if beside := not_seen_yet(self.context):
+        if not command.conditional and (beside := not_seen_yet(self.context)):
             find = Command(CommandKind.FIND, beside, command.words)
             command = replace(command, conditional=True, sought=find)
             self.situation.request.command = command

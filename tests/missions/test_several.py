@@ -302,3 +302,16 @@ def test_the_fruits_from_a_table_are_all_that_are_there() -> None:
 def test_one_of_the_fruits_from_a_table_is_any_that_is_there() -> None:
     one = run("Bring me one of the fruits from the dining table")
     assert (one.outcome.status, on(one, "delivery")) == (DONE, {"apple"})
+
+
+def test_where_the_robot_saw_a_thing_nobody_has_said_it_is() -> None:
+    table = run("Clear the coffee table")
+    assert isinstance(table.user, Oracle)
+    assert "I look for the mug on the coffee table: I remember it there." in table.user.told
+    assert not any("as you said" in said for said in table.user.told)
+
+
+@pytest.mark.parametrize(("place", "put"), [("dining table", True), ("desk", False)])
+def test_a_condition_holds_for_what_is_to_be_put_beside_something(place: str, put: bool) -> None:
+    apple = run(f"If the apple is on the {place}, put it next to the mug")
+    assert ("apple" in on(apple, "coffee_table")) is put
