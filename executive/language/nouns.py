@@ -63,7 +63,7 @@ class Nouns(Transformer[Token, Said]):
         """As in "the two mugs but not the red one"."""
         noun = next(p for p in parts if isinstance(p, Thing))
         numbers = [self.number_of(p) for p in parts if is_a(p, "NUMBER")]
-        definite = any(is_a(p, "THE") for p in parts)
+        definite = any(is_a(p, "THE") for p in parts) and not any(is_a(p, "SOME") for p in parts)
         number = numbers[0] if numbers else 1 if any(is_a(p, "A") for p in parts) else None
         return replace(
             noun,
