@@ -130,7 +130,7 @@ class Command:
     superlative: str = ""
     """Which of them by a measure: "biggest"; empty if that was not said."""
     plural: bool = False
-    """Whether all are meant, if it turns out that there are several: "the fruits"."""
+    """Whether all are meant, if there are several: "the fruits". No recording keeps this."""
     conditional: bool = False
     """Whether it is to be done only if there is such a thing, or what is `sought` is so."""
     sought: "Command | None" = None

@@ -12,7 +12,13 @@ def command_as_logged(command: Command | None) -> dict[str, Any] | None:
     if command is None:
         return None
     always = ("kind", "target", "words")
-    return {name: v for name, v in asdict(command).items() if v or name in always}
+    said = asdict(command, dict_factory=_less_plural)
+    return {name: v for name, v in said.items() if v or name in always}
+
+
+def _less_plural(fields: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Earlier recordings did not have it, and it is told by the number once that is known."""
+    return {name: value for name, value in fields if name != "plural"}
 
 
 @dataclass
