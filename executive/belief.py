@@ -28,8 +28,8 @@ class Statement:
         source: who.
         weights: the places that it names, with how likely they are beside one another.
         trust: how likely it is right that the thing is at one of them; 1: it says something of all.
-        orders: whether its weights mean anything. If not, those of a source that says something of
-            every place count, among the places that this one names.
+        orders: whether its weights alone say which of its places is likeliest. If not, they are
+            multiplied by those of a source that says something of every place.
     """
 
     source: str
@@ -113,11 +113,11 @@ def believe(
 
 
 def _meant(said: Statement, base: Mapping[str, float]) -> dict[str, float]:
-    """The weights of a statement, ordered by who says something of every place if need be."""
+    """The weights of a statement, times those of who says something of every place if need be."""
     weights = {place: weight for place, weight in said.weights if weight > 0}
     if said.orders:
         return weights
-    known = {place: base.get(place, 0.0) for place in weights}
+    known = {place: weight * base.get(place, 0.0) for place, weight in weights.items()}
     return known if sum(known.values()) > 0 else weights
 
 

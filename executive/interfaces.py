@@ -207,6 +207,14 @@ class Knowledge(Protocol):
         """Default locations of the object or its nearest class, as far as this home has them."""
         ...
 
+    def likely_places(self, name: str) -> Mapping[str, float]:
+        """The share of its default locations that each place of this home stands for.
+
+        By its name, as far as what recorded them means this home, and else by its kind. In all at
+        most 1: less, if this home has nothing of the kind of some of them.
+        """
+        ...
+
     def places_named(self, words: str) -> tuple[str, ...]:
         """Furniture that the words name, in their order; a room stands for its furniture."""
         ...

@@ -6,6 +6,7 @@ in nine tenths with them.
 """
 
 from dataclasses import replace
+from math import fsum
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -179,17 +180,21 @@ class HearOntology(Step):
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Which of several is likeliest, the language model may say; it may write of these only."""
-        assert self.situation.request.object
-        usual = self.context.knowledge.usual_places(self.situation.request.object)
-        if not usual:
+        """Which of several is likeliest, the language model may say; it may write of these only.
+
+        The ontology is believed as far as this home has what it speaks of.
+        """
+        name, knowledge = self.situation.request.object, self.context.knowledge
+        assert name
+        likely = knowledge.likely_places(name)
+        if not likely:
             return self.succeed("knows no place")
-        weights = tuple((place, 1.0) for place in usual)
-        said = Statement(Source.ONTOLOGY, weights, ONTOLOGY_TRUST, orders=False)
+        trust = ONTOLOGY_TRUST * min(1.0, fsum(likely.values()))
+        said = Statement(Source.ONTOLOGY, tuple(likely.items()), trust, orders=False)
         self.situation.search.whereabouts.hear(said)
-        if len(usual) > 1:
+        if len(usual := knowledge.usual_places(name)) > 1:
             self.situation.search.default_locations = usual
-        return self.succeed(", ".join(usual))
+        return self.succeed(", ".join(likely))
 
 
 class Consulted(Step):

@@ -56,10 +56,12 @@ class Ranker:
 
     @cached_property
     def _usual(self) -> dict[str, Known]:
-        """Every object with its default locations."""
+        """Every object with the places of this home that its default locations stand for."""
         ontology = self._ontology
         return {
-            name: Known(name, (*ontology.classes_of(name), "")[0], ontology.usual_places(name))
+            name: Known(
+                name, (*ontology.classes_of(name), "")[0], tuple(ontology.likely_places(name))
+            )
             for name in ontology.objects()
         }
 

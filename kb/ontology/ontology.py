@@ -34,6 +34,7 @@ from kb.ontology.table import Table
 from kb.ontology.things import put_thing
 from kb.ontology.unused import unused
 from kb.ontology.uses import Uses
+from kb.ontology.usual import kind_of, meant_here, standing_for
 from kb.ontology.validation import ROOTS, faults
 
 HOUSEHOLD = Path(__file__).parents[1] / "household.owl"
@@ -212,6 +213,18 @@ class Ontology:
             self._usual_places[name] = tuple(sorted(here, key=self._order.__getitem__))
         return self._usual_places[name]
 
+    def likely_places(self, name: str) -> Mapping[str, float]:
+        """The share of its default locations that each place of this home stands for."""
+        named = self._default_locations(name)
+        kinds = {ending(p): kind_of(p, self._graph, _class("isIn")) for p in named}
+        return standing_for(kinds, self.places(), self._meant_here)
+
+    @cached_property
+    def _meant_here(self) -> dict[str, float]:
+        recorded = {place for places in self.recorded_locations().values() for place in places}
+        relation = _class("hasDefaultLocation")
+        return meant_here(self._library.files, recorded, relation, self._places)
+
     def places_named(self, words: str) -> tuple[str, ...]:
         """Furniture that the words name, in their order; a room stands for its furniture."""
         return self.place_names.find(words)
@@ -261,15 +274,12 @@ class Ontology:
 
     def among(self, name: str) -> tuple[str, ...]:
         """Default locations of an object or its nearest class, in this home or not."""
-        for thing in self._graph.upwards(self._thing(name)):
-            if self._graph.values(thing, _class("hasDefaultLocation")):
-                return self._locations(thing)
-        return ()
+        return tuple(map(ending, self._default_locations(name)))
 
     def recorded_locations(self) -> dict[str, tuple[str, ...]]:
         """Default locations of each object and class for which a file has some of its own."""
         recorded = {self._graph.label(thing): self._locations(thing) for thing in self._things}
-        return {name: places for name, places in recorded.items() if places}
+        return {name: tuple(map(ending, places)) for name, places in recorded.items() if places}
 
     def preferred_by(self, name: str) -> tuple[str, ...]:
         """The people who prefer an object or a class, of others like it."""
@@ -355,10 +365,16 @@ class Ontology:
         right = f"known are {', '.join(map(self._graph.label, self._things))}"
         raise InputError("ontology", f"there is no {printable(name)!r}", right)
 
-    def _locations(self, thing: Identifier) -> tuple[str, ...]:
+    def _default_locations(self, name: str) -> list[Identifier]:
+        for thing in self._graph.upwards(self._thing(name)):
+            if self._graph.values(thing, _class("hasDefaultLocation")):
+                return self._locations(thing)
+        return []
+
+    def _locations(self, thing: Identifier) -> list[Identifier]:
         """The default locations that are said of this thing itself, and that a file declares."""
         usual = self._graph.values(thing, _class("hasDefaultLocation"))
-        return tuple(ending(place) for place in usual if self._graph.is_declared(place))
+        return [place for place in usual if self._graph.is_declared(place)]
 
     def _preferring(self, thing: Identifier) -> list[Identifier]:
         people = self._graph.values(thing, _class("preferredBy"))

@@ -61,6 +61,13 @@ def test_the_default_locations_are_ordered_by_who_says_something_of_every_place(
     assert belief.places[0].source == "ontology"
 
 
+def test_weights_that_do_not_order_alone_count_beside_those_of_who_says_something_of_all():
+    usual = Statement("ontology", (("desk", 0.75), ("sofa", 0.25)), 0.9, orders=False)
+    ranking = Statement("llm", (("sofa", 2.0), ("desk", 1.0)), 1.0)
+    belief = believe([usual, ranking], ("desk", "sofa"), elsewhere=0.0)
+    assert belief.of("desk").shares[0].probability == pytest.approx(0.9 * 0.75 / (0.75 + 0.5))
+
+
 def test_a_look_in_vain_leaves_what_the_look_may_have_missed():
     belief = believe([], ("desk", "sofa"), {"desk": 0.02}, elsewhere=0.0)
     assert belief.of("desk").probability == pytest.approx(0.02 / 1.02)

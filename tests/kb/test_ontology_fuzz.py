@@ -69,7 +69,7 @@ def everything_of(file: Path) -> list[str]:
     told = [*known.faults(), *known.unused(), *known.warnings()]
     for name in known.objects():
         told += [name, *known.classes_of(name), *known.synonyms(name), *known.preferred_by(name)]
-        told += [*known.among(name), *known.usual_places(name)]
+        told += [*known.among(name), *known.usual_places(name), *known.likely_places(name)]
         known.objects_named(name)
     known.names_in("the pot and an apple")
     known.near_name("appel")

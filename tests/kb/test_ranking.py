@@ -13,6 +13,7 @@ from kb.advice.prompts import Prompts
 from kb.advice.ranker import Ranker
 from kb.advice.ranking import MOST_PRECEDENTS, Known, answer, rank_request, ranked
 from kb.facts import FactStore
+from kb.ontology.ontology import Ontology
 
 PLACES = four_rooms().places()
 
@@ -74,6 +75,15 @@ def test_other_things_are_precedents_with_their_default_locations():
 def test_precedents_are_only_those_that_are_in_one_of_the_allowed_places():
     known = precedents(ranking("scissors", ("sideboard", "desk")))
     assert list(known) == ["Where is the adjustable wrench?"]
+
+
+def test_in_another_home_precedents_are_where_furniture_of_the_kind_is():
+    home = [
+        Place("cabinet_kitchen", "Cabinet", "kitchen", "Kitchen"),
+        Place("wagon_kitchen", "Wagon", "kitchen", "Kitchen"),
+    ]
+    known = precedents(Ranker(Ontology(home)).ranking("mug", ()))
+    assert known["Where is the bleach cleanser?"] == ("cabinet_kitchen", "wagon_kitchen")
 
 
 def test_where_a_thing_was_seen_counts_and_not_where_it_usually_is():

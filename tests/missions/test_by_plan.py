@@ -5,12 +5,15 @@ from math import inf
 
 import pytest
 
+from executive.belief import ELSEWHERE
 from executive.records import Planned, Utterance, WaysTold
 from executive.testing import bench
 from executive.testing.bench import Run, four_rooms
 from executive.types import Detection, DriveTo, Frame, Goal, MissionStatus
 from kb.facts import FactStore
+from kb.ontology.ontology import Ontology
 from sim.fake import FakeDetector
+from trees.hearing import ONTOLOGY_TRUST
 
 run_mission = partial(bench.run_mission, search="plan")
 HOME = [place.name for place in four_rooms().places()]
@@ -35,6 +38,16 @@ def test_what_lies_on_the_way_is_looked_at_before_what_is_a_little_likelier() ->
     run = run_mission("Find the mug", replies=[near_and_far], defaults=False, place={"mug": "desk"})
     assert run.outcome.visited == ("sofa", "desk")
     assert run.outcome.inquiries == 0
+
+
+def test_the_ontology_is_believed_as_far_as_the_home_has_what_it_speaks_of(monkeypatch) -> None:
+    heard = {"desk": 0.4, "sofa": 0.2}
+    monkeypatch.setattr(Ontology, "likely_places", lambda self, name: heard)
+    first = plans(run_mission("Find the mug", llm=False))[0]
+    said = dict(zip(first.places, first.says, strict=True))
+    assert f"ontology {ONTOLOGY_TRUST * 0.4:.2f}" in said["desk"]
+    assert f"ontology {ONTOLOGY_TRUST * 0.2:.2f}" in said["sofa"]
+    assert first.elsewhere == pytest.approx((1 - ONTOLOGY_TRUST * 0.6) * ELSEWHERE)
 
 
 def test_with_a_free_question_the_person_is_asked_at_once() -> None:
