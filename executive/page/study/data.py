@@ -134,7 +134,9 @@ class StudyData:
         except (ValueError, AttributeError, RecursionError):
             right = "name another folder"
             raise InputError(f"--data {self.folder}", f"{file.name} is damaged", right) from None
-        if differs:
+        if differs and not self.journals():  # nobody has begun: it may still be changed
+            write_whole(file, mine.encode())
+        elif differs:
             what = f"the study has changed since its data began: {', '.join(differs)}"
             right = "put the file back as it was, or name another folder with --data"
             raise InputError(f"--data {self.folder}", what, right)
@@ -182,6 +184,15 @@ class StudyData:
             ) from None
         with lock_folder(folder, "participant", TAKEN):
             yield Journal(folder)
+
+    @contextmanager
+    def if_only_begun(self, journal: Journal) -> Iterator[None]:
+        """Whoever has agreed to nothing leaves nothing, however it ends; their number is free."""
+        try:
+            yield
+        finally:
+            if not (journal.folder / RUNS).exists() and not journal.entries():
+                self.erase(journal)
 
     def erase(self, journal: Journal) -> None:
         """Remove a participant's folder; what is left of it if that fails is removed next time.

@@ -19,7 +19,7 @@ from executive.page.study.questionnaire import (
     Table,
     templates,
 )
-from executive.toml_file import read_toml
+from executive.toml_file import in_words, read_toml
 
 RIGHT = "see docs/study.md"
 THANKS = "That was all. Thank you for taking part!"
@@ -27,6 +27,7 @@ NOT_OURS = {
     "user": "the participant is the person",
     "runs": "the study keeps recordings by participant",
     "memory": "what one participant said would be told to the next",
+    "home_state": "what one participant had moved would be moved for the next",
 }
 """Settings that no condition has, and why."""
 
@@ -149,7 +150,7 @@ def settings_of(study: Study, condition: Condition, where: str, **given: Any) ->
 def _wrong(file: Path, fault: ErrorDetails) -> InputError:
     """What a person can mend, of pydantic's first complaint."""
     key = ".".join(str(part) for part in fault["loc"])[:80]
-    said = fault["msg"].removeprefix("Value error, ")
+    said = in_words(fault["msg"])
     match fault["type"]:
         case "extra_forbidden":
             return InputError(str(file), f"there is no key {key}", RIGHT)
