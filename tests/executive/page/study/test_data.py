@@ -218,3 +218,29 @@ def test_as_long_as_nobody_has_begun_the_study_may_change(data: StudyData) -> No
     begin(again, "P01")
     with pytest.raises(InputError, match="has changed since its data began: title"):
         StudyData(data.folder, STUDY)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        {"kind": "task"},
+        {"kind": "task", "done": "x", "at": "", **TASK, "duration_s": "long"},
+        {"kind": "task", "done": [], "at": "", **TASK},
+        {"kind": "answers", "at": "", "questionnaire": "sus", "answers": [1], **IN_A},
+        {"kind": "answers", "at": "", "questionnaire": "none", "answers": {}, **IN_A},
+        {"kind": "intervention"},
+        {"kind": "consent"},
+    ],
+)
+def test_a_line_that_is_none_of_ours_is_told_and_erases_nobody(
+    data: StudyData, line: dict[str, Any]
+) -> None:
+    begin(data, "P02")
+    with data.one("P01") as journal:
+        journal.file.write_text(json.dumps(line) + "\n")
+    for use in (lambda: tables(data), lambda: withdraw(data, "P02")):
+        with pytest.raises(InputError, match=r"P01/journal.jsonl: is damaged: a line is none of"):
+            use()
+    assert (data.folder / "P02").exists()
+    withdraw(data, "P01")
+    assert tables(data).results == ()
