@@ -8,19 +8,25 @@ from executive.ros.offers import Offers, likely, same_type
 from executive.ros.profile import Profile
 from executive.ros.senses import Senses
 
+LOOKS = 3
+"""What is missing is looked for so often: ROS discovers a graph bit by bit."""
+ROSAPI = "start rosapi: `ros2 launch rosbridge_server rosbridge_websocket_launch.xml` does"
 HEARING_S = 3.0
 """So long a robot may take to say where it is, and whether it rests."""
 
 
 async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> list[InputError]:
     """All that is wrong with a profile for the robot that is linked."""
-    try:
-        offers = await link.offers()
-    except LinkError as error:
-        right = "start rosapi: `ros2 launch rosbridge_server rosbridge_websocket_launch.xml` does"
-        return [InputError(where, str(error), right)]
-    found = [*_topics(offers, profile, where), *_actions(offers, profile, where)]
-    return found or await _heard(profile, senses, where)
+    found: list[InputError] = []
+    for _ in range(LOOKS):
+        try:
+            offers = await link.offers()
+        except LinkError as error:
+            return [InputError(where, str(error), ROSAPI)]
+        found = [*_topics(offers, profile, where), *_actions(offers, profile, where)]
+        if not found:
+            return await _heard(profile, senses, where)
+    return found
 
 
 def _topics(offers: Offers, profile: Profile, where: str) -> list[InputError]:
