@@ -108,8 +108,9 @@ class Study(Table):
 
 def _once(what: str, names: Iterable[str]) -> None:
     listed = list(names)
+    alike = [name.lower() for name in listed]  # some disks have one folder for both
     for name in listed:
-        if listed.count(name) > 1:
+        if alike.count(name.lower()) > 1:
             raise ValueError(f"has two {what} called {name!r}: each needs a name of its own")
 
 

@@ -71,6 +71,7 @@ def test_each_condition_has_its_own_settings_over_those_of_all(tmp_path: Path) -
         ({"tilte": "T"}, "there is no key tilte; see docs/study.md"),
         ({"conditions": []}, "conditions is '[]'; list should have at least 1 item, not 0"),
         ({"conditions": [{"name": "a"}] * 2}, "has two conditions called 'a'"),
+        ({"conditions": [{"name": "a"}, {"name": "A"}]}, "has two conditions called 'a'"),
         ({"conditions": [{"name": "../a"}]}, "conditions.0.name is '../a'; use up to 40 letters"),
         ({"tasks": [{"name": "t"}]}, "tasks.0.text is missing"),
         ({"tasks": [{"name": "t", "text": "Do.", "limit_s": 0}]}, "tasks.0.limit_s is '0'"),
