@@ -26,6 +26,10 @@ _LONG_KEY = re.compile(rf"(?:\.[ \t]*+[\w-]++[ \t]*+){{{DEEPEST},}}")
 """`a.a.a. ...`: the reader takes time with the square of the parts of such a key."""
 _SHOWN = 60
 """So many characters of a key that is wrong are told."""
+_PYTHONS = re.compile(
+    r"\btuple\b|\bdictionary( or instance of \w+)?\b| after validation|Value error, ", re.IGNORECASE
+)
+_TOMLS = {"tuple": "list", " after validation": "", "value error, ": ""}
 
 
 def read_toml(path: Path, right: str = "") -> dict[str, Any]:
@@ -62,6 +66,11 @@ def parse_toml(content: bytes, where: str) -> dict[str, Any]:
         raise InputError(where, "has a number or a date that cannot be", "see toml.io") from None
     _check(tables, where)
     return tables
+
+
+def in_words(said: str) -> str:
+    """What pydantic says of a value, by the names that TOML has for kinds of values."""
+    return _PYTHONS.sub(lambda found: _TOMLS.get(found[0].lower(), "table"), said)
 
 
 def _check(tables: dict[str, Any], where: str) -> None:

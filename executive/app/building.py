@@ -101,6 +101,21 @@ def build_parts(
     return embodiment, parts
 
 
+def try_files(settings: Settings) -> None:
+    """Read the files that settings name as a session would, and open neither model nor body.
+
+    Raises:
+        InputError: if one is not there, or something in it is wrong.
+    """
+    home = LivingHome(settings, load_home(settings.home).with_placement(settings.place)).home
+    Prompts.load(settings.prompts)
+    read_ontology(settings, home)
+    if settings.robot and settings.profile:
+        from executive.ros.profile import load_profile  # most missions do without
+
+        load_profile(settings.profile)
+
+
 def learning(
     settings: Settings, facts: FactStore, knowledge: Ontology, now: Callable[[], float]
 ) -> Experience | None:

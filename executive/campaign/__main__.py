@@ -126,10 +126,9 @@ def _policy(name: str) -> str:
 
 
 def _count(text: str) -> int:
-    number = int(text)
-    if number < 1:
+    if not (text.isdecimal() and len(text) < 10 and int(text)):
         raise argparse.ArgumentTypeError("should be 1 or more")
-    return number
+    return int(text)
 
 
 if __name__ == "__main__":

@@ -99,10 +99,20 @@ def add_page(parser: argparse.ArgumentParser) -> None:
 
 
 def address_of(options: dict[str, Any]) -> Address | None:
-    """What these options say, which are taken out; None if no page is wanted."""
+    """What these options say, which are taken out; None if no page is wanted.
+
+    Raises:
+        InputError: if something is said of a page that is not wanted.
+    """
     names = ("page", "page_address", "page_cert", "page_key", "page_experimenter")
-    port, host, *others = (options.pop(name) for name in names)
-    return None if port is None else Address(port, host or LOCAL, *others)
+    port, host, *others = given = [options.pop(name) for name in names]
+    if port is not None:
+        return Address(port, host or LOCAL, *others)
+    for name, value in zip(names, given, strict=True):
+        if value:
+            option = f"--{name.replace('_', '-')}"
+            raise InputError(option, "no page is served that this could be of", "give --page, too")
+    return None
 
 
 def _port(text: str) -> int:

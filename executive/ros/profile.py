@@ -14,7 +14,7 @@ from pydantic_core import ErrorDetails
 from executive.errors import InputError
 from executive.files import read_bytes
 from executive.ros.templates import GOALS, OFFERED, placeholders
-from executive.toml_file import MOST_BYTES, parse_toml
+from executive.toml_file import MOST_BYTES, in_words, parse_toml
 
 EXAMPLE = "see docs/own-robot.md"
 
@@ -127,8 +127,8 @@ class ArmAction(Action):
         speed: part of the greatest one.
     """
 
-    group: str
-    tip: str
+    group: Annotated[str, Field(min_length=1)]
+    tip: Annotated[str, Field(min_length=1)]
     carry: dict[str, Annotated[float, Field(ge=-100, le=100)]] = Field(min_length=1)
     speed: Annotated[float, Field(gt=0, le=1)] = 0.2
 
@@ -149,6 +149,14 @@ class GripperAction(Action):
     effort: float
     joint: str = ""
     opens_m: Annotated[float, Field(gt=0, le=1)]
+
+    @model_validator(mode="after")
+    def _opens_and_has_a_joint(self) -> Self:
+        if self.open == self.closed:
+            raise ValueError("open and closed are the same: which commands open and close it")
+        if "$joint" in str(self.template) and not self.joint:
+            raise ValueError("joint is missing: the name of the gripper's joint, as goals have it")
+        return self
 
 
 class Hand(_Section):
@@ -327,7 +335,7 @@ def load_profile(name_or_path: str) -> Profile:
 
 def _input_error(where: str, fault: ErrorDetails) -> InputError:
     key = ".".join(str(part) for part in fault["loc"])[:80]
-    said = fault["msg"].removeprefix("Value error, ")
+    said = in_words(fault["msg"])
     match fault["type"]:
         case "extra_forbidden":
             return InputError(where, f"there is no key {key}", EXAMPLE)

@@ -23,7 +23,7 @@ from pydantic import (
 
 from executive.errors import InputError
 from executive.text import printable
-from executive.toml_file import parse_toml, read_toml
+from executive.toml_file import in_words, parse_toml, read_toml
 from sim.home.furniture import FORM_OF_KIND
 from sim.home.home import Home
 
@@ -148,7 +148,7 @@ def _input_error(where: str, error: ValidationError) -> InputError:
     if fault["type"] == "missing":
         return InputError(where, f"{key} is missing", _EXAMPLE)
     shown = printable(repr(fault["input"]))[:_SHOWN]
-    right = fault["msg"].removeprefix("Value error, ").lower()
+    right = in_words(fault["msg"]).lower()
     return InputError(where, f"{key} is {shown}", right)
 
 

@@ -14,7 +14,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from executive.errors import InputError
 from executive.text import printable
-from executive.toml_file import read_toml
+from executive.toml_file import in_words, read_toml
 from executive.types import Vector3
 from sim.home.arrangement import NoRoomError, Spot
 from sim.home.furniture import Furniture
@@ -63,7 +63,8 @@ def read_state(file: Path, home: Home) -> HomeState | None:
     except ValidationError as error:
         fault = error.errors(include_url=False)[0]
         key = printable(".".join(map(str, fault["loc"])))[:_SHOWN]
-        raise InputError(where, f"is no state of a home: {key}: {fault['msg']}", RIGHT) from None
+        what = f"is no state of a home: {key}: {in_words(fault['msg'])}"
+        raise InputError(where, what, RIGHT) from None
     if state.home != home.name:
         what = f"is the state of the home {printable(state.home)[:_SHOWN]}, not of {home.name}"
         raise InputError(where, what, "give each home a file of its own")

@@ -11,7 +11,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
-from executive.errors import ExecutiveError
+from executive.errors import ExecutiveError, InputError
 from executive.page.experiment.desk import Desk
 from executive.page.site import KINDS, board_events, sent_json
 
@@ -103,7 +103,11 @@ def _text(sent: dict[str, Any], name: str) -> str:
 
 
 def _number(request: Request, name: str) -> int:
-    return int(_word(request, name)[:12])
+    word = _word(request, name)
+    try:
+        return int(word[:12])
+    except ValueError:
+        raise InputError(name, f"is {word[:12]!r}", "give a whole number") from None
 
 
 def _perhaps(request: Request, name: str) -> int | None:

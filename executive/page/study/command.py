@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from executive.errors import InputError
 from executive.page.address import PORT, add_page, address_of
 from executive.page.study.data import StudyData, code_of, number_of
-from executive.page.study.file import Study, read_study
+from executive.page.study.file import Study, read_study, settings_of
 from executive.page.study.order import rows
 from executive.page.study.steps import order
 from executive.page.study.tables import renew_tables
@@ -55,6 +55,8 @@ def run(options: argparse.Namespace) -> int:
     given = vars(options)
     study = read_study(options.file)
     address = address_of(given)
+    if not (options.report or options.withdraw):
+        try_conditions(study, str(options.file))
     if options.check:
         return check(study)
     data = StudyData(options.data or Path("studies") / options.file.stem, study)
@@ -77,6 +79,23 @@ def check(study: Study) -> int:
         names = ", ".join(condition.name for condition in order(study, number))
         print(f"  {code_of(number)}, {code_of(number + many)}, ...: {names}")
     return DONE
+
+
+def try_conditions(study: Study, where: str) -> None:
+    """Read what the conditions' settings name, before anyone sits down.
+
+    Raises:
+        InputError: if a file is not there, or something in it is wrong.
+    """
+    with all_is_kept():
+        from executive.app.building import try_files  # heavy
+    for condition in study.conditions:
+        try:
+            try_files(settings_of(study, condition, where))
+        except InputError as error:
+            which, what, right = error.args
+            inside = f"{where}: settings of condition {condition.name!r}"
+            raise InputError(f"{inside}: {which}", what, right) from None
 
 
 def erase(data: StudyData, code: str) -> int:
@@ -112,7 +131,7 @@ def lead(data: StudyData, code: str, address: Any) -> int:
     with all_is_kept():
         from executive.page.study.leading import Leader  # heavy
         from executive.page.study.page import StudyPage
-    with data.one(code) as journal, StudyPage(address) as page:
+    with data.one(code) as journal, data.if_only_begun(journal), StudyPage(address) as page:
         if any(entry["kind"] == "finished" for entry in journal.entries()):
             right = f"the next one is {data.next()}"
             raise InputError("--participant", f"{code} has come to the end", right)
@@ -125,8 +144,6 @@ def lead(data: StudyData, code: str, address: Any) -> int:
                 took_part = leader.lead()
         finally:
             renew_tables(data)
-        if not took_part:
-            data.erase(journal)
     if not took_part:
         renew_tables(data)
         print(f"{code} takes no part; nothing was kept.", file=sys.stderr)

@@ -60,7 +60,7 @@ class Journal:
         """Of the participant with this folder."""
         self.folder = folder
         self.code = folder.name
-        self._file = folder / JOURNAL
+        self.file = folder / JOURNAL
 
     def append(self, kind: str, **values: Any) -> None:
         """Write down, on the disk when this returns.
@@ -71,10 +71,10 @@ class Journal:
         at = datetime.now(UTC).isoformat(timespec="milliseconds")
         line = json.dumps({"kind": kind, "participant": self.code, "at": at, **values}) + "\n"
         try:
-            append_line(self._file, line.encode())
+            append_line(self.file, line.encode())
         except OSError as error:
             what = f"cannot be written: {error.strerror}"
-            raise InputError(str(self._file), what, "make room; the same command goes on") from None
+            raise InputError(str(self.file), what, "make room; the same command goes on") from None
 
     def entries(self) -> list[Entry]:
         """All that was written down; half a line at the end is none.
@@ -82,9 +82,9 @@ class Journal:
         Raises:
             InputError: if something else is in it.
         """
-        if not self._file.exists():
+        if not self.file.exists():
             return []
-        lines = read_text(self._file, most=2**30).split("\n")[:-1]
+        lines = read_text(self.file, most=2**30).split("\n")[:-1]
         return [self._entry(number, line) for number, line in enumerate(lines, 1)]
 
     def _entry(self, number: int, line: str) -> Entry:
@@ -92,7 +92,7 @@ class Journal:
             entry = json.loads(line)
             assert isinstance(entry["kind"], str)
         except (ValueError, TypeError, KeyError, AssertionError, RecursionError):
-            where = f"{self._file}, line {number}"
+            where = f"{self.file}, line {number}"
             right = "mend it by hand, or take it out"
             raise InputError(where, "is damaged", right) from None
         return dict(entry)
@@ -134,7 +134,9 @@ class StudyData:
         except (ValueError, AttributeError, RecursionError):
             right = "name another folder"
             raise InputError(f"--data {self.folder}", f"{file.name} is damaged", right) from None
-        if differs:
+        if differs and not self.journals():  # nobody has begun: it may still be changed
+            write_whole(file, mine.encode())
+        elif differs:
             what = f"the study has changed since its data began: {', '.join(differs)}"
             right = "put the file back as it was, or name another folder with --data"
             raise InputError(f"--data {self.folder}", what, right)
@@ -182,6 +184,15 @@ class StudyData:
             ) from None
         with lock_folder(folder, "participant", TAKEN):
             yield Journal(folder)
+
+    @contextmanager
+    def if_only_begun(self, journal: Journal) -> Iterator[None]:
+        """Whoever has agreed to nothing leaves nothing, however it ends; their number is free."""
+        try:
+            yield
+        finally:
+            if not (journal.folder / RUNS).exists() and not journal.entries():
+                self.erase(journal)
 
     def erase(self, journal: Journal) -> None:
         """Remove a participant's folder; what is left of it if that fails is removed next time.

@@ -19,7 +19,7 @@ from executive.page.study.questionnaire import (
     Table,
     templates,
 )
-from executive.toml_file import read_toml
+from executive.toml_file import in_words, read_toml
 
 RIGHT = "see docs/study.md"
 THANKS = "That was all. Thank you for taking part!"
@@ -27,6 +27,7 @@ NOT_OURS = {
     "user": "the participant is the person",
     "runs": "the study keeps recordings by participant",
     "memory": "what one participant said would be told to the next",
+    "home_state": "what one participant had moved would be moved for the next",
 }
 """Settings that no condition has, and why."""
 
@@ -107,8 +108,9 @@ class Study(Table):
 
 def _once(what: str, names: Iterable[str]) -> None:
     listed = list(names)
+    alike = [name.lower() for name in listed]  # some disks have one folder for both
     for name in listed:
-        if listed.count(name) > 1:
+        if alike.count(name.lower()) > 1:
             raise ValueError(f"has two {what} called {name!r}: each needs a name of its own")
 
 
@@ -149,7 +151,7 @@ def settings_of(study: Study, condition: Condition, where: str, **given: Any) ->
 def _wrong(file: Path, fault: ErrorDetails) -> InputError:
     """What a person can mend, of pydantic's first complaint."""
     key = ".".join(str(part) for part in fault["loc"])[:80]
-    said = fault["msg"].removeprefix("Value error, ")
+    said = in_words(fault["msg"])
     match fault["type"]:
         case "extra_forbidden":
             return InputError(str(file), f"there is no key {key}", RIGHT)

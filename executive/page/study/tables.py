@@ -10,10 +10,11 @@ from typing import get_type_hints
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from executive.errors import ExecutiveError
+from executive.errors import ExecutiveError, InputError
 from executive.events import THE_PERSON
 from executive.page.study.data import Entry, Journal, StudyData, number_of, write_whole
 from executive.page.study.file import Study
+from executive.text import one_line
 from executive.types import MissionStatus
 
 log = logging.getLogger(__name__)
@@ -120,6 +121,13 @@ class Tables:
     scores: tuple[ScoreRow, ...]
     interventions: tuple[InterventionRow, ...]
 
+    def by_kind(self) -> Iterator[tuple[type[Row], Sequence[Row]]]:
+        """Each with what its rows are."""
+        yield TaskRow, self.results
+        yield AnswerRow, self.answers
+        yield ScoreRow, self.scores
+        yield InterventionRow, self.interventions
+
 
 STOP, LEFT = "stop", "left"
 """What somebody does who steps in: stops the robot, or leaves the task while it is at work."""
@@ -127,19 +135,38 @@ FINISHED, GAVE_UP, TIME = "finished", "gave_up", "time"
 """How tasks end: the participant says so, or gives up, or has had the time."""
 
 
-def tables(data: StudyData) -> Tables:
-    """What the journals say.
+def tables(data: StudyData, without: str = "") -> Tables:
+    """What the journals say, but for that of the participant who is left out.
 
     Raises:
         InputError: if one of them is damaged.
     """
-    read = [(journal, journal.entries()) for journal in data.journals()]
+    told = [_told(data.study, one) for one in data.journals() if one.code != without]
     return Tables(
-        tuple(row for one in read for row in _results(*one)),
-        tuple(row for one in read for row in _answers(*one)),
-        tuple(row for one in read for row in _scores(data.study, *one)),
-        tuple(row for one in read for row in _interventions(*one)),
+        tuple(row for one in told for row in one.results),
+        tuple(row for one in told for row in one.answers),
+        tuple(row for one in told for row in one.scores),
+        tuple(row for one in told for row in one.interventions),
     )
+
+
+def _told(study: Study, journal: Journal) -> Tables:
+    """What one of them says, in rows that a table takes."""
+    entries = journal.entries()
+    try:
+        told = Tables(
+            tuple(_results(journal, entries)),
+            tuple(_answers(journal, entries)),
+            tuple(_scores(study, journal, entries)),
+            tuple(_interventions(journal, entries)),
+        )
+        for kind, rows in told.by_kind():
+            _table(kind, rows)
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        what = f"is damaged: a line is none of ours ({type(error).__name__}: {error})"
+        right = "mend it by hand, or take the line out"
+        raise InputError(str(journal.file), one_line(what), right) from None
+    return told
 
 
 def write_tables(data: StudyData) -> Tables:
@@ -258,11 +285,15 @@ _KINDS = {
 }
 
 
-def _write(file: Path, kind: type[Row], rows: Sequence[Row]) -> None:
+def _table(kind: type[Row], rows: Sequence[Row]) -> pa.Table:
     hints = get_type_hints(kind)
     schema = pa.schema([(name, _KINDS[hint]) for name, hint in hints.items()])
+    return pa.Table.from_pylist([asdict(row) for row in rows], schema=schema)
+
+
+def _write(file: Path, kind: type[Row], rows: Sequence[Row]) -> None:
     out = io.BytesIO()
-    pq.write_table(pa.Table.from_pylist([asdict(row) for row in rows], schema=schema), out)
+    pq.write_table(_table(kind, rows), out)
     write_whole(file, out.getvalue())
 
 

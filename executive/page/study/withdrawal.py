@@ -9,7 +9,7 @@ from pathlib import Path
 
 from executive.errors import InputError
 from executive.page.study.data import StudyData, number_of
-from executive.page.study.tables import read_rows, write_tables
+from executive.page.study.tables import read_rows, tables, write_tables
 
 RECORDINGS = (".mcap", ".rrd")
 """Files in which a few bytes are found by chance, too."""
@@ -53,12 +53,14 @@ def withdraw(data: StudyData, code: str) -> Withdrawal:
     A report of before is erased, too: it counts the participant.
 
     Raises:
-        InputError: if there is no such participant, or they are at it, or files cannot be erased.
+        InputError: if there is no such participant, or they are at it, or files cannot be erased,
+            or another participant's journal is damaged; then nothing is erased.
     """
     number_of(code)
     if not (data.folder / code).is_dir():
         known = ", ".join(journal.code for journal in data.journals()) or "none"
         raise InputError("--withdraw", f"there is no {code}", f"there are {known}")
+    tables(data, without=code)  # those of the others can be made
     try:
         with data.one(code) as journal:
             traces = _traces(journal.folder, code)

@@ -302,3 +302,10 @@ def test_two_homes_of_one_name_are_refused(
 def test_a_campaign_of_no_seeds_is_refused() -> None:
     with pytest.raises(SystemExit):
         parser().parse_args(["--seeds", "0"])
+
+
+@pytest.mark.parametrize("text", ["x", "0", "-1", "1.5", "9" * 5000])
+def test_what_is_no_number_of_weeks_is_told(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        parser().parse_args([f"--weeks={text}"])
+    assert "argument --weeks: should be 1 or more" in capsys.readouterr().err

@@ -21,6 +21,14 @@ def test_no_page_is_served_unless_it_is_asked_for() -> None:
     assert options() is None
 
 
+@pytest.mark.parametrize(
+    "words", [["--page-experimenter"], ["--page-address", "::"], ["--page-key", "x"]]
+)
+def test_what_is_said_of_a_page_that_is_not_served_is_told(words: list[str]) -> None:
+    with pytest.raises(InputError, match=f"{words[0]}: no page .*; give --page, too"):
+        options(*words)
+
+
 def test_it_is_served_to_this_machine_alone_unless_told_otherwise() -> None:
     assert options("--page") == Address(8080, "127.0.0.1")
     assert options("--page", "9000", "--page-address", "0.0.0.0") == Address(9000, "0.0.0.0")

@@ -54,6 +54,10 @@ def test_who_can_pick_up_has_to_put_down(tmp_path: Path) -> None:
         ('mount = "neck"', "", "joints and mount are missing"),
         ("carry = { shoulder = 0.0, elbow = 2.0 }", "", "arm.carry is missing"),
         ("opens_m = 0.08", "opens_m = 0", "gripper.opens_m is '0'"),
+        ("closed = 0.0", "closed = 0.08", "gripper: open and closed are the same"),
+        ("GripperCommand", "ParallelGripperCommand", "gripper: joint is missing: the name of"),
+        ('tip = "grip"', 'tip = ""', "arm.tip is ''; string should have at least 1 character"),
+        ("{ shoulder = 0.0, elbow = 2.0 }", "{}", "arm.carry is '{}'; table should have at least"),
         ("[arm]", "[odometer]", "there is no key odometer"),
     ],
 )

@@ -126,6 +126,7 @@ def test_what_is_no_number_of_anything_is_refused(
 ) -> None:
     answer = ask(ran.page, f"/experiment/{path}", token=token_of(ran.page), run="live", **values)
     assert answer.status == 404
+    assert "int()" not in answer.body.decode()
 
 
 def test_a_recording_that_breaks_off_is_told_as_far_as_it_goes(ran: Robot) -> None:

@@ -83,7 +83,7 @@ def test_two_programs_do_not_lead_the_same_participant(data: StudyData) -> None:
 
 
 def test_a_study_that_has_changed_is_refused_with_what_has(data: StudyData) -> None:
-    StudyData(data.folder, STUDY)
+    begin(data, "P01")
     changed = STUDY.model_copy(update={"consent": "No?", "title": "U"})
     with pytest.raises(InputError, match="has changed since its data began: consent, title"):
         StudyData(data.folder, changed)
@@ -195,3 +195,52 @@ def test_one_who_is_not_there_cannot_be_erased(data: StudyData) -> None:
     begin(data, "P01")
     with pytest.raises(InputError, match="there is no P02; there are P01"):
         withdraw(data, "P02")
+
+
+def test_one_who_has_agreed_to_nothing_leaves_nothing(data: StudyData) -> None:
+    with pytest.raises(KeyboardInterrupt), data.one("P01") as journal, data.if_only_begun(journal):
+        raise KeyboardInterrupt
+    assert (data.unfinished(), data.next()) == ([], "P01")
+    with data.one("P01") as journal, data.if_only_begun(journal):
+        journal.append("consent", done="consent", sha256=STUDY.consent_sha256)
+    assert data.unfinished() == ["P01"]
+
+
+def test_recordings_are_not_erased_for_want_of_a_journal(data: StudyData) -> None:
+    with data.one("P01") as journal, data.if_only_begun(journal):
+        (journal.folder / "runs").mkdir()
+    assert data.unfinished() == ["P01"]
+
+
+def test_as_long_as_nobody_has_begun_the_study_may_change(data: StudyData) -> None:
+    changed = STUDY.model_copy(update={"title": "Another"})
+    again = StudyData(data.folder, changed)
+    begin(again, "P01")
+    with pytest.raises(InputError, match="has changed since its data began: title"):
+        StudyData(data.folder, STUDY)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        {"kind": "task"},
+        {"kind": "task", "done": "x", "at": "", **TASK, "duration_s": "long"},
+        {"kind": "task", "done": [], "at": "", **TASK},
+        {"kind": "answers", "at": "", "questionnaire": "sus", "answers": [1], **IN_A},
+        {"kind": "answers", "at": "", "questionnaire": "none", "answers": {}, **IN_A},
+        {"kind": "intervention"},
+        {"kind": "consent"},
+    ],
+)
+def test_a_line_that_is_none_of_ours_is_told_and_erases_nobody(
+    data: StudyData, line: dict[str, Any]
+) -> None:
+    begin(data, "P02")
+    with data.one("P01") as journal:
+        journal.file.write_text(json.dumps(line) + "\n")
+    for use in (lambda: tables(data), lambda: withdraw(data, "P02")):
+        with pytest.raises(InputError, match=r"P01/journal.jsonl: is damaged: a line is none of"):
+            use()
+    assert (data.folder / "P02").exists()
+    withdraw(data, "P01")
+    assert tables(data).results == ()

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.errors import InputError
+from executive.page.study.command import try_conditions
 from executive.page.study.file import read_study, settings_of
 from executive.page.study.steps import Kind, steps
 
@@ -68,8 +69,9 @@ def test_each_condition_has_its_own_settings_over_those_of_all(tmp_path: Path) -
     ("changed", "said"),
     [
         ({"tilte": "T"}, "there is no key tilte; see docs/study.md"),
-        ({"conditions": []}, "conditions is '[]'; tuple should have at least 1 item"),
+        ({"conditions": []}, "conditions is '[]'; list should have at least 1 item, not 0"),
         ({"conditions": [{"name": "a"}] * 2}, "has two conditions called 'a'"),
+        ({"conditions": [{"name": "a"}, {"name": "A"}]}, "has two conditions called 'a'"),
         ({"conditions": [{"name": "../a"}]}, "conditions.0.name is '../a'; use up to 40 letters"),
         ({"tasks": [{"name": "t"}]}, "tasks.0.text is missing"),
         ({"tasks": [{"name": "t", "text": "Do.", "limit_s": 0}]}, "tasks.0.limit_s is '0'"),
@@ -80,6 +82,9 @@ def test_each_condition_has_its_own_settings_over_those_of_all(tmp_path: Path) -
         ({"settings": {"runs": "x"}}, "runs is not for a study: the study keeps recordings"),
         ({"settings": {"user": "oracle"}}, "user is not for a study: the participant is"),
         ({"conditions": [{"name": "a", "settings": {"memory": "m"}}]}, "memory is not for a study"),
+        ({"settings": {"home_state": "h.toml"}}, "home_state is not for a study: what one"),
+        ({"after_each": "sus"}, "after_each is 'sus'; input should be a valid list"),
+        ({"settings": 3}, "settings is '3'; input should be a valid table"),
     ],
 )
 def test_what_is_wrong_is_said_with_where_and_what_would_be_right(
@@ -90,6 +95,24 @@ def test_what_is_wrong_is_said_with_where_and_what_would_be_right(
         read_study(file)
     assert str(raised.value).startswith(str(file))
     assert said in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("setting", "value", "said"),
+    [
+        ("home", "nowhere", "home nowhere: there is no home of this name"),
+        ("habits", "none_such", "habits none_such: there are no habits of this name"),
+        ("kb", ["nowhere.owl"], "nowhere.owl: cannot be read"),
+    ],
+)
+def test_what_a_later_condition_reads_is_tried_before_anyone_sits_down(
+    tmp_path: Path, setting: str, value: Any, said: str
+) -> None:
+    conditions = [{"name": "a"}, {"name": "b", "settings": {setting: value}}]
+    study = read_study(written(tmp_path, conditions=conditions))
+    with pytest.raises(InputError) as raised:
+        try_conditions(study, "study.toml")
+    assert str(raised.value).startswith(f"study.toml: settings of condition 'b': {said}")
 
 
 KEYS = st.sampled_from([*LEAST, "settings", "after_each", "questionnaires", "order", "x"])
