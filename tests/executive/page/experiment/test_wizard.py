@@ -2,12 +2,13 @@
 
 import json
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from paging import Robot, ask, heard, robot
+from paging import Robot, ask, heard, robot, told
 
 from executive.events import Intervened
 from executive.page.page import Page
@@ -38,6 +39,16 @@ def notice(page: Page, name: str, **values: Any) -> Any:
     """What the experimenter's page is told."""
     token = parse_qs(urlsplit(page.experimenter_url).query)["token"][0]
     return heard(page, name, token=token, path="/experiment/events", **values)
+
+
+def next_held(page: Page) -> int:
+    """The number of the words that are held next."""
+    token = parse_qs(urlsplit(page.experimenter_url).query)["token"][0]
+    with closing(told(page, token=token, path="/experiment/events")) as reading:
+        for one in reading:
+            if one.name == "words" and one.value["held"]:
+                return int(one.value["held"][0]["number"])
+    raise AssertionError("nothing is held")
 
 
 def interventions(outcome: Outcome) -> list[tuple[str, str, str, str]]:
@@ -86,7 +97,7 @@ def test_words_that_are_held_are_said_otherwise_or_never(stepped: Robot) -> None
     assert heard(page, "question", kind="where_is")["text"] == "Where did you put it?"
     assert heard(page, "said", who="robot")["text"] == "Where did you put it?"
     page.says("high_table")
-    step_in(page, "words", number=notice(page, "words", holds=True)["held"][0]["number"], words="")
+    step_in(page, "words", number=next_held(page), words="")
     step_in(page, "hold", on=False)
     outcome = stepped.ended(1)
     deeds = [(deed, was, became) for _, deed, was, became in interventions(outcome)]
