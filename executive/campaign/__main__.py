@@ -126,7 +126,7 @@ def _policy(name: str) -> str:
 
 
 def _count(text: str) -> int:
-    if not (text.isdecimal() and len(text) < 10 and int(text)):
+    if not (text.isdecimal() and len(text) < 16 and int(text)):
         raise argparse.ArgumentTypeError("should be 1 or more")
     return int(text)
 

@@ -44,6 +44,7 @@ BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
 FACING_S = 0.5
 HANDLING = ("pick", "place", "gripper")
+CANNOT_STOP = "I cannot be told to stop, and may go on"
 STOPPING_S = 3.0
 """So long a halt waits for a link that was lost: with it come the means to stop."""
 
@@ -224,8 +225,10 @@ class WireRobot:
             try:
                 await self._link.ready(STOPPING_S)
             except LinkError as error:
-                return Failed(f"I cannot be told to stop, and may go on: {in_words(error)}")
+                return Failed(f"{CANNOT_STOP}: {in_words(error)}")
         failures = await self._brake.cancel_all()
+        if failures and self._link.loss:
+            return Failed(f"{CANNOT_STOP}: {self._link.loss}")
         unrest = await self._brake.rest()
         unstopped = [s for s in failures if s in self._actions.used]
         if unstopped:
