@@ -157,6 +157,13 @@ def test_what_may_be_denied_or_wanted_is_neither_done_nor_passed_over(words: str
     assert read.remark(words) == "I do nothing: I hear 'not', and do not understand the rest."
 
 
+@pytest.mark.parametrize("but", ["other than", "apart from", "excluding"])
+def test_what_is_left_out_of_what_is_not_understood_becomes_no_deed(but: str) -> None:
+    words = f"bring me anything {but} that peach"
+    assert not read.commands(words)
+    assert read.denial(words) == but
+
+
 def test_who_only_looks_need_not_be_told_to_leave_it() -> None:
     command = read.command("find the mug and do not touch it")
     assert command
