@@ -1,5 +1,6 @@
 """What stands in docs/examples runs, and does what it says."""
 
+import re
 import runpy
 import subprocess
 import sys
@@ -42,7 +43,9 @@ def test_the_robot_searches_while_the_model_thinks(tmp_path: Path) -> None:
     (run,) = tmp_path.iterdir()
     told = why_text(why(Run(run)))
     assert "I look at coffee_table 0.08 (anywhere 0.08)" in told
-    assert "I look at bookshelf_bedroom 0.7" in told
+    assert re.search(
+        r"I look at bookshelf_bedroom 0\.[789]", told
+    )  # more, the more was seen before
     assert replay(run).parting is None
 
 
