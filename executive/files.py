@@ -1,10 +1,13 @@
 """Files from outside, read as far as they are what they say: plain files, not too large, text.
 
 A named pipe, a device or a folder is never opened: reading one could wait, or go on, for ever.
+Files of ours are written whole, or not at all.
 """
 
 import codecs
+import os
 import stat
+from contextlib import suppress
 from pathlib import Path
 
 from executive.errors import InputError
@@ -66,6 +69,25 @@ def decoded(content: bytes, where: str) -> str:
         line = content.count(b"\n", 0, error.start) + 1
         what = f"is not UTF-8 text: line {line} has the byte 0x{content[error.start]:02x}"
         raise InputError(where, what, "save it as UTF-8") from None
+
+
+def write_whole(file: Path, content: bytes) -> None:
+    """Write a file, all of it or nothing, whatever happens meanwhile; on the disk when it returns.
+
+    Raises:
+        OSError: if that fails; what was in the file is there still.
+    """
+    new = file.with_name(f".{file.name}.{os.getpid()}.new")
+    try:
+        with new.open("wb") as stream:
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        new.replace(file)
+    except BaseException:
+        with suppress(OSError):
+            new.unlink()
+        raise
 
 
 def _size(count: int) -> str:

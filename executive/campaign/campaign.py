@@ -23,7 +23,7 @@ from executive.campaign.report.report import not_counted, write_report
 from executive.campaign.runners import InProcess, ProcessPool, Runner
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.errors import InputError
-from executive.files import read_text
+from executive.files import read_text, write_whole
 from executive.shell import DONE, NOT_DONE, STOPPED, on_stop_signals
 from executive.terminal import show_over
 from executive.text import printable
@@ -277,9 +277,7 @@ def claim(out: Path, settings: Settings, commands: Sequence[str]) -> dict[str, s
     file = out / "campaign.json"
     try:
         if not file.exists():
-            new = out / "campaign.json.new"  # so that a full disk leaves all of it, or nothing
-            new.write_text(json.dumps(mine, indent=2) + "\n", encoding="utf-8")
-            new.replace(file)
+            write_whole(file, f"{json.dumps(mine, indent=2)}\n".encode())
         theirs = json.loads(read_text(file))
     except OSError as error:
         raise InputError("--out", f"cannot use {out}: {error.strerror}") from None

@@ -5,7 +5,6 @@ The file is TOML: whose home it is, what time it is there, and `objects` as a ho
 
 import math
 import os
-from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -13,6 +12,7 @@ import tomli_w
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from executive.errors import InputError
+from executive.files import write_whole
 from executive.text import printable
 from executive.toml_file import in_words, read_toml
 from executive.types import Vector3
@@ -101,17 +101,7 @@ def write_state(file: Path, state: HomeState) -> None:
     Raises:
         OSError: if that fails; what was in the file is there still.
     """
-    new = file.with_name(f".{file.name}.{os.getpid()}.new")
-    try:
-        with new.open("w", encoding="utf-8") as stream:
-            stream.write(state.to_toml())
-            stream.flush()
-            os.fsync(stream.fileno())
-        new.replace(file)
-    except BaseException:
-        with suppress(OSError):
-            new.unlink()
-        raise
+    write_whole(file, state.to_toml().encode())
 
 
 def spot_on(piece: Furniture, position: Vector3, yaw: float) -> Spot:

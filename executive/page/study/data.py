@@ -20,7 +20,7 @@ from typing import Any
 from executive.campaign.appending import append_line
 from executive.campaign.claim import LOCK, lock_folder
 from executive.errors import InputError
-from executive.files import read_text
+from executive.files import read_text, write_whole
 from executive.page.study.file import Study
 
 STUDY = "study.json"
@@ -208,17 +208,3 @@ class StudyData:
 def is_last(entry: Entry) -> bool:
     """Whether nothing comes after it."""
     return bool(entry["kind"] == "finished")
-
-
-def write_whole(file: Path, content: bytes) -> None:
-    """Write a file, all of it or nothing, whatever happens meanwhile.
-
-    Raises:
-        OSError: if it cannot be written.
-    """
-    new = file.with_name(f".{file.name}.new")
-    with new.open("wb") as stream:
-        stream.write(content)
-        stream.flush()
-        os.fsync(stream.fileno())
-    new.replace(file)

@@ -15,7 +15,8 @@ from executive.campaign.report.document import (
 )
 from executive.campaign.report.statistics import Summary, stars
 from executive.errors import InputError
-from executive.page.study.data import StudyData, is_last, number_of, write_whole
+from executive.files import write_whole
+from executive.page.study.data import StudyData, is_last, number_of
 from executive.page.study.file import Study
 from executive.page.study.measures import OUTSIDE, Measure, of_questionnaires, of_tasks
 from executive.page.study.steps import order

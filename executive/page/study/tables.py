@@ -12,7 +12,8 @@ import pyarrow.parquet as pq
 
 from executive.errors import ExecutiveError, InputError
 from executive.events import THE_PERSON
-from executive.page.study.data import Entry, Journal, StudyData, number_of, write_whole
+from executive.files import write_whole
+from executive.page.study.data import Entry, Journal, StudyData, number_of
 from executive.page.study.file import Study
 from executive.text import one_line
 from executive.types import MissionStatus
