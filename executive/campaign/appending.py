@@ -14,6 +14,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from executive.errors import InputError
+
 PATIENCE_S = 60.0
 """How long a full disk is waited for."""
 _POLL_S = 0.2
@@ -45,6 +47,48 @@ def cut_half_line(file: Path) -> None:
     """
     with _locked(file) as target:
         _cut_to_whole_lines(target)
+
+
+class LineFile:
+    """A journal: a file of lines to which any number of processes on one machine append."""
+
+    def __init__(self, file: Path) -> None:
+        """Use this file, which need not exist yet."""
+        self.file = file
+
+    def mend(self) -> None:
+        """Cut off half a line that a power failure left.
+
+        Raises:
+            InputError: if the file cannot be written.
+        """
+        try:
+            cut_half_line(self.file)
+        except OSError as error:
+            what = f"cannot be written: {error.strerror}"
+            raise InputError(str(self.file), what, "choose another --out") from None
+
+    def write(self, text: str) -> None:
+        """Add a line, on the disk when this returns; a full disk is waited for.
+
+        Raises:
+            InputError: if it cannot be written, and then nothing of it is there.
+        """
+        try:
+            append_line(self.file, f"{text}\n".encode())
+        except OSError as error:
+            what = f"cannot be written: {error.strerror}"
+            right = "make room; the same command goes on from here"
+            raise InputError(str(self.file), what, right) from None
+
+    @property
+    def size(self) -> int:
+        """Bytes so far."""
+        return self.file.stat().st_size if self.file.exists() else 0
+
+    def lines(self) -> list[bytes]:
+        """The whole ones."""
+        return self.file.read_bytes().split(b"\n")[:-1] if self.file.exists() else []
 
 
 @contextmanager

@@ -8,17 +8,14 @@ import csv
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
-from math import isfinite
 from pathlib import Path
 from typing import get_type_hints
 
-import pyarrow as pa
 import pyarrow.parquet as pq
 
-from executive.campaign.appending import append_line, cut_half_line
+from executive.campaign.appending import LineFile
+from executive.campaign.rows import misfit, table_of
 from executive.config import KnowledgeSystem
-from executive.errors import InputError
-from executive.text import writable
 
 CRASHED = "crashed"
 """Status of a mission that ended in an exception, beside those of an Outcome."""
@@ -78,9 +75,9 @@ class Row:
     llm_s: float = 0.0
     """Wall time inside the language model."""
     thinking_time_s: float = 0.0
+    """Mission time from asking the model for places until it has answered."""
     thought_moving_s: float = 0.0
     """How much of it the robot used for something else, too."""
-    """Mission time from asking the model for places until it has answered."""
     driving_s: float = 0.0
     looking_s: float = 0.0
     handling_s: float = 0.0
@@ -133,44 +130,12 @@ class Entry:
     """Inquiry and reply of each call in which the model wrote."""
 
 
-class Journal:
-    """The file with the entries; any number of processes on one machine may append."""
-
-    def __init__(self, file: Path) -> None:
-        """Use this file, which need not exist yet."""
-        self._file = file
-
-    def mend(self) -> None:
-        """Cut off half a line that a power failure left.
-
-        Raises:
-            InputError: if the file cannot be written.
-        """
-        try:
-            cut_half_line(self._file)
-        except OSError as error:
-            raise InputError(
-                str(self._file), f"cannot be written: {error.strerror}", "choose another --out"
-            ) from None
+class Journal(LineFile):
+    """The file with the entries."""
 
     def append(self, entry: Entry) -> None:
-        """Add a line, on the disk when this returns; a full disk is waited for.
-
-        Raises:
-            InputError: if it cannot be written, and then nothing of it is there.
-        """
-        line = json.dumps({**asdict(entry.row), "exchanges": entry.exchanges}) + "\n"
-        try:
-            append_line(self._file, line.encode())
-        except OSError as error:
-            what = f"cannot be written: {error.strerror}"
-            right = "make room; the same command goes on from here"
-            raise InputError(str(self._file), what, right) from None
-
-    @property
-    def size(self) -> int:
-        """Bytes so far."""
-        return self._file.stat().st_size if self._file.exists() else 0
+        """Add one, as `LineFile.write` does."""
+        self.write(json.dumps({**asdict(entry.row), "exchanges": entry.exchanges}))
 
     def entries(self) -> list[Entry]:
         """One entry for each mission that has ended, in the order in which they first did.
@@ -179,7 +144,7 @@ class Journal:
         place of a result. Damaged lines are left out.
         """
         found: dict[Key, Entry] = {}
-        for _, line in self._lines():
+        for line in self.lines():
             if isinstance(entry := read_entry(line), Entry):
                 before = found.get(entry.row.key)
                 if before is None or before.row.model_failure or not entry.row.model_failure:
@@ -188,16 +153,8 @@ class Journal:
 
     def damage(self) -> list[str]:
         """A sentence for each line that is no entry."""
-        return [
-            f"{self._file}:{number}: is not a mission: {entry}"
-            for number, line in self._lines()
-            if isinstance(entry := read_entry(line), str)
-        ]
-
-    def _lines(self) -> Iterable[tuple[int, bytes]]:
-        """Whole lines with their numbers."""
-        lines = self._file.read_bytes().split(b"\n")[:-1] if self._file.exists() else []
-        return enumerate(lines, 1)
+        read = enumerate(map(read_entry, self.lines()), 1)
+        return [f"{self.file}:{n}: is not a mission: {e}" for n, e in read if isinstance(e, str)]
 
 
 def read_entry(line: bytes) -> Entry | str:
@@ -209,25 +166,7 @@ def read_entry(line: bytes) -> Entry | str:
         row.key  # noqa: B018  names a system that exists
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         return f"{type(error).__name__}: {error}"
-    for name, kind in _KINDS.items():
-        value = getattr(row, name)
-        if not _fits(value, kind):
-            return f"{name} is {str(value)[:60]!r}"
-    return Entry(row, exchanges)
-
-
-def _fits(value: object, kind: type) -> bool:
-    """Whether a table can hold it: text of whole characters, numbers of 64 bits."""
-    match value:
-        case str():
-            return kind is str and writable(value) == value
-        case bool():
-            return kind is bool
-        case int():
-            return kind in (int, float) and -(2**63) <= value < 2**63
-        case float():
-            return kind is float and isfinite(value)
-    return False
+    return misfit(row, _KINDS) or Entry(row, exchanges)
 
 
 def in_order(rows: Iterable[Row], policies: Sequence[str] = ()) -> list[Row]:
@@ -265,7 +204,4 @@ def write_tables(rows: Sequence[Row], folder: Path) -> None:
         writer.writeheader()
         for row in rows:
             writer.writerow({key: _inert(value) for key, value in asdict(row).items()})
-    kinds = {str: pa.string(), bool: pa.bool_(), int: pa.int64(), float: pa.float64()}
-    schema = pa.schema([(name, kinds[kind]) for name, kind in _KINDS.items()])
-    table = pa.Table.from_pylist([asdict(row) for row in rows], schema=schema)
-    pq.write_table(table, folder / "results.parquet")
+    pq.write_table(table_of(Row, rows), folder / "results.parquet")

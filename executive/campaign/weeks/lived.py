@@ -5,17 +5,16 @@ So the lines of a household are all that it takes to go on from there.
 """
 
 import json
-from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Any, get_type_hints
 
-import pyarrow as pa
 import pyarrow.parquet as pq
 
-from executive.campaign.appending import append_line, cut_half_line
-from executive.errors import InputError
+from executive.campaign.appending import LineFile
+from executive.campaign.rows import misfit, table_of
 from kb.facts import Fact, FactKind
 
 COMMANDS_A_DAY = 10
@@ -103,56 +102,24 @@ def read_line(text: bytes) -> Line | str:
         lived = Lived(**values)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         return f"{type(error).__name__}: {error}"
-    for name, kind in _KINDS.items():
-        value = getattr(lived, name)
-        if not isinstance(value, (int, float) if kind is float else kind):
-            return f"{name} is {str(value)[:60]!r}"
+    if wrong := misfit(lived, _KINDS):
+        return wrong
     if not isfinite(time_s):
         return "time_s is no time"
     return Line(lived, time_s, things, facts)
 
 
-class Diary:
-    """The file with the lines; any number of processes on one machine may append."""
-
-    def __init__(self, file: Path) -> None:
-        """Use this file, which need not exist yet."""
-        self._file = file
-
-    def mend(self) -> None:
-        """Cut off half a line that a power failure left.
-
-        Raises:
-            InputError: if the file cannot be written.
-        """
-        try:
-            cut_half_line(self._file)
-        except OSError as error:
-            what = f"cannot be written: {error.strerror}"
-            raise InputError(str(self._file), what, "choose another --out") from None
+class Diary(LineFile):
+    """The file with the lines of all households."""
 
     def append(self, line: Line) -> None:
-        """Add a line, on the disk when this returns; a full disk is waited for.
-
-        Raises:
-            InputError: if it cannot be written, and then nothing of it is there.
-        """
-        try:
-            append_line(self._file, f"{line.to_json()}\n".encode())
-        except OSError as error:
-            what = f"cannot be written: {error.strerror}"
-            right = "make room; the same command goes on from here"
-            raise InputError(str(self._file), what, right) from None
-
-    @property
-    def size(self) -> int:
-        """Bytes so far."""
-        return self._file.stat().st_size if self._file.exists() else 0
+        """Add one, as `LineFile.write` does."""
+        self.write(line.to_json())
 
     def entries(self) -> list[Line]:
         """One for each command that was given; of several the last counts. No damaged ones."""
         found = {}
-        for text in self._texts():
+        for text in self.lines():
             if isinstance(line := read_line(text), Line):
                 one = line.lived
                 found[one.household, one.day, one.turn] = line
@@ -160,18 +127,13 @@ class Diary:
 
     def damage(self) -> list[str]:
         """A sentence for each line that is none."""
-        read = enumerate(map(read_line, self._texts()), start=1)
-        return [f"{self._file}:{n}: is no line: {why}" for n, why in read if isinstance(why, str)]
-
-    def _texts(self) -> Sequence[bytes]:
-        return self._file.read_bytes().split(b"\n")[:-1] if self._file.exists() else []
+        read = enumerate(map(read_line, self.lines()), start=1)
+        return [f"{self.file}:{n}: is no line: {why}" for n, why in read if isinstance(why, str)]
 
 
 def write_table(lived: Iterable[Lived], file: Path) -> None:
     """Write the rows as a Parquet file."""
-    kinds = {str: pa.string(), bool: pa.bool_(), int: pa.int64(), float: pa.float64()}
-    schema = pa.schema([(field.name, kinds[_KINDS[field.name]]) for field in fields(Lived)])
-    pq.write_table(pa.Table.from_pylist([asdict(one) for one in lived], schema=schema), file)
+    pq.write_table(table_of(Lived, lived), file)
 
 
 def read_table(file: Path) -> list[Lived]:

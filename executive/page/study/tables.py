@@ -3,13 +3,12 @@
 import io
 import logging
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import get_type_hints
 
-import pyarrow as pa
 import pyarrow.parquet as pq
 
+from executive.campaign.rows import table_of
 from executive.errors import ExecutiveError, InputError
 from executive.events import THE_PERSON
 from executive.files import write_whole
@@ -162,7 +161,7 @@ def _told(study: Study, journal: Journal) -> Tables:
             tuple(_interventions(journal, entries)),
         )
         for kind, rows in told.by_kind():
-            _table(kind, rows)
+            table_of(kind, rows)
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         what = f"is damaged: a line is none of ours ({type(error).__name__}: {error})"
         right = "mend it by hand, or take the line out"
@@ -276,25 +275,10 @@ def _interventions(journal: Journal, entries: Iterable[Entry]) -> Iterator[Inter
 
 # --- files ---
 
-_KINDS = {
-    str: pa.string(),
-    int: pa.int64(),
-    float: pa.float64(),
-    str | None: pa.string(),
-    int | None: pa.int64(),
-    tuple[str, ...]: pa.list_(pa.string()),
-}
-
-
-def _table(kind: type[Row], rows: Sequence[Row]) -> pa.Table:
-    hints = get_type_hints(kind)
-    schema = pa.schema([(name, _KINDS[hint]) for name, hint in hints.items()])
-    return pa.Table.from_pylist([asdict(row) for row in rows], schema=schema)
-
 
 def _write(file: Path, kind: type[Row], rows: Sequence[Row]) -> None:
     out = io.BytesIO()
-    pq.write_table(_table(kind, rows), out)
+    pq.write_table(table_of(kind, rows), out)
     write_whole(file, out.getvalue())
 
 

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 
 import pytest
@@ -77,6 +78,13 @@ def test_a_line_that_is_none_is_named_and_left_out(tmp_path: Path, text: bytes) 
 def lived(**known: object) -> Lived:
     usual = Lived("plan", "four_rooms", "none", 0, 0, 0, 9.0, "Find the mug", completed=True)
     return replace(usual, **known)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("known", [{"inquiries": 2**70}, {"cost_s": inf}, {"reason": "\ud800"}])
+def test_a_line_that_no_table_takes_is_named_and_left_out(known: dict[str, object]) -> None:
+    read = read_line(Line(lived(**known), 0.0, {}, ()).to_json().encode())
+    assert isinstance(read, str)
+    assert next(iter(known)) in read
 
 
 def tables(rows: list[Lived]) -> list[Table]:
