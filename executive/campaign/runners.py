@@ -117,6 +117,11 @@ class ProcessPool:
             pool.shutdown(cancel_futures=True)
 
 
+def on_this_machine(workers: int, interrupted: Callable[[], bool]) -> Runner:
+    """This process, or a pool of so many."""
+    return InProcess() if workers == 1 else ProcessPool(workers, interrupted)
+
+
 # --- in a worker process of the pool ---
 
 _stop: Event | None = None

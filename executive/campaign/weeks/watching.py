@@ -1,24 +1,16 @@
 """A campaign of weeks: households that are watched for so long, and the folder that keeps it."""
 
 import argparse
-import sys
-from contextlib import ExitStack
 from pathlib import Path
 
-from executive.campaign.campaign import (
-    Progress,
-    all_settings,
-    claim,
-    make_folder,
-)
-from executive.campaign.claim import lock_folder
-from executive.campaign.runners import InProcess, ProcessPool
+from executive.campaign.campaign import all_settings
+from executive.campaign.folder import Folder, Progress
+from executive.campaign.runners import on_this_machine
 from executive.campaign.weeks.household import Household
 from executive.campaign.weeks.lived import COMMANDS_A_DAY, DAYS_A_WEEK, Diary, Line, write_table
 from executive.campaign.weeks.report import write_report
 from executive.errors import InputError
-from executive.shell import DONE, STOPPED, on_stop_signals
-from executive.text import printable
+from executive.shell import DONE, STOPPED
 from sim.home.habits import load_habits
 from sim.home.home import load_home
 
@@ -56,17 +48,8 @@ class Weeks:
         self._names = {household.name: None for household in self._households}
         self._days = options.weeks * DAYS_A_WEEK
         self._workers: int = options.workers
-        self._interrupted = False
-        make_folder(self._out)
-        with ExitStack() as until_it_fails:
-            self._lock = until_it_fails.enter_context(lock_folder(self._out, "--out"))
-            self._about = claim(self._out, settings[0], (ASKED,))
-            self._diary = Diary(self._out / "journal.jsonl")
-            self._diary.mend()
-            damage = self._diary.damage()
-            until_it_fails.pop_all()
-        for sentence in damage:
-            print(f"warning: {printable(sentence)}; it is not counted", file=sys.stderr)
+        self._diary = Diary(self._out / "journal.jsonl")
+        self._folder = Folder(self._out, settings[0], (ASKED,), self._diary)
 
     def run(self) -> int:
         """Live what has not been lived yet; the report is written however it ends.
@@ -76,26 +59,11 @@ class Weeks:
         """
         total = len(self._households) * self._days * COMMANDS_A_DAY
         progress = Progress(total, lambda: len(self._lines()))
-        pool = ProcessPool(self._workers, lambda: self._interrupted)
-        runner = InProcess() if self._workers == 1 else pool
-        try:
-            with on_stop_signals(self._interrupt):
-                runner.run(self._households, self._diary, progress)
-            progress.show()
-        except KeyboardInterrupt:
-            print("\nstopped; the same command goes on from here", file=sys.stderr)
-            return STOPPED
-        finally:
-            with self._lock:
-                self._write(total)
-        folder = printable(self._out)
-        print(f"\n{folder}/report.md\n{folder}/report.html", file=sys.stderr)
-        return DONE
-
-    def _interrupt(self, number: int, frame: object) -> None:
-        """Note it, too: the exception is lost if it is raised within a callback."""
-        self._interrupted = True
-        raise KeyboardInterrupt
+        runner = on_this_machine(self._workers, self._folder.is_interrupted)
+        came_to_the_end = self._folder.run(
+            runner, self._households, progress, lambda: self._write(total)
+        )
+        return DONE if came_to_the_end else STOPPED
 
     def _lines(self) -> list[Line]:
         """What was lived of this campaign; the folder may hold more."""
@@ -110,20 +78,15 @@ class Weeks:
         rows = [line.lived for line in self._lines()]
         rows.sort(key=lambda one: (rank[one.household], one.day, one.turn))
         about = {
-            **self._about,
+            **self._folder.about,
             "policies": ", ".join(self._policies),
             "homes": ", ".join(dict.fromkeys(one.home for one in rows)),
             "seeds": ", ".join(str(seed) for seed in sorted({one.seed for one in rows})),
             "commands given": f"{len(rows)} of {total}",
             "sum of the missions' wall time": f"{sum(one.wall_time_s for one in rows):.0f} s",
         }
-        try:
-            write_table(rows, self._out / "results.parquet")
-            write_report(rows, about, self._out)
-        except OSError as error:
-            what = f"the tables cannot be written: {error.strerror or error}"
-            right = "make room; the same command writes them"
-            raise InputError(f"--out {self._out}", what, right) from None
+        write_table(rows, self._out / "results.parquet")
+        write_report(rows, about, self._out)
 
 
 def refuse_what_does_not_fit(options: argparse.Namespace) -> None:

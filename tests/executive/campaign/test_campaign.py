@@ -16,7 +16,8 @@ import pytest
 from executive.app.session import Session
 from executive.campaign import blocks
 from executive.campaign.__main__ import main, parser
-from executive.campaign.campaign import Campaign, Progress, clock
+from executive.campaign.campaign import Campaign
+from executive.campaign.folder import Progress, clock
 from executive.campaign.journal import Journal, Row, in_order, read_table
 from executive.config import KnowledgeSystem, load_settings
 from executive.events import Inbox

@@ -57,6 +57,6 @@ def test_a_mission_finds_the_thing_where_it_was_drawn() -> None:
 def test_a_campaign_of_draws_asks_for_every_thing(tmp_path) -> None:
     options = parser().parse_args(["--draw", "--seeds", "1", "--out", str(tmp_path / "out")])
     campaign = Campaign(options)
-    with campaign._lock:
+    with campaign._folder.lock:
         assert {key.command for key in campaign._keys} == set(commands())
         assert all(block.draws for block in campaign._blocks)
