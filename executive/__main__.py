@@ -7,15 +7,11 @@ if __name__ == "__main__":
 
 import argparse
 import logging
-import os
-import signal
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from importlib.metadata import version
 from pathlib import Path
-from select import select
-from types import FrameType
 from typing import TYPE_CHECKING
 
 from executive.config import Settings, load_settings
@@ -34,6 +30,7 @@ from executive.shell import (
     leave,
     leave_within,
     on_stop_signals,
+    stops_in_order,
 )
 from executive.terminal import Terminal
 from executive.text import counted, printable, too_long
@@ -53,7 +50,6 @@ log = logging.getLogger(__name__)
 
 
 PROMPT = "What can I do for you?"
-STDERR = 2
 CLOSED_S = 1.0
 """How long the model and the simulator may take to be freed before the program ends without."""
 
@@ -208,21 +204,7 @@ def stop_on_signals(inbox: "Inbox") -> None:
     from executive.events import StopRequested
     from executive.user import STOPPING
 
-    asked = False
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        nonlocal asked
-        if asked and number == signal.SIGINT:
-            raise KeyboardInterrupt
-        if not asked:
-            asked = True
-            name = signal.Signals(number).name
-            inbox.post(StopRequested("Ctrl-C" if number == signal.SIGINT else name))
-            with suppress(OSError):  # not `print`, which the signal may have interrupted
-                if select([], [STDERR], [], 0)[1]:
-                    os.write(STDERR, f"{STOPPING}\n".encode())
-
-    handle_stop_signals(stop)
+    handle_stop_signals(stops_in_order(lambda by: inbox.post(StopRequested(by)), STOPPING))
 
 
 def let_no_reader_hold_the_robot() -> None:

@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import wraps
+from select import select
 from types import FrameType
 from typing import Any, Protocol
 
@@ -21,6 +22,9 @@ DONE, NOT_DONE, BAD_INPUT, STOPPED = 0, 1, 2, 130
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 """Ctrl-C, `kill`, the end of the terminal, Ctrl-\\: all of them say stop."""
+
+STDERR = 2
+"""Its file descriptor."""
 
 Handler = Callable[[int, FrameType | None], None]
 
@@ -108,6 +112,24 @@ def on_stop_signals(handler: Handler) -> Iterator[None]:
     finally:
         for number, earlier in before.items():
             signal.signal(number, earlier)
+
+
+def stops_in_order(stop: Callable[[str], None], says: str) -> Handler:
+    """Calls `stop` with whose the first signal is, and answers; a second Ctrl-C interrupts."""
+    asked = False
+
+    def handle(number: int, frame: FrameType | None) -> None:
+        nonlocal asked
+        if asked and number == signal.SIGINT:
+            raise KeyboardInterrupt
+        if not asked:
+            asked = True
+            stop("Ctrl-C" if number == signal.SIGINT else signal.Signals(number).name)
+            with suppress(OSError):  # not `print`, which the signal may have interrupted
+                if select([], [STDERR], [], 0)[1]:
+                    os.write(STDERR, f"{says}\n".encode())
+
+    return handle
 
 
 def leave(status: int) -> None:

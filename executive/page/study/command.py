@@ -1,12 +1,8 @@
 """`python -m executive.page study`: its options, and what each of them does."""
 
 import argparse
-import os
-import signal
 import sys
-from contextlib import suppress
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from executive.errors import InputError
@@ -17,11 +13,11 @@ from executive.page.study.order import rows
 from executive.page.study.steps import order
 from executive.page.study.tables import renew_tables
 from executive.page.study.withdrawal import withdraw
-from executive.shell import DONE, NOT_DONE, all_is_kept, on_stop_signals
+from executive.shell import DONE, NOT_DONE, all_is_kept, on_stop_signals, stops_in_order
 from executive.text import counted, printable
 
 if TYPE_CHECKING:
-    from executive.page.study.leading import Leader
+    pass
 
 STOPPING = "Stopping. The same command goes on from here."
 
@@ -140,7 +136,7 @@ def lead(data: StudyData, code: str, address: Any) -> int:
         if page.experimenter_url:
             print(f"Experimenter: {page.experimenter_url}", file=sys.stderr, flush=True)
         try:
-            with on_stop_signals(_stopping(leader)):
+            with on_stop_signals(stops_in_order(leader.interrupt, STOPPING)):
                 took_part = leader.lead()
         finally:
             renew_tables(data)
@@ -150,20 +146,3 @@ def lead(data: StudyData, code: str, address: Any) -> int:
         return NOT_DONE
     print(f"{code} has come to the end.", file=sys.stderr)
     return DONE
-
-
-def _stopping(leader: "Leader") -> Any:
-    """Ends it in order at the first signal, at once at a second Ctrl-C."""
-    asked = False
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        nonlocal asked
-        if asked and number == signal.SIGINT:
-            raise KeyboardInterrupt
-        if not asked:
-            asked = True
-            leader.interrupt("Ctrl-C" if number == signal.SIGINT else signal.Signals(number).name)
-            with suppress(OSError):
-                os.write(2, f"{STOPPING}\n".encode())
-
-    return stop
