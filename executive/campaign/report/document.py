@@ -7,6 +7,7 @@ from html import escape
 from pathlib import Path
 from urllib.parse import quote
 
+from executive.files import write_whole
 from executive.text import printable
 
 
@@ -58,6 +59,11 @@ class Figure:
 
 Part = Heading | Text | Table | Figure
 
+PICTURES = "plots"
+"""Folder of the pictures, beside the report."""
+NO_PLOTS = (
+    "There are no plots: matplotlib is not installed (pip install 'robot-executive[campaign]')."
+)
 STYLE = """
 body { font: 15px/1.5 sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #111 }
 table { border-collapse: collapse; margin: 1em 0; font-size: 13px }
@@ -85,12 +91,18 @@ def to_html(parts: Sequence[Part]) -> str:
     )
 
 
-def write_pictures(parts: Iterable[Part], folder: Path) -> None:
-    """Write each figure to a file of its own; nothing if there are none."""
+def write_document(parts: Sequence[Part], folder: Path) -> None:
+    """Write `report.md` with its pictures, and `report.html`, which holds them.
+
+    Raises:
+        OSError: if they cannot be written; each file is whole or as it was.
+    """
     for part in parts:
         if isinstance(part, Figure):
-            folder.mkdir(exist_ok=True)
-            (folder / f"{part.name}.svg").write_text(part.svg, encoding="utf-8")
+            (folder / PICTURES).mkdir(exist_ok=True)
+            write_whole(folder / PICTURES / f"{part.name}.svg", part.svg.encode())
+    write_whole(folder / "report.md", to_markdown(parts, PICTURES).encode())
+    write_whole(folder / "report.html", to_html(parts).encode())
 
 
 def _markdown(part: Part, pictures: str) -> str:

@@ -7,18 +7,14 @@ from pathlib import Path
 from executive.campaign.journal import CRASHED, Row
 from executive.campaign.report import paper, tables
 from executive.campaign.report.document import (
+    NO_PLOTS,
     Heading,
     Part,
     Table,
     Text,
-    to_html,
-    to_markdown,
-    write_pictures,
+    write_document,
 )
 from executive.campaign.report.variants import Variant, variants
-
-PICTURES = "plots"
-"""Folder of the plots, beside the report."""
 
 IN_BRACKETS = "In brackets: the paper's figures."
 NOT_COMPARED = (
@@ -37,19 +33,12 @@ READING = (
     "as a share of the way driven; 0 for a mission that is not completed.",
 )
 
-NO_PLOTS = (
-    "There are no plots: matplotlib is not installed (pip install 'robot-executive[campaign]')."
-)
-
 
 def write_report(
     rows: Sequence[Row], about: Mapping[str, str], folder: Path, as_in_paper: Collection[str]
 ) -> None:
     """Write `report.md` with its plots, and `report.html`, which holds them."""
-    parts = report(rows, about, folder, as_in_paper)
-    write_pictures(parts, folder / PICTURES)
-    (folder / "report.md").write_text(to_markdown(parts, PICTURES), encoding="utf-8")
-    (folder / "report.html").write_text(to_html(parts), encoding="utf-8")
+    write_document(report(rows, about, folder, as_in_paper), folder)
 
 
 def report(

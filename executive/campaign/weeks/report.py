@@ -4,16 +4,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from executive.campaign.report.document import (
+    NO_PLOTS,
     Figure,
     Heading,
     Part,
     Table,
     Text,
-    to_html,
-    to_markdown,
-    write_pictures,
+    write_document,
 )
-from executive.campaign.report.report import NO_PLOTS, PICTURES
 from executive.campaign.report.statistics import Summary, grouped, summarize
 from executive.campaign.weeks.lived import Lived
 
@@ -42,10 +40,7 @@ READING = (
 
 def write_report(lived: Sequence[Lived], about: Mapping[str, str], folder: Path) -> None:
     """Write `report.md` with its plots, and `report.html`, which holds them."""
-    parts = report(lived, about)
-    write_pictures(parts, folder / PICTURES)
-    (folder / "report.md").write_text(to_markdown(parts, PICTURES), encoding="utf-8")
-    (folder / "report.html").write_text(to_html(parts), encoding="utf-8")
+    write_document(report(lived, about), folder)
 
 
 def report(lived: Sequence[Lived], about: Mapping[str, str]) -> list[Part]:

@@ -1,15 +1,13 @@
 """The plots of a study's report: every participant a line, and the mean of each condition."""
 
 from collections.abc import Sequence
-from io import StringIO
 from math import ceil
 
-import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 
 from executive.campaign.report.document import Figure
-from executive.campaign.report.plots import BLACK, BLUE, STYLE
+from executive.campaign.report.plots import BLACK, BLUE, drawn
 from executive.page.study.measures import Measure
 
 COLUMNS = 3
@@ -22,16 +20,15 @@ CAPTION = (
 def figure(file: str, measures: Sequence[Measure]) -> Figure:
     """A panel for each measure."""
     lines = ceil(len(measures) / COLUMNS)
-    out = StringIO()
-    with mpl.rc_context(STYLE):
-        drawing = Drawing(figsize=(7.2, 2.4 * lines), layout="constrained")
+
+    def draw(drawing: Drawing) -> None:
         grid = drawing.subplots(lines, COLUMNS, squeeze=False).ravel()
         for axes, measure in zip(grid, measures, strict=False):
             _panel(axes, measure)
         for axes in grid[len(measures) :]:
             axes.set_axis_off()
-        drawing.savefig(out, format="svg", metadata={"Date": None})
-    return Figure(file, CAPTION, out.getvalue())
+
+    return drawn(file, CAPTION, (7.2, 2.4 * lines), draw)
 
 
 def _panel(axes: Axes, measure: Measure) -> None:

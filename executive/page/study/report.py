@@ -4,25 +4,22 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from executive.campaign.report.document import (
+    NO_PLOTS,
     Figure,
     Heading,
     Part,
     Table,
     Text,
-    to_html,
-    to_markdown,
-    write_pictures,
+    write_document,
 )
 from executive.campaign.report.statistics import Summary, stars
 from executive.errors import InputError
-from executive.files import write_whole
 from executive.page.study.data import StudyData, is_last, number_of
 from executive.page.study.file import Study
 from executive.page.study.measures import OUTSIDE, Measure, of_questionnaires, of_tasks
 from executive.page.study.steps import order
 from executive.page.study.tables import AnswerRow, Tables, write_tables
 
-PICTURES = "plots"
 READING = (
     "Each participant counts once in each condition, with the mean of their tasks. Intervals "
     "(95 %, of the mean) are bootstrapped over the participants.",
@@ -30,9 +27,6 @@ READING = (
     "have met both conditions, Holm-corrected over the pairs of conditions of a measure; "
     "* p < 0.05, ** p < 0.01. Nothing is corrected over the measures: decide before the study "
     "which of them it is about.",
-)
-NO_PLOTS = (
-    "There are no plots: matplotlib is not installed (pip install 'robot-executive[campaign]')."
 )
 
 
@@ -45,16 +39,12 @@ def write_report(data: StudyData) -> Path:
     made = write_tables(data)
     if not made.results:
         raise InputError(f"--data {data.folder}", "no task is over yet", "lead a participant first")
-    parts = report(data, made)
-    html = data.folder / "report.html"
     try:
-        write_pictures(parts, data.folder / PICTURES)
-        write_whole(data.folder / "report.md", to_markdown(parts, PICTURES).encode())
-        write_whole(html, to_html(parts).encode())
+        write_document(report(data, made), data.folder)
     except OSError as error:
         what = f"the report cannot be written: {error.strerror}"
         raise InputError(f"--data {data.folder}", what, "make room") from None
-    return html
+    return data.folder / "report.html"
 
 
 def report(data: StudyData, tables: Tables) -> list[Part]:
