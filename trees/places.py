@@ -10,7 +10,6 @@ from py_trees.common import Status
 from executive.language.answers import picked
 from executive.language.wording import either
 from executive.types import (
-    DELIVERY,
     PERSON,
     SOMETHING,
     Command,
@@ -22,6 +21,7 @@ from executive.types import (
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
 from trees.person import NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
+from trees.recall import is_here
 from trees.telling import NEXT_TO, TO_THE_PERSON, tell
 
 BESIDE = ("under ", NEXT_TO)
@@ -340,7 +340,7 @@ def neighbours(context: MissionContext) -> tuple[str, ...]:
 def known_at(context: MissionContext, thing: str) -> tuple[str, ...]:
     """Where a thing is, as far as the robot remembers."""
     known = context.facts.places_of(thing)
-    return tuple(p for p in known if p == DELIVERY or context.knowledge.has_place(p))
+    return tuple(p for p in known if is_here(context, p))
 
 
 def not_seen_yet(context: MissionContext) -> str:
