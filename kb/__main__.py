@@ -9,7 +9,7 @@ import argparse
 import json
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
@@ -21,7 +21,7 @@ from executive.text import counted, printable
 from executive.usage import Parser
 
 if TYPE_CHECKING:  # a command imports what it needs
-    from kb.facts import FactStore
+    from kb.facts import Fact, FactStore
     from kb.ontology.ontology import Ontology
 
 
@@ -79,7 +79,7 @@ def facts(file: Path, as_json: bool) -> int:
     if as_json:
         print(json.dumps([asdict(fact) for fact in known]))
         return DONE
-    now = max([time.time(), *(fact.time_s for fact in known)])
+    now = _now(known)
     for fact in known:
         thing, place = printable(fact.object), printable(fact.place)
         print(f"{thing:20} {fact.kind:6} {place:20} {age(now - fact.time_s)} ago")
@@ -96,21 +96,23 @@ def explain(file: Path, home: str, words: str) -> int:
 
     ours = load_home(home)
     ontology = Ontology(ours.places(), things=ours.things())
-    known = frozenset(ontology.objects())
-
-    def class_of(name: str) -> str:
-        return next(iter(ontology.classes_of(name)), "") if name in known else ""
-
     with closing(_memory(file, learns=False)) as memory:
-        latest = max((fact.time_s for fact in memory.since(0, MOST_LEARNED)[0]), default=0.0)
-        now_s = max(time.time(), latest)
-        experience = Experience(memory, class_of, lambda: now_s)
+        now_s = _now(memory.since(0, MOST_LEARNED)[0])
+        experience = Experience(memory, ontology.class_of, lambda: now_s)
         experience.learn()
         named = ontology.objects_named(words) or (words,) if words else experience.things()
-        told = [*lines(experience, named), *([] if words else habits(experience, class_of))]
+        told = [
+            *lines(experience, named),
+            *([] if words else habits(experience, ontology.class_of)),
+        ]
     for line in told:
         print(printable(line))
     return DONE if told else NOT_DONE
+
+
+def _now(known: Iterable["Fact"]) -> float:
+    """The time (UTC, s); of a home in which time goes faster, when the last fact was noted."""
+    return max([time.time(), *(fact.time_s for fact in known)])
 
 
 def forget(file: Path, words: str) -> int:

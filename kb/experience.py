@@ -91,11 +91,10 @@ class Experience:
         followed = self._followed(name)
         if followed is None:
             return ()
-        stayed, moved = followed
+        place, stayed, moved = followed
         said = []
-        if stayed:
-            place, share = max(stayed.items(), key=lambda item: item[1])
-            worth = min(share, MOST_TRUSTED)
+        if stayed > 0:
+            worth = min(stayed, MOST_TRUSTED)
             said.append(Statement(Source.MEMORY, ((place, 1.0),), worth))
         rest = 1 - (said[0].trust if said else 0.0)
         if total := sum(moved.values()):
@@ -108,7 +107,7 @@ class Experience:
     def things(self) -> tuple[str, ...]:
         """All of which something is known."""
         self._catch_up()
-        return tuple(sorted(self._seen.things()))
+        return tuple(sorted(self._seen.known))
 
     def belief(self, name: str) -> Belief:
         """Where it may be now, by what was seen alone."""
@@ -125,12 +124,12 @@ class Experience:
         self._count += len(new)
         self._seen.add(new)
 
-    def _followed(self, name: str) -> tuple[dict[str, float], dict[str, float]] | None:
-        """How likely it has stayed where it was, and how likely it was taken to each place since.
+    def _followed(self, name: str) -> tuple[str, float, dict[str, float]] | None:
+        """Where it was, how likely it has stayed there, and was taken to each place since.
 
         What is missing to 1 is the chance of a place where it was never seen.
         """
-        known = self._seen.things().get(name)
+        known = self._seen.known.get(name)
         if not known:
             return None
         last, now = known[-1], self._now()
@@ -143,10 +142,10 @@ class Experience:
                 chain.pass_until(min(time_s, now))
             chain.not_at(place)
         chain.pass_until(now)
-        return chain.told()
+        return last.place, float(chain.stayed), chain.moved()
 
     def _places_of(self, name: str, place: str) -> list[str]:
-        others = {known.place: None for known in self._seen.things()[name]}
+        others = {known.place: None for known in self._seen.known[name]}
         others |= {arrival.place: None for arrival in self._arrivals.get(name, ())}
         return [other for other in others if other != place]
 
@@ -193,7 +192,8 @@ class _Chain:
         unknown = rates.of_thing.get(thing, rates.of_all)
         self._rate = np.vstack([self._rate, unknown])
         self._to = _destinations(self._number, arrivals)
-        self._stayed = 0.0
+        self.stayed = 0.0
+        """How likely it is where it was, and was never taken away."""
         self._moved = np.zeros(len(places) + 1)
         self.at_s = 0.0
 
@@ -202,7 +202,7 @@ class _Chain:
         total = 1 + sum(others.values())
         for place, weight in others.items():
             self._moved[self._number[place]] += share * weight / total
-        self._stayed = share / total
+        self.stayed = share / total
         self._moved[-1] += 1 - share
 
     def pass_until(self, time_s: float) -> None:
@@ -216,9 +216,9 @@ class _Chain:
     def _move(self, hour: int, length: float) -> None:
         goes = -np.expm1(-self._rate[:, hour] * length)
         leaves = self._moved * goes
-        leaves[0] += self._stayed * goes[0]
+        leaves[0] += self.stayed * goes[0]
         self._moved = self._moved * (1 - goes) + leaves @ self._to[hour]
-        self._stayed *= 1 - goes[0]
+        self.stayed *= 1 - goes[0]
 
     def not_at(self, place: str) -> None:
         """It was not seen there."""
@@ -227,15 +227,14 @@ class _Chain:
             return
         self._moved[number] *= MISSED
         if number == 0:
-            self._stayed *= MISSED
-        total = self._stayed + self._moved.sum()
-        self._moved, self._stayed = self._moved / total, self._stayed / total
+            self.stayed *= MISSED
+        total = self.stayed + self._moved.sum()
+        self._moved, self.stayed = self._moved / total, self.stayed / total
 
-    def told(self) -> tuple[dict[str, float], dict[str, float]]:
-        """What stayed, and where it may have been taken."""
-        stayed = {self._places[0]: float(self._stayed)} if self._stayed > 0 else {}
+    def moved(self) -> dict[str, float]:
+        """Where it may have been taken, and how likely."""
         named = zip(self._places, self._moved[:-1].tolist(), strict=True)
-        return stayed, {place: share for place, share in named if share > 0}
+        return {place: share for place, share in named if share > 0}
 
 
 def _destinations(number: Mapping[str, int], arrivals: Sequence[Arrival]) -> Floats:

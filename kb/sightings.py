@@ -6,7 +6,7 @@ other thing, too: what was not seen there is not there.
 
 from bisect import bisect_right
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from kb.facts import Fact, FactKind
@@ -124,7 +124,3 @@ class Sightings:
             if thing not in seen
         ]
         return sorted(found)
-
-    def things(self) -> Mapping[str, list[Known]]:
-        """Those of which something is known."""
-        return self.known

@@ -6,7 +6,7 @@ correction takes the place of the task at hand; what is taken back is not done.
 
 from dataclasses import replace
 
-from executive.language.commands import commands_in, left_alone
+from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
 from executive.language.meaning import (
     Answer,
@@ -29,8 +29,6 @@ from trees.telling import in_one_sentence
 
 _IT = frozenset(("it", "that", "this", "them"))
 _ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
-NOT_KNOWN_WHAT = "I hear '{}', and do not understand the rest."
-"""Said of a negation that is about nothing that there is to do."""
 
 
 def attend_to(context: MissionContext, words: str, now: str) -> str:

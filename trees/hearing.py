@@ -13,12 +13,12 @@ from py_trees.common import Status
 
 from executive.belief import MISSED, Belief, Statement, believe, in_order
 from executive.interfaces import PlaceSource
-from executive.types import DELIVERY, Result, Scored, Source
+from executive.types import Result, Scored, Source
 from trees.context import MissionContext
 from trees.location import generate_places
 from trees.model import RankPlaces
 from trees.nodes import Check, Optionally, Step, sequence
-from trees.recall import Memory
+from trees.recall import Memory, is_here
 
 MEMORY_TRUST = 0.9
 SOURCE_TRUST = 0.9
@@ -122,7 +122,7 @@ class Hear(Step):
         """Hear it."""
         assert self.situation.request.object
         named = self.knows.places_of(self.situation.request.object)
-        places = tuple(p for p in dict.fromkeys(named) if self._is_here(p))
+        places = tuple(p for p in dict.fromkeys(named) if is_here(self.context, p))
         if not places:
             return self.succeed("knows no place")
         self.situation.search.whereabouts.hear(
@@ -133,9 +133,6 @@ class Hear(Step):
 
     def heard(self, places: tuple[str, ...]) -> None:
         """What else follows from it: nothing."""
-
-    def _is_here(self, place: str) -> bool:
-        return place == DELIVERY or self.context.knowledge.has_place(place)
 
 
 class HearMemory(Hear):
@@ -159,7 +156,7 @@ class HearMemory(Hear):
             return super().update()
         heard = []
         for said in experience.recalled(name):
-            here = tuple((p, w) for p, w in said.weights if self._is_here(p))
+            here = tuple((p, w) for p, w in said.weights if is_here(self.context, p))
             if not here:
                 continue
             self.situation.search.whereabouts.hear(replace(said, weights=here))

@@ -9,7 +9,7 @@ from py_trees.common import Status
 from executive.interfaces import Knowledge
 from executive.language.answers import named, picked
 from executive.language.meaning import Answer, Refusal, Request, Said, Unread
-from executive.language.wording import Wording
+from executive.language.wording import Wording, beginning
 from executive.records import Activity, Utterance
 from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.situation import candidates_from
@@ -296,8 +296,7 @@ class AskWhereToPut(Ask):
         if self._tries:
             text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
         else:
-            why = self.unresolved()
-            text = f"{why[:1].upper()}{why[1:]}. {text}"
+            text = f"{beginning(self.unresolved())}. {text}"
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
 
     def understood(self, answer: str) -> bool:
@@ -351,7 +350,7 @@ class Report(Step):
         said = printable(
             self._text.format(
                 the_object=the,
-                The_object=the[:1].upper() + the[1:],
+                The_object=beginning(the),
                 is_=say.is_(name),
                 it=say.it(name),
                 at=say.at_in_full(found.place) if found else "nowhere",

@@ -10,7 +10,6 @@ from py_trees.common import Status
 from executive.language.answers import picked
 from executive.language.wording import either
 from executive.types import (
-    DELIVERY,
     PERSON,
     SOMETHING,
     Command,
@@ -22,6 +21,7 @@ from executive.types import (
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
 from trees.person import NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
+from trees.recall import is_here
 from trees.telling import NEXT_TO, TO_THE_PERSON, tell
 
 BESIDE = ("under ", NEXT_TO)
@@ -189,8 +189,7 @@ class GoalIsKnown(Step):
         if not named:
             return self.fail(unknown(self.context))
         if options_in(self.context):
-            may_be = self.context.say.any_of(named)
-            return self.fail(f"'{self.context.as_said(goal)}' may be {may_be}")
+            return self.fail(may_be(self.context, goal, named))
         goes = self.situation.request.asks_to(CommandKind.GO)
         self.situation.request.goals = named if goes else best_first(self.context, named)
         return self.succeed(", ".join(self.situation.request.goals))
@@ -274,8 +273,7 @@ class AskWhereTo(Ask):
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
         if options := options_in(self.context):
-            chosen = picked(self.context.interpreter.read(answer), options)
-            named = chosen or tuple(p for p in places_in(self.context, answer) if p in options)
+            named = chosen_of(self.context, answer, options)
             if len(named) != 1:
                 return False
         else:
@@ -286,8 +284,7 @@ class AskWhereTo(Ask):
     def unresolved(self) -> str:
         """What is not known."""
         if options := options_in(self.context):
-            goal = self.context.as_said(goal_words(self.context))
-            return f"'{goal}' may be {self.context.say.any_of(options)}"
+            return may_be(self.context, goal_words(self.context), options)
         return unknown(self.context)
 
 
@@ -340,7 +337,7 @@ def neighbours(context: MissionContext) -> tuple[str, ...]:
 def known_at(context: MissionContext, thing: str) -> tuple[str, ...]:
     """Where a thing is, as far as the robot remembers."""
     known = context.facts.places_of(thing)
-    return tuple(p for p in known if p == DELIVERY or context.knowledge.has_place(p))
+    return tuple(p for p in known if is_here(context, p))
 
 
 def not_seen_yet(context: MissionContext) -> str:
@@ -367,6 +364,17 @@ def may_be_several(context: MissionContext, words: str) -> bool:
     """Whether words for one place leave open which; "the desk or the sofa" means both."""
     parts = re.split(r"\bor\b", words)
     return not all(is_one(context, places_in(context, part)) for part in parts)
+
+
+def may_be(context: MissionContext, words: str, options: Sequence[str]) -> str:
+    """That nobody knows which of these places words mean, as a clause."""
+    return f"'{context.as_said(words)}' may be {context.say.any_of(options)}"
+
+
+def chosen_of(context: MissionContext, answer: str, options: Sequence[str]) -> tuple[str, ...]:
+    """Those of the places that were offered which an answer means."""
+    chosen = picked(context.interpreter.read(answer), options)
+    return chosen or tuple(place for place in places_in(context, answer) if place in options)
 
 
 def unknown(context: MissionContext) -> str:

@@ -1,5 +1,6 @@
 """What the robot says while it acts: where it drives, with what, and why it goes on."""
 
+from executive.language.wording import beginning
 from executive.types import DELIVERY, PERSON, CommandKind
 from trees.context import MissionContext
 
@@ -19,7 +20,7 @@ def on_to_the_next(context: MissionContext) -> str:
         return f"Not here; on to {there}."
     name = context.situation.request.object or ""
     why = search.looks.why_not(name, before, say)
-    return f"{why[:1].upper()}{why[1:]}; on to {there}."
+    return f"{beginning(why)}; on to {there}."
 
 
 def on_the_way(context: MissionContext, place: str) -> str:

@@ -25,7 +25,7 @@ class Recall(Step):
         """Recall it."""
         assert self.situation.request.object
         places = dict.fromkeys(self.knows.places_of(self.situation.request.object))
-        here = filter(self._is_here, places)
+        here = (place for place in places if is_here(self.context, place))
         new = self.worth_a_visit(candidates_from(here, self.knows.name))
         if not new:
             return self.fail(self.unknown(self.context.say.the(self.situation.request.object)))
@@ -40,8 +40,10 @@ class Recall(Step):
         """That the source does not help, as a clause."""
         return f"the {self.knows.name} names no place to look for {thing}"
 
-    def _is_here(self, place: str) -> bool:
-        return place == DELIVERY or self.context.knowledge.has_place(place)
+
+def is_here(context: MissionContext, place: str) -> bool:
+    """Whether this home has the place; the table by the person is in no home file."""
+    return place == DELIVERY or context.knowledge.has_place(place)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,7 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.language.wording import either
+from executive.language.wording import beginning, either
 from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Source
@@ -183,7 +183,7 @@ class SayNotThere(Step):
         said = f"{say.are(name)} not {either(say.at_each(places))}"
         if not all(map(search.looks.all_without, places)):
             said = search.so_far(name, say)
-        tell(self.context, f"{said[0].upper()}{said[1:]}. I look further.")
+        tell(self.context, f"{beginning(said)}. I look further.")
         return self.fail(said)
 
 

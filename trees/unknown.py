@@ -2,15 +2,14 @@
 
 from collections.abc import Sequence
 
-from executive.language.wording import either
+from executive.language.wording import beginning, either
 from executive.types import OtherColor
 from trees.context import MissionContext
 
 
 def unknown(context: MissionContext, words: str) -> str:
     """That nothing is what was asked for, as a sentence without its full stop."""
-    said = unresolved(context, words, ())
-    return said[:1].upper() + said[1:]
+    return beginning(unresolved(context, words, ()))
 
 
 def unresolved(context: MissionContext, words: str, offered: Sequence[str]) -> str:

@@ -124,12 +124,7 @@ def learning(
         return None
     from kb.experience import Experience as Learned  # most missions do without
 
-    known = frozenset(knowledge.objects())
-
-    def class_of(name: str) -> str:
-        return next(iter(knowledge.classes_of(name)), "") if name in known else ""
-
-    return Learned(facts, class_of, now)
+    return Learned(facts, knowledge.class_of, now)
 
 
 def read_ontology(settings: Settings, home: Home) -> Ontology:

@@ -34,6 +34,8 @@ _QUESTIONS = {
 }
 _DEEDS = [_QUESTIONS.get(kind) or kind.replace("_", " ") for kind in CommandKind]
 CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one after the other"
+NOT_KNOWN_WHAT = "I hear '{}', and do not understand the rest."
+"""Said of a negation that is about nothing that there is to do."""
 UNTOLD = "I cannot tell you that so far."
 COURTESIES = {
     Courtesy.HELLO: "Hello!",

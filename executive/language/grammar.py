@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 from itertools import chain
 
-from executive.language.commands import agrees, commands_in, talk
+from executive.language.commands import NOT_KNOWN_WHAT, agrees, commands_in, talk
 from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread
 from executive.language.reader import english
 from executive.language.slips import without_slips
@@ -51,25 +51,22 @@ class EnglishInterpreter:
 
     def _read(self, words: str, spoken: Spoken, holds: bool) -> Commands | str | None:
         """The tasks; or what to say; nothing to say if somebody else may read it."""
-        read = commands_in(resolved(self._reader.read(words), spoken, holds=holds), words)
-        names = _names_in(read) if isinstance(read, tuple) else []
-        if self._is_other_language(words, names):
-            read = None
-        if denial := self._denial(words, names, is_read=read is not None):
-            return f"I do nothing: I hear '{denial}', and do not understand the rest."
-        return read
+        said = resolved(self._reader.read(words), spoken, holds=holds)
+        read, denial = self._with_denial(said, words)
+        return f"I do nothing: {NOT_KNOWN_WHAT.format(denial)}" if denial else read
 
     def denial(self, words: str) -> str:
         """A word among them that denies, if it is not known what; empty if there is none."""
-        read = commands_in(self._reader.read(words), words)
-        names = _names_in(read) if isinstance(read, tuple) else []
-        is_read = read is not None and not self._is_other_language(words, names)
-        return self._denial(words, names, is_read=is_read)
+        return self._with_denial(self._reader.read(words), words)[1]
 
-    def _denial(self, words: str, names: Sequence[str], *, is_read: bool) -> str:
-        """The same, of words in which these names were read."""
+    def _with_denial(self, said: Said, words: str) -> tuple[Commands | str | None, str]:
+        """What is made of words that were read so; and a word that denies, it is not known what."""
+        read = commands_in(said, words)
+        names = _names_in(read) if isinstance(read, tuple) else []
+        if self._is_other_language(words, names):
+            read = None
         denial = next(filter(None, map(self._reader.denial_in_name, names)), "")
-        return denial or ("" if is_read else self._reader.denial(words))
+        return read, denial or ("" if read is not None else self._reader.denial(words))
 
     def _is_other_language(self, words: str, names: Iterable[str]) -> bool:
         """Whether what was read as English is not, but for names that are known in any language."""

@@ -87,6 +87,11 @@ class Wording:
         return _OURS.get(name) or self._called(name) or Called(name.replace("_", " "))
 
 
+def beginning(text: str) -> str:
+    """A clause as a sentence begins."""
+    return text[:1].upper() + text[1:]
+
+
 def either(words: Sequence[str]) -> str:
     """One of these: "apple, pear or mug"."""
     return _joined(words, "or")

@@ -59,9 +59,7 @@ class Ranker:
         """Every object with the places of this home that its default locations stand for."""
         ontology = self._ontology
         return {
-            name: Known(
-                name, (*ontology.classes_of(name), "")[0], tuple(ontology.likely_places(name))
-            )
+            name: Known(name, ontology.class_of(name), tuple(ontology.likely_places(name)))
             for name in ontology.objects()
         }
 

@@ -256,6 +256,14 @@ class Ontology:
         _, *above = self._graph.upwards(self._thing(name))
         return tuple(self._graph.label(c) for c in above if c != _class("Object"))
 
+    def class_of(self, name: str) -> str:
+        """What the nearest class of an object is called; empty if it has none, or is unknown."""
+        return next(iter(self.classes_of(name)), "") if name in self._object_names else ""
+
+    @cached_property
+    def _object_names(self) -> frozenset[str]:
+        return frozenset(self.objects())
+
     def synonyms(self, name: str) -> tuple[str, ...]:
         """Other names of an object or a class, in any language."""
         return self._graph.called(self._thing(name)).synonyms

@@ -6,7 +6,6 @@ from dataclasses import replace
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.language.answers import picked
 from executive.language.phrases import is_plural
 from executive.language.wording import listed
 from executive.types import CommandKind, Outcome, Question, QuestionKind, TaskOutcome
@@ -14,7 +13,7 @@ from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Check, Step, fallback, sequence
 from trees.person import Ask, places_in
-from trees.places import destination_of_all, may_be_several
+from trees.places import chosen_of, destination_of_all, may_be, may_be_several
 from trees.survey import not_seen, nothing_there, survey
 from trees.telling import tell
 
@@ -67,15 +66,15 @@ class AskWhichToClear(Ask):
 
     def question(self) -> Question:
         """Offer them."""
-        options, said = which_to_clear(self.context), self._said()
+        options = which_to_clear(self.context)
+        said = self.context.as_said(self._words())
         text = f"Which {said} do you mean: {self.context.say.any_of(options)}?"
         return Question(QuestionKind.WHERE_TO_GO, "", text, options)
 
     def understood(self, answer: str) -> bool:
         """Any of those that were offered."""
-        options, request = which_to_clear(self.context), self.situation.request
-        chosen = picked(self.context.interpreter.read(answer), options)
-        chosen = chosen or tuple(p for p in places_in(self.context, answer) if p in options)
+        request = self.situation.request
+        chosen = chosen_of(self.context, answer, which_to_clear(self.context))
         assert request.command
         if chosen:
             request.command = replace(request.command, source=" or ".join(chosen))
@@ -83,12 +82,11 @@ class AskWhichToClear(Ask):
 
     def unresolved(self) -> str:
         """It is not known which."""
-        options = which_to_clear(self.context)
-        return f"'{self._said()}' may be {self.context.say.any_of(options)}"
+        return may_be(self.context, self._words(), which_to_clear(self.context))
 
-    def _said(self) -> str:
+    def _words(self) -> str:
         assert self.situation.request.command
-        return self.context.as_said(self.situation.request.command.source)
+        return self.situation.request.command.source
 
 
 class PutEachAway(Step):

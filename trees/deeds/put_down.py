@@ -40,9 +40,10 @@ def empty_hand(context: MissionContext) -> Behaviour:
     situation = context.situation
 
     def sent_to() -> Iterator[str]:
-        last = situation.agenda.ended[-1:]
-        if last and last[0].kind == CommandKind.GO and situation.dialogue.at in last[0].goals:
-            yield from (p for p in [situation.dialogue.at] if context.knowledge.has_place(p))
+        last, at = situation.agenda.ended[-1:], situation.dialogue.at
+        was_sent = last and last[0].kind == CommandKind.GO and at in last[0].goals
+        if was_sent and context.knowledge.has_place(at):
+            yield at
 
     def choose(place: str) -> None:
         situation.hand.surface = place
