@@ -47,3 +47,17 @@ def transform(pose: Pose, points: Floats) -> Floats:
     """Points (n, 3) from the child frame of `pose` to its parent frame."""
     moved: Floats = Rotation.from_quat(pose.orientation).apply(points) + pose.position
     return moved
+
+
+def pose_from(position: Floats, turn: Rotation) -> Pose:
+    """A pose at this position (3,; metres), turned so."""
+    x, y, z = (float(one) for one in position)
+    a, b, c, d = (float(one) for one in turn.as_quat())
+    return Pose((x, y, z), (a, b, c, d))
+
+
+def seen_from(one: Pose, other: Pose) -> Pose:
+    """`other` in the frame `one`, if both are in the same frame."""
+    back = Rotation.from_quat(one.orientation).inv()
+    offset = np.subtract(other.position, one.position)
+    return pose_from(back.apply(offset), back * Rotation.from_quat(other.orientation))

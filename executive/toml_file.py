@@ -7,6 +7,7 @@ later is refused here: large files, deep nesting, numbers of more than 64 bits.
 import re
 import tomllib
 from datetime import date, time
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -66,6 +67,12 @@ def parse_toml(content: bytes, where: str) -> dict[str, Any]:
         raise InputError(where, "has a number or a date that cannot be", "see toml.io") from None
     _check(tables, where)
     return tables
+
+
+def packaged(package: str, folder: str) -> tuple[str, ...]:
+    """Names of the TOML files that come with the project in a folder of a package."""
+    entries = files(package).joinpath(folder).iterdir()
+    return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
 
 
 def in_words(said: str) -> str:

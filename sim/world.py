@@ -16,11 +16,12 @@ from sim.body.hardware import Hardware
 from sim.body.laser import Laser
 from sim.body.skill import CONTROL_S, Thinker
 from sim.bullet.bodies import (
-    SETTLING_STEPS,
     build_home,
     frame_pose,
     home_entities,
     place_objects,
+    put_at,
+    settle,
 )
 from sim.bullet.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
 from sim.bullet.client import aim_window, connect
@@ -223,12 +224,8 @@ class PhysicsWorld:
             pose = full.model_copy(update={"objects": here}).object_pose(name)
         except NoRoomError:
             return False
-        offset = self._client.getDynamicsInfo(body, -1)[3]
-        middle = Rotation.from_quat(pose.orientation).apply(offset) + pose.position
-        self._client.resetBasePositionAndOrientation(body, middle, pose.orientation)
-        self._client.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))
-        for _ in range(SETTLING_STEPS):
-            self._client.stepSimulation()
+        put_at(self._client, body, pose)
+        settle(self._client)
         return True
 
     # --- physics ---

@@ -7,7 +7,7 @@ from itertools import islice
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats
+from executive.geometry import Floats, pose_from
 from executive.ros.arm import Hold
 from executive.types import Detection, Pose
 from sim.home.home import Home
@@ -50,7 +50,7 @@ class KnownThings:
         for tilt in TILTS:
             for grasp in varied(find_grasps(model, thing, facing, tilt), WAYS):
                 for hand in grasp.hands:
-                    yield Hold(_pose(hand.position, hand.rotation), grasp.gap, thing)
+                    yield Hold(pose_from(hand.position, hand.rotation), grasp.gap, thing)
 
     def spots(self, place: str, label: str, seen: Floats) -> Sequence[Pose]:
         """Where on a place the thing can stand, the handiest first."""
@@ -62,9 +62,3 @@ class KnownThings:
             for surface in piece.surfaces()
             for spot in islice(free_spots(piece, surface, model, seen), SPOTS)
         )
-
-
-def _pose(position: Floats, turn: Rotation) -> Pose:
-    x, y, z = (float(one) for one in position)
-    a, b, c, d = (float(one) for one in turn.as_quat())
-    return Pose((x, y, z), (a, b, c, d))

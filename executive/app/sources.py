@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -12,6 +13,8 @@ from executive.interfaces import PlaceSource
 from executive.records import Recalled, SourceAnswer
 from executive.text import printable
 from executive.types import Source
+
+T = TypeVar("T")
 
 TAKEN = frozenset({*Source, ANYWHERE, PLAN, "person", "eyes"})
 """Whose word something is in logs and outcomes besides."""
@@ -99,8 +102,7 @@ class RecordedSource:
 
     def places_of(self, name: str) -> tuple[str, ...]:
         """The next answer."""
-        left = self.answers.get(name, [()])
-        return left.pop(0) if len(left) > 1 else left[0]
+        return _next(self.answers, name)
 
 
 class RecordedExperience:
@@ -120,8 +122,13 @@ class RecordedExperience:
 
     def recalled(self, name: str) -> tuple[Statement, ...]:
         """The next answer."""
-        left = self._told.get(name, [()])
-        return left.pop(0) if len(left) > 1 else left[0]
+        return _next(self._told, name)
+
+
+def _next(answers: Mapping[str, list[tuple[T, ...]]], thing: str) -> tuple[T, ...]:
+    """The next answer about a thing: of several each is given once, but the last for ever."""
+    left = answers.get(thing, [()])
+    return left.pop(0) if len(left) > 1 else left[0]
 
 
 def statements_of(answer: Recalled) -> tuple[Statement, ...]:

@@ -65,8 +65,7 @@ class Gate:
     def let_go(self, number: int, words: str) -> bool:
         """Say these words in place of what waits; empty: say nothing. False if it waits no more."""
         with self._lock:
-            one = next((one for one in self._held if one.number == number), None)
-            if one is None:
+            if (one := self.find(number)) is None:
                 return False
             self._held.remove(one)
             if words != one.text:

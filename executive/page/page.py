@@ -1,7 +1,6 @@
 """The page as a whole: what is shown, who speaks, and the server between."""
 
 import secrets
-from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
@@ -13,6 +12,7 @@ from executive.language.phrases import spoken
 from executive.page.address import Address
 from executive.page.board import Board
 from executive.page.experiment.desk import Desk
+from executive.page.experiment.runs import Runs
 from executive.page.experiment.site import PUBLIC as EXPERIMENT_PUBLIC
 from executive.page.experiment.site import ROOT, experiment_site
 from executive.page.guarding import Guard, Site, parted
@@ -51,7 +51,7 @@ class Page:
         self.sink = PageSink(self.board)
         self.person = PagePerson(inbox, self.board)
         self._portraits = Portraits({})
-        self._runs: Path | None = None
+        self._runs: Runs | None = None
         guarded: Site = Guard(site(self), token, address.host, PUBLIC)
         self.desk = Desk() if address.experimenter else None
         """Behind the experimenter's page; None if there is none."""
@@ -90,7 +90,7 @@ class Page:
     def follow(self, session: "Session") -> None:
         """Show the home and the missions of this session."""
         home = session.parts.home
-        self._runs = session.settings.runs
+        self._runs = Runs(session.settings.runs)
         self._portraits = Portraits(home.drawn_models())
         self.board.put("home", plan(home))
         self.board.put("things", _things(session, self._portraits))
@@ -139,9 +139,9 @@ class Page:
         Raises:
             InputError: if there is no such run.
         """
-        if self._runs is None or run != Path(run).name or not (self._runs / run).is_dir():
+        if self._runs is None:
             raise InputError("run", "there is no such run")
-        return why_said(self._runs / run, time_s)
+        return why_said(self._runs.path(run), time_s)
 
 
 def _things(session: "Session", portraits: Portraits) -> dict[str, dict[str, Any]]:

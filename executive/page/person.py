@@ -86,7 +86,7 @@ class PagePerson(Console):
         line = one_line(writable(words))
         if not line:
             return
-        self._board.say({"who": "person", "text": line[:LONGEST], "at": time.time()})
+        self._show_said(line)
         self._typing.put(words)
 
     def answers(self, words: str, question: int, by: str = "") -> bool:
@@ -101,7 +101,7 @@ class PagePerson(Console):
             line = one_line(writable(words))[: LONGEST + 1]
             if by:
                 self._inbox.post(Intervened(by, Deed.ANSWER, self._question.text, line))
-            self._board.say({"who": "person", "text": line[:LONGEST], "at": time.time()})
+            self._show_said(line)
             self._lines.append(line)
             self._serve()
             return True
@@ -117,23 +117,24 @@ class PagePerson(Console):
             self._show_question()
         self._board.flush()
 
+    def _show_said(self, line: str) -> None:
+        self._board.say({"who": "person", "text": line[:LONGEST], "at": time.time()})
+
     def _shown(self, line: str) -> None:
-        """What the mission says may be held; what is said at once to who speaks, is not."""
-        entry = {"who": "robot", "text": line, "at": time.time(), **self._moment()}
+        """What the mission says may be held, and tells when it was said.
+
+        What is said at once to who speaks is not held, and was not decided in the mission.
+        """
+        entry = {"who": "robot", "text": line, "at": time.time()}
         if threading.get_ident() == self._ticking:
-            self.gate.say(entry)
+            self.gate.say({**entry, **self._moment()})
         else:
             self._board.say(entry)
 
     def _moment(self) -> dict[str, Any]:
-        """In which mission, if it is recorded, and when in it (mission time, s).
-
-        What is said at once to who speaks, before any tick, was not decided in the mission.
-        """
+        """In which mission, if it is recorded, and when in it (mission time, s)."""
         folder = self._session.folder if self._session else None
         if self._session is None or folder is None or folder == self._before:
-            return {}
-        if threading.get_ident() != self._ticking:
             return {}
         return {"run": folder.name, "time_s": round(self._session.parts.clock.now(), 3)}
 

@@ -2,10 +2,11 @@
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
@@ -15,6 +16,8 @@ from starlette.routing import Route
 
 from executive.errors import ExecutiveError
 from executive.page.board import Board
+
+T = TypeVar("T")
 
 MOST_BYTES = 8192
 """Of what a page sends: a thousand characters, however they are written."""
@@ -31,11 +34,15 @@ KINDS = {
     ".json": "application/json",
     ".svg": "image/svg+xml",
 }
-ASSETS = {
-    f"/{entry.name}": entry
-    for entry in files("executive.page").joinpath("assets").iterdir()
-    if Path(entry.name).suffix in KINDS
-}
+
+
+def assets_of(package: str, root: str = "") -> dict[str, Traversable]:
+    """The files in a package that browsers get, by their paths on the server."""
+    entries = files(package).joinpath("assets").iterdir()
+    return {f"{root}/{e.name}": e for e in entries if Path(e.name).suffix in KINDS}
+
+
+ASSETS = assets_of("executive.page")
 PUBLIC = frozenset(ASSETS)
 """What needs no token: it is the same for everyone."""
 
@@ -100,16 +107,13 @@ class _Answers:
 
     def __init__(self, behind: Behind) -> None:
         self._behind = behind
-        self._assets = {path: entry.read_bytes() for path, entry in ASSETS.items()}
+        self._files = Files(ASSETS)
 
     async def page(self, request: Request) -> Response:
-        return self._file("/index.html")
+        return self._files.at("/index.html")
 
     async def asset(self, request: Request) -> Response:
-        return self._file(request.url.path)
-
-    def _file(self, path: str) -> Response:
-        return Response(self._assets[path], media_type=KINDS[Path(path).suffix])
+        return self._files.at(request.url.path)
 
     async def events(self, request: Request) -> Response:
         return board_events(self._behind.board, request)
@@ -130,13 +134,11 @@ class _Answers:
         return JSONResponse({})
 
     async def why(self, request: Request) -> Response:
-        run = request.query_params.get("run", "")
-        try:
-            time_s = float(request.query_params.get("time_s", ""))
-            chain = await run_in_threadpool(self._behind.why, run, time_s)
-        except (ExecutiveError, ValueError) as error:
-            return JSONResponse({"error": str(error)}, 404)
-        return JSONResponse(chain)
+        return await answered(self._why, request)
+
+    def _why(self, request: Request) -> list[dict[str, object]]:
+        asked = request.query_params
+        return self._behind.why(asked.get("run", ""), float(asked.get("time_s", "")))
 
     async def camera(self, request: Request) -> Response:
         picture = self._behind.picture
@@ -145,6 +147,26 @@ class _Answers:
     async def thing(self, request: Request) -> Response:
         portrait = self._behind.portrait
         return _picture(await run_in_threadpool(portrait, request.path_params["name"]), PNG)
+
+
+class Files:
+    """Files that are kept at hand."""
+
+    def __init__(self, entries: Mapping[str, Traversable]) -> None:
+        """Read them, by their paths on the server."""
+        self._contents = {path: entry.read_bytes() for path, entry in entries.items()}
+
+    def at(self, path: str) -> Response:
+        """The one at this path."""
+        return Response(self._contents[path], media_type=KINDS[Path(path).suffix])
+
+
+async def answered(ask: Callable[[T], Any], given: T) -> Response:
+    """What a function says, which is asked in another thread, as JSON; or why it cannot."""
+    try:
+        return JSONResponse(await run_in_threadpool(ask, given))
+    except (ExecutiveError, ValueError, OSError) as error:
+        return JSONResponse({"error": str(error)}, 404)
 
 
 def board_events(board: Board, request: Request) -> Response:

@@ -11,13 +11,13 @@ from typing import Any, Protocol
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats
+from executive.geometry import Floats, pose_from, seen_from
 from executive.ros.link import GoalEnd
 from executive.ros.moveit import failure, to_joints, to_pose
 from executive.ros.profile import ArmAction, GripperAction, Profile
 from executive.ros.protocol import Message
 from executive.ros.senses import Senses
-from executive.types import Detection, Failed, Pose, Succeeded
+from executive.types import Detection, Failed, Pose, Succeeded, Vector3
 
 BACK_M, UP_M = 0.10, 0.10
 """So far before a grasp the straight last part begins; so high a thing is lifted."""
@@ -108,7 +108,7 @@ class Arm:
 
     async def _reach(self, hold: Hold) -> str:
         """Bring the open hand around the thing; why that could not be, or nothing."""
-        before = _shifted(hold.hand, _ahead(hold.hand, -BACK_M))
+        before = _back(hold.hand)
         if why := await self._move(before):
             return why
         if why := await self._move(hold.hand):
@@ -120,11 +120,11 @@ class Arm:
         why = await self._grip(self._gripper.closed)
         if why or not (self.holds or self._senses.holding):
             await self._grip(self._gripper.open)
-            await self._move(_shifted(hold.hand, _ahead(hold.hand, -BACK_M)))
+            await self._move(_back(hold.hand))
             await self.fold()
             return Failed(why or f"my hand closed without the {name}")
         self._held = name, hold
-        if why := await self._move(_shifted(hold.hand, np.array([0.0, 0.0, UP_M]))):
+        if why := await self._move(_shifted(hold.hand, (0.0, 0.0, UP_M))):
             return Failed(f"I cannot lift the {name}: {why}")
         if why := await self.fold():
             return Failed(f"I cannot carry the {name}: {why}")
@@ -139,7 +139,7 @@ class Arm:
         why = f"there is no room on the {place}"
         for spot in spots[:MOST_TRIES]:
             hand = _moved_with(hold, spot)
-            above = _shifted(hand, np.array([0.0, 0.0, ABOVE_M]))
+            above = _shifted(hand, (0.0, 0.0, ABOVE_M))
             why = await self._move(above) or await self._move(hand)
             if not why:
                 return await self._let_go(hand)
@@ -150,7 +150,7 @@ class Arm:
         if why := await self._grip(self._gripper.open):
             return Failed(f"my hand does not open: {why}")
         self._held = None
-        await self._move(_shifted(hand, _ahead(hand, -BACK_M)))
+        await self._move(_back(hand))
         await self.fold()
         return Succeeded()
 
@@ -172,7 +172,7 @@ class Arm:
         base = self._senses.base
         if base is None:
             return "nobody tells where I am"
-        arm, pose, self._is_out = self._arm, _seen_from(base, hand), True
+        arm, pose, self._is_out = self._arm, seen_from(base, hand), True
         return await self._motion(to_pose(arm.group, arm.tip, self._frames.base, pose, arm.speed))
 
     async def _motion(self, request: Message) -> str:
@@ -194,22 +194,14 @@ class Arm:
         return ""
 
 
-def _ahead(hand: Pose, distance: float) -> Floats:
-    """So far the way the hand points (metres, in `map`)."""
-    return np.asarray(Rotation.from_quat(hand.orientation).apply((0.0, 0.0, distance)))
+def _back(hand: Pose) -> Pose:
+    """Where the straight last part to there begins, and the way back from there ends."""
+    return _shifted(hand, Rotation.from_quat(hand.orientation).apply((0.0, 0.0, -BACK_M)))
 
 
-def _shifted(pose: Pose, offset: Floats) -> Pose:
+def _shifted(pose: Pose, offset: Floats | Vector3) -> Pose:
     x, y, z = (float(one) for one in np.add(pose.position, offset))
     return Pose((x, y, z), pose.orientation)
-
-
-def _seen_from(base: Pose, pose: Pose) -> Pose:
-    back = Rotation.from_quat(base.orientation).inv()
-    return _pose(
-        back.apply(np.subtract(pose.position, base.position)),
-        back * Rotation.from_quat(pose.orientation),
-    )
 
 
 def _moved_with(hold: Hold, spot: Pose) -> Pose:
@@ -217,13 +209,7 @@ def _moved_with(hold: Hold, spot: Pose) -> Pose:
     thing = Rotation.from_quat(hold.thing.orientation)
     turn = Rotation.from_quat(spot.orientation) * thing.inv()
     offset = np.subtract(hold.hand.position, hold.thing.position)
-    return _pose(
+    return pose_from(
         np.add(spot.position, turn.apply(offset)),
         turn * Rotation.from_quat(hold.hand.orientation),
     )
-
-
-def _pose(position: Floats, turn: Rotation) -> Pose:
-    x, y, z = (float(one) for one in position)
-    a, b, c, d = (float(one) for one in turn.as_quat())
-    return Pose((x, y, z), (a, b, c, d))

@@ -110,16 +110,20 @@ def typedefs(kind: str) -> list[dict[str, Any]]:
 
 
 def _typedef(kind: str, fields: tuple[Field, ...]) -> dict[str, Any]:
-    short = [f.kind.replace("/msg/", "/").replace("/action/", "/") for f in fields]
     return {
-        "type": kind.replace("/msg/", "/").replace("/action/", "/"),
+        "type": _short(kind),
         "fieldnames": [field.name for field in fields],
-        "fieldtypes": short,
+        "fieldtypes": [_short(field.kind) for field in fields],
         "fieldarraylen": [-1 if field.length is None else field.length for field in fields],
         "examples": [_example(field) for field in fields],
         "constnames": [],
         "constvalues": [],
     }
+
+
+def _short(kind: str) -> str:
+    """As rosapi calls it: without the middle part."""
+    return kind.replace("/msg/", "/").replace("/action/", "/")
 
 
 def _example(field: Field) -> str:

@@ -5,6 +5,7 @@ from collections import deque
 
 from scipy.spatial.transform import Rotation, Slerp
 
+from executive.geometry import pose_from, seen_from
 from executive.ros.messages import pose_of, stamp_of
 from executive.ros.protocol import Message
 from executive.types import Pose
@@ -68,7 +69,7 @@ class FrameTree:
         names = [name for name, _ in down]
         if within in names:
             return _joined([pose for _, pose in reversed(down[: names.index(within)])])
-        return _between(_whole(up), _whole(down))
+        return seen_from(_whole(up), _whole(down))
 
     def _chain(self, frame: str, stamp: float | None) -> list[tuple[str, Pose]] | None:
         """From the frame to its root, each with its pose in the next; the root's is nothing."""
@@ -134,17 +135,4 @@ def _joined(poses: list[Pose]) -> Pose:
 def _after(outer: Pose, inner: Pose) -> Pose:
     turn = Rotation.from_quat(outer.orientation)
     position = turn.apply(inner.position) + outer.position
-    return _pose(position, turn * Rotation.from_quat(inner.orientation))
-
-
-def _between(one: Pose, other: Pose) -> Pose:
-    """`other` as seen from `one`, both in the same frame."""
-    back = Rotation.from_quat(one.orientation).inv()
-    offset = [b - a for a, b in zip(one.position, other.position, strict=True)]
-    return _pose(back.apply(offset), back * Rotation.from_quat(other.orientation))
-
-
-def _pose(position: object, turn: Rotation) -> Pose:
-    x, y, z = (float(value) for value in position)  # type: ignore[attr-defined]
-    a, b, c, d = (float(value) for value in turn.as_quat())
-    return Pose((x, y, z), (a, b, c, d))
+    return pose_from(position, turn * Rotation.from_quat(inner.orientation))

@@ -13,6 +13,8 @@ from executive.types import Pose, Quaternion, Vector3
 
 NONE: Message = {"sec": 0, "nanosec": 0}
 """No time: whatever is newest."""
+UPRIGHT: Quaternion = (0.0, 0.0, 0.0, 1.0)
+"""Not turned."""
 
 
 # --- as they come ---

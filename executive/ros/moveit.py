@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from executive.ros.messages import header, pose_stamped
+from executive.ros.messages import UPRIGHT, header, pose_stamped
 from executive.ros.protocol import Message
 from executive.types import Pose
 
@@ -25,20 +25,20 @@ NEAR_M, NEAR_RAD = 0.005, 0.05
 
 def to_pose(group: str, tip: str, frame: str, pose: Pose, speed: float) -> Message:
     """A `MotionPlanRequest` for the tip to be at a pose in a frame."""
-    stamped = pose_stamped(pose.position, pose.orientation, frame)["pose"]
-    there = {**stamped, "orientation": dict(zip("xyzw", (0.0, 0.0, 0.0, 1.0), strict=True))}
+    there = pose_stamped(pose.position, pose.orientation, frame)["pose"]
+    upright = pose_stamped(pose.position, UPRIGHT, frame)["pose"]
     at = {
         "header": header(frame),
         "link_name": tip,
         "constraint_region": {
             "primitives": [{"type": _SPHERE, "dimensions": [NEAR_M]}],
-            "primitive_poses": [there],
+            "primitive_poses": [upright],
         },
         "weight": 1.0,
     }
     turned = {
         "header": header(frame),
-        "orientation": stamped["orientation"],
+        "orientation": there["orientation"],
         "link_name": tip,
         **{f"absolute_{axis}_axis_tolerance": NEAR_RAD for axis in "xyz"},
         "weight": 1.0,

@@ -14,7 +14,7 @@ from pydantic_core import ErrorDetails
 from executive.errors import InputError
 from executive.files import read_bytes
 from executive.ros.templates import GOALS, OFFERED, placeholders
-from executive.toml_file import MOST_BYTES, in_words, parse_toml
+from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml
 
 EXAMPLE = "see docs/own-robot.md"
 
@@ -300,8 +300,7 @@ class Profile(_Section):
 
 def packaged_profiles() -> tuple[str, ...]:
     """Names of the profiles that come with the project."""
-    entries = files("executive.ros").joinpath("profiles").iterdir()
-    return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
+    return packaged("executive.ros", "profiles")
 
 
 def profile_text(name_or_path: str) -> tuple[bytes, str]:

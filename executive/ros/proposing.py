@@ -13,6 +13,7 @@ ACTIONS = {
     "pick": ("executive_msgs/action/Pick",),
     "place": ("executive_msgs/action/Place",),
 }
+"""The types that each section may have, the best first."""
 ARM = {
     "arm": ("moveit_msgs/action/MoveGroup",),
     "gripper": (
@@ -20,12 +21,12 @@ ARM = {
         "control_msgs/action/GripperCommand",
     ),
 }
-"""The same, for a robot without actions of its own for picking up; what is theirs is asked for."""
+"""The same, for a robot without actions of its own for picking up."""
 UNKNOWN = {
     "arm": ("group", "tip", "carry"),
     "gripper": ("open", "closed", "effort", "opens_m"),
 }
-"""The types that each section may have, the best first."""
+"""What else these sections need, and no offer tells: it is asked for."""
 
 
 def proposal(offers: Offers, frames: Iterable[str]) -> str:

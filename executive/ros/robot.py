@@ -1,21 +1,25 @@
 """A robot over the wire: goals become goals of its own actions, as its profile names them."""
 
 import asyncio
-import math
-from collections.abc import Awaitable, Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping
 from datetime import datetime
 from typing import Any, Protocol
 
-import numpy as np
-
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.geometry import Floats, transform
+from executive.geometry import Floats
 from executive.guards import in_words
 from executive.ros.actions import Actions
 from executive.ros.arm import Arm, Hands
 from executive.ros.link import GoalEnd, Link, LinkError
-from executive.ros.messages import planar_pose, point_cloud, point_stamped, pose_stamped
+from executive.ros.looking import Looking
+from executive.ros.messages import (
+    UPRIGHT,
+    planar_pose,
+    point_cloud,
+    point_stamped,
+    pose_stamped,
+)
 from executive.ros.profile import Profile
 from executive.ros.senses import Senses
 from executive.ros.stopping import PARTS, Brake
@@ -31,15 +35,11 @@ from executive.types import (
     LookAt,
     Pick,
     Place,
-    Pose,
     PutDown,
     Succeeded,
     Vector3,
 )
 
-FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
-"""Where the robot looks for what fell: to the left of where it faces (radians)."""
-FLOOR_AHEAD_M = 0.9
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
 FACING_S = 0.5
@@ -98,6 +98,7 @@ class WireRobot:
         self._places = places
         self._inbox = inbox
         self._actions = Actions(link, profile)
+        self._looking = Looking(profile, senses, places.view_targets)
         self._link = link
         self._real = profile.clock is None or profile.clock.counts_while_idle
         self._request: int | None = None
@@ -131,12 +132,7 @@ class WireRobot:
 
     def views(self, place: str) -> int:
         """How many looks it takes to see all of a place."""
-        look = self._profile.look
-        if look is None:
-            return 1
-        if place == FLOOR:
-            return len(FLOOR_PANS) if look.views is None else 1
-        return look.views or len(self._places.view_targets(place))
+        return self._looking.views(place)
 
     def seconds(self, start: str, place: str) -> float:
         """How long a way takes, by the map of the home; the robot itself is not asked."""
@@ -285,53 +281,14 @@ class WireRobot:
             return Failed(f"I am not at the {place}")
         if not 0 <= view < self.views(place):
             return Failed(f"there are only {self.views(place)} views of the {place}")
-        target = point or self._targets(place)[view]
+        target = point or self._looking.targets(place)[view]
         if self._profile.look is not None:
-            end = await self._act("look", self._looking(place, target))
+            end = await self._act("look", self._looking.goal(place, target))
             if not end.succeeded:
                 return self._actions.failure(end, f"I cannot look at the {place}")
             if self._profile.look.type.endswith("/PointHead"):
                 return Succeeded()
         return await self._checked(place, target)
-
-    def _looking(self, place: str, target: Vector3) -> dict[str, Any]:
-        """What a goal of looking may consist of."""
-        look, frames = self._profile.look, self._profile.frames
-        assert look is not None
-        values: dict[str, Any] = {
-            "place": place,
-            "point": point_stamped(target, frames.map),
-            "camera": frames.camera,
-            "turn": self._turn(target),
-        }
-        if look.joints is not None:
-            mount = self._senses.frames.pose(frames.map, look.mount)
-            if mount is None:
-                raise LinkError(f"nobody tells where {look.mount} is in {frames.map}")
-            x, y, z = (float(one) for one in transform(mount, np.array([target]))[0])
-            angles = [math.atan2(y, x), math.atan2(-z, math.hypot(x, y))]
-            values |= {"joints": list(look.joints), "angles": angles}
-        return values
-
-    def _targets(self, place: str) -> Sequence[Vector3]:
-        """Points of `map` to look at, to see all of a place."""
-        if place != FLOOR:
-            return self._places.view_targets(place)
-        base = self._senses.base or Pose()
-        x, y, _ = base.position
-        yaw = _yaw(base)
-        return [
-            (x + FLOOR_AHEAD_M * math.cos(yaw + pan), y + FLOOR_AHEAD_M * math.sin(yaw + pan), 0.0)
-            for pan in FLOOR_PANS
-        ]
-
-    def _turn(self, target: Vector3) -> float:
-        """How far to turn to the left to face a point (radians); 0 if nobody tells where I am."""
-        base = self._senses.base
-        if base is None:
-            return 0.0
-        x, y, _ = base.position
-        return math.remainder(math.atan2(target[1] - y, target[0] - x) - _yaw(base), math.tau)
 
     async def _checked(self, place: str, target: Vector3) -> Succeeded | Failed:
         """Whether the robot faces what it is to look at, as far as its frames tell.
@@ -339,25 +296,11 @@ class WireRobot:
         They may come a little later than the end of the goal that turned it.
         """
         latest = asyncio.get_running_loop().time() + FACING_S
-        while self._away(target) > BESIDE_RAD:
+        while self._looking.away(target) > BESIDE_RAD:
             if asyncio.get_running_loop().time() > latest:
                 return Failed(f"I cannot turn to look at the {place}")
             await asyncio.sleep(0.02)
         return Succeeded()
-
-    def _away(self, target: Vector3) -> float:
-        """How far the camera, or the base if that turns, is turned away from a point (radians).
-
-        0 if nobody tells.
-        """
-        look, frames = self._profile.look, self._profile.frames
-        if look is None or look.joints is None or not frames.camera:
-            return abs(self._turn(target)) if self._senses.base is not None else 0.0
-        eye = self._senses.frames.pose(frames.map, frames.camera)
-        if eye is None:
-            return 0.0
-        x, y, z = (float(one) for one in transform(eye, np.array([target]))[0])
-        return math.atan2(math.hypot(x, y), z)
 
     # --- handling ---
 
@@ -377,7 +320,7 @@ class WireRobot:
             "confidence": detection.confidence,
             "cut_off": detection.cut_off,
             "point": point_stamped(point, within),
-            "pose": pose_stamped(point, (0.0, 0.0, 0.0, 1.0), within),
+            "pose": pose_stamped(point, UPRIGHT, within),
             "place": self._at or "",
         }
         end = await self._act("pick", values)
@@ -399,7 +342,7 @@ class WireRobot:
         values: dict[str, Any] = {
             "place": place,
             "point": point_stamped(point, within),
-            "pose": pose_stamped(point, (0.0, 0.0, 0.0, 1.0), within),
+            "pose": pose_stamped(point, UPRIGHT, within),
         }
         end = await self._act("place", values)
         if end.succeeded:
@@ -412,8 +355,3 @@ class WireRobot:
         if isinstance(looked, Failed):
             return looked
         return await arm.put_down(place, await self._see())
-
-
-def _yaw(pose: Pose) -> float:
-    x, y, z, w = pose.orientation
-    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))

@@ -109,7 +109,7 @@ class Hardware:
 
     @property
     def base_state(self) -> tuple[Floats, Floats]:
-        """Pose and velocity, as below."""
+        """Pose and velocity of the base at one moment."""
         return self._states(self._base)
 
     def joint_states(self) -> dict[str, tuple[float, float]]:

@@ -114,6 +114,14 @@ def frame_pose(client: BulletClient, body: int) -> Pose:
     return Pose(tuple(origin.tolist()), tuple(orientation))
 
 
+def put_at(client: BulletClient, body: int, pose: Pose) -> None:
+    """Have a body made by `create_body` be at rest with its frame at a pose in `map`."""
+    center_of_mass = client.getDynamicsInfo(body, -1)[3]
+    middle = Rotation.from_quat(pose.orientation).apply(center_of_mass) + pose.position
+    client.resetBasePositionAndOrientation(body, middle, pose.orientation)
+    client.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))
+
+
 def build_home(client: BulletClient, home: Home) -> dict[int, str]:
     """Put up floors, walls, furniture and the person; returns each body's name by its id."""
     return {create_body(client, shapes, pose): name for name, shapes, pose in _fixtures(home)}
@@ -129,9 +137,14 @@ def place_objects(
     """
     poses = home.object_poses()
     names = {create_object(client, models[name], pose): name for name, pose in poses.items()}
+    settle(client)
+    return names
+
+
+def settle(client: BulletClient) -> None:
+    """Let things that were put somewhere come to rest."""
     for _ in range(SETTLING_STEPS):
         client.stepSimulation()
-    return names
 
 
 def create_object(client: BulletClient, model: ObjectModel, pose: Pose) -> int:

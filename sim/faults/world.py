@@ -3,12 +3,11 @@
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, Shape
 from executive.types import Color, Pose
 from sim.body.skill import CONTROL_S
-from sim.bullet.bodies import create_body, frame_pose
+from sim.bullet.bodies import create_body, frame_pose, put_at
 from sim.engine import BulletClient, pybullet
 from sim.faults.hardware import FaultyHardware
 from sim.faults.injector import FaultInjector
@@ -83,11 +82,7 @@ class WorldFaults:
         body = self._bodies[fault.thing]
         if body in self._hardware.touched():
             return f"the robot has the {fault.thing}: it stays"
-        pose = fault.pose(self._home)
-        offset = self._client.getDynamicsInfo(body, -1)[3]
-        middle = Rotation.from_quat(pose.orientation).apply(offset) + pose.position
-        self._client.resetBasePositionAndOrientation(body, middle, pose.orientation)
-        self._client.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))
+        put_at(self._client, body, fault.pose(self._home))
         self._client.changeDynamics(body, -1, activationState=pybullet.ACTIVATION_STATE_WAKE_UP)
         return f"the {fault.thing} is taken to {fault.place}"
 

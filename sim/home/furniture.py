@@ -134,12 +134,16 @@ class Furniture(BaseModel):
         cos, sin = math.cos(yaw), math.sin(yaw)
         return x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1], point[2]
 
-    def is_below(self, point: Vector3) -> bool:
-        """Whether a point of `map` (metres) is within the outline, at whatever height."""
+    def from_map(self, point: Vector3) -> Vector3:
+        """A point of `map` in the furniture frame (metres)."""
         x, y, yaw = self.pose
         cos, sin = math.cos(yaw), math.sin(yaw)
         east, north = point[0] - x, point[1] - y
-        ahead, left = cos * east + sin * north, cos * north - sin * east
+        return cos * east + sin * north, cos * north - sin * east, point[2]
+
+    def is_below(self, point: Vector3) -> bool:
+        """Whether a point of `map` (metres) is within the outline, at whatever height."""
+        ahead, left, _ = self.from_map(point)
         return abs(ahead) <= self.size[0] / 2 and abs(left) <= self.size[1] / 2
 
     def frame(self) -> Pose:

@@ -23,7 +23,7 @@ from pydantic import (
 
 from executive.errors import InputError
 from executive.text import printable
-from executive.toml_file import in_words, parse_toml, read_toml
+from executive.toml_file import in_words, packaged, parse_toml, read_toml
 from sim.home.furniture import FORM_OF_KIND
 from sim.home.home import Home
 
@@ -107,8 +107,7 @@ class Move:
 
 def packaged_habits() -> tuple[str, ...]:
     """Names of the habits that come with the project."""
-    names = (entry.name for entry in files("sim").joinpath("habits").iterdir())
-    return tuple(sorted(n.removesuffix(".toml") for n in names if n.endswith(".toml")))
+    return packaged("sim", "habits")
 
 
 def load_habits(name_or_file: str, home: Home) -> Habits:

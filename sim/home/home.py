@@ -16,7 +16,7 @@ from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.files import decoded, read_bytes
-from executive.toml_file import MOST_BYTES, parse_toml
+from executive.toml_file import MOST_BYTES, packaged, parse_toml
 from executive.types import DELIVERY, PERSON, Place, Pose, Thing, Vector3
 from sim.home.arrangement import Spot, Standing, arrange
 from sim.home.floorplan import Door, Length, Room, Wall, walls
@@ -289,8 +289,7 @@ def home_text(name_or_path: str) -> str:
 
 def packaged_homes() -> tuple[str, ...]:
     """Names of the homes that come with the project."""
-    entries = files("sim").joinpath("homes").iterdir()
-    return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
+    return packaged("sim", "homes")
 
 
 def _read(name_or_path: str) -> tuple[bytes, str]:

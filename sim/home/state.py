@@ -78,10 +78,8 @@ def _fit_to(home: Home, state: HomeState, where: str) -> None:
     Raises:
         InputError: if a thing or a piece of furniture is unknown.
     """
-    models, pieces = (
-        home.models(),
-        {piece.name: piece for piece in (*home.furniture, home.delivery)},
-    )
+    models = home.models()
+    pieces = {piece.name: piece for piece in (*home.furniture, home.delivery)}
     right = "take the line out, or name another file"
     for name, spot in state.objects.items():
         if name not in models:
@@ -112,15 +110,12 @@ def spot_on(piece: Furniture, position: Vector3, yaw: float) -> Spot:
         position: of the thing's frame in `map` (metres).
         yaw: of the thing in `map` (radians).
     """
-    x, y, facing = piece.pose
-    east, north = position[0] - x, position[1] - y
-    ahead = math.cos(facing) * east + math.sin(facing) * north
-    left = math.cos(facing) * north - math.sin(facing) * east
+    ahead, left, height = piece.from_map(position)
     for index, surface in enumerate(piece.surfaces()):
         at = ahead - surface.center[0], left - surface.center[1]
         inside = abs(at[0]) <= surface.length_x / 2 and abs(at[1]) <= surface.length_y / 2
-        if inside and abs(position[2] - surface.center[2]) < STANDS_M:
-            turn = math.remainder(yaw - facing, math.tau)
+        if inside and abs(height - surface.center[2]) < STANDS_M:
+            turn = math.remainder(yaw - piece.pose[2], math.tau)
             return Spot(furniture=piece.name, surface=index, at=at, yaw=math.degrees(turn))
     return Spot(furniture=piece.name)
 

@@ -32,6 +32,8 @@ T = TypeVar("T")
 
 LONGEST = 2000
 """Of a line (characters): what is longer is read in the recording."""
+READ = (TreeShape, Tick, Utterance, EventTaken, LlmCall, Verified, Planned, Mishap, Finished)
+"""What is read of a recording for a reel."""
 STILL = ("INVALID", "")
 """How a behaviour is that was never ticked: its status and what it says."""
 
@@ -191,12 +193,11 @@ class Reel:
         Each with its status, what it says, and since when.
         """
         before = -1 if shown is None else shown
-        found = {}
-        for place, track in enumerate(self._states):
-            if (at := track.index(step)) != track.index(before):
-                state = track.values[at] if at >= 0 else STILL
-                found[place] = (*state, track.steps[at] if at >= 0 else -1)
-        return found
+        return {
+            place: (*self.state(place, step), self.since(place, step))
+            for place, track in enumerate(self._states)
+            if track.index(step) != track.index(before)
+        }
 
     def facts(self, step: int, shown: int | None) -> dict[str, Any]:
         """What the mission knew after a step, as far as it is not what it knew after another."""

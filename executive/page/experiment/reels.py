@@ -7,19 +7,8 @@ from pathlib import Path
 
 from executive.errors import ExecutiveError
 from executive.page.board import Board
-from executive.page.experiment.reel import Reel
-from executive.records import (
-    EventTaken,
-    Finished,
-    LlmCall,
-    Mishap,
-    Planned,
-    Record,
-    Tick,
-    TreeShape,
-    Utterance,
-    Verified,
-)
+from executive.page.experiment.reel import READ, Reel
+from executive.records import Record
 from logs.recorder import Stamp
 from logs.recording.reader import Run
 
@@ -27,7 +16,6 @@ MOST_KEPT = 4
 """Past runs: two side by side, and two before."""
 LIVE = "live"
 """What pages call the mission that runs, or that ran last."""
-READ = (TreeShape, Tick, Utterance, EventTaken, LlmCall, Verified, Planned, Mishap, Finished)
 
 
 class LiveReel:

@@ -1,26 +1,19 @@
 """What the server answers to the experimenter's page."""
 
 from collections.abc import Awaitable, Callable
-from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
 from starlette.applications import Starlette
-from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route
 
-from executive.errors import ExecutiveError, InputError
+from executive.errors import InputError
 from executive.page.experiment.desk import Desk
-from executive.page.site import KINDS, board_events, sent_json
+from executive.page.site import Files, answered, assets_of, board_events, sent_json
 
 ROOT = "/experiment"
-ASSETS = {
-    f"{ROOT}/{entry.name}": entry
-    for entry in files("executive.page.experiment").joinpath("assets").iterdir()
-    if Path(entry.name).suffix in KINDS
-}
+ASSETS = assets_of("executive.page.experiment", ROOT)
 PUBLIC = frozenset(ASSETS)
 """What needs no token: it is the same for everyone."""
 LONGEST = 300
@@ -49,12 +42,11 @@ def experiment_site(desk: Desk) -> Starlette:
         "intervene": desk.intervene,
         "view": lambda sent: desk.view(_text(sent, "run")),
     }
-    assets = {path: entry.read_bytes() for path, entry in ASSETS.items()}
+    assets = Files(ASSETS)
 
     async def file(request: Request) -> Response:
         path = request.url.path
-        path = f"{ROOT}/index.html" if path == ROOT else path
-        return Response(assets[path], media_type=KINDS[Path(path).suffix])
+        return assets.at(f"{ROOT}/index.html" if path == ROOT else path)
 
     async def events(request: Request) -> Response:
         return board_events(desk.board, request)
@@ -74,23 +66,16 @@ def experiment_site(desk: Desk) -> Starlette:
 
 def _asking(ask: Callable[[Request], Any]) -> Answer:
     async def answer(request: Request) -> Response:
-        return await _answered(ask, request)
+        return await answered(ask, request)
 
     return answer
 
 
 def _telling(tell: Callable[[dict[str, Any]], Any]) -> Answer:
     async def answer(request: Request) -> Response:
-        return await _answered(tell, await sent_json(request))
+        return await answered(tell, await sent_json(request))
 
     return answer
-
-
-async def _answered(do: Callable[[Any], Any], given: Any) -> Response:
-    try:
-        return JSONResponse(await run_in_threadpool(do, given))
-    except (ExecutiveError, ValueError, OSError) as error:
-        return JSONResponse({"error": str(error)}, 404)
 
 
 def _word(request: Request, name: str) -> str:
