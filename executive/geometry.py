@@ -61,3 +61,11 @@ def seen_from(one: Pose, other: Pose) -> Pose:
     back = Rotation.from_quat(one.orientation).inv()
     offset = np.subtract(other.position, one.position)
     return pose_from(back.apply(offset), back * Rotation.from_quat(other.orientation))
+
+
+def carried_by(one: Pose, other: Pose) -> Pose:
+    """`other`, told in the frame `one`, in the frame that `one` is told in."""
+    turn = Rotation.from_quat(one.orientation)
+    return pose_from(
+        turn.apply(other.position) + one.position, turn * Rotation.from_quat(other.orientation)
+    )

@@ -11,7 +11,6 @@ from executive.types import (
     FLOOR,
     DriveTo,
     Failed,
-    Goal,
     Halt,
     LookAt,
     Pick,
@@ -24,10 +23,11 @@ from sim.body.base import CARRYING, FREE, brake
 from sim.body.hardware import Hardware
 from sim.body.head import hold_head, look_at
 from sim.body.skill import CannotError, Skill, Thinker, pause, wait_until
-from sim.goals import Face, GoTo
+from sim.goals import AnyGoal, Face, GoTo, Grip, MoveHand, MoveJoints
 from sim.home.home import FLOOR_VIEWS, PERSON, Home, PlanarPose
 from sim.manipulation.hand import LostError
 from sim.manipulation.manipulator import Manipulator
+from sim.manipulation.motions import Motions
 from sim.navigation.durations import Durations
 from sim.navigation.grid import Unreachable
 from sim.navigation.navigator import Navigator
@@ -53,6 +53,7 @@ class SimulatedRobot:
         navigator: Navigator,
         durations: Durations,
         manipulator: Manipulator,
+        motions: Motions,
         home: Home,
         inbox: Inbox,
         thinker: Thinker,
@@ -62,6 +63,7 @@ class SimulatedRobot:
         self._navigator = navigator
         self._durations = durations
         self._manipulator = manipulator
+        self._motions = motions
         self._home = home
         self._inbox = inbox
         self._thinker = thinker
@@ -84,7 +86,7 @@ class SimulatedRobot:
         """How long the way takes by the map, with an empty hand; infinite if there is none."""
         return self._durations.seconds(start, place)
 
-    def start(self, goal: Goal | GoTo | Face) -> int:
+    def start(self, goal: AnyGoal) -> int:
         """Pursue a goal; ends Succeeded, or Failed with a reason."""
         if self._request is not None:
             self._inbox.end(self._request, Failed("replaced by another goal"))
@@ -166,7 +168,7 @@ class SimulatedRobot:
 
     # --- skills ---
 
-    def _skill_for(self, goal: Goal | GoTo | Face) -> Skill:
+    def _skill_for(self, goal: AnyGoal) -> Skill:
         match goal:
             case DriveTo(place):
                 return self._drive(place)
@@ -182,6 +184,12 @@ class SimulatedRobot:
                 return self._put_down(place)
             case Halt():
                 return self._rest()
+            case MoveHand():
+                return self._motions.move_hand(goal)
+            case MoveJoints():
+                return self._motions.move_joints(goal)
+            case Grip():
+                return self._motions.grip(goal)
 
     def _drive(self, place: str) -> Skill:
         self._check(place)
@@ -192,7 +200,7 @@ class SimulatedRobot:
         yield from brake(self._hardware)
         yield from self._manipulator.stow()
         self._at = None
-        limits = CARRYING if self._manipulator.hand.held else FREE
+        limits = CARRYING if self._manipulator.hand.grips else FREE
         try:
             for _ in self._navigator.go(pose, limits):
                 self._manipulator.hand.feel()

@@ -34,6 +34,7 @@ from sim.home.arrangement import NoRoomError, Spot
 from sim.home.home import Home
 from sim.home.state import spot_on
 from sim.manipulation.manipulator import Manipulator
+from sim.manipulation.motions import Motions
 from sim.manipulation.planning import PlanningWorld
 from sim.navigation.durations import durations_in
 from sim.navigation.grid import OccupancyGrid
@@ -110,9 +111,10 @@ class PhysicsWorld:
         thinker = Thinker(inbox)
         navigator = Navigator(self._hardware, laser, grid, recorder, self._time, thinker)
         manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan, thinker)
+        motions = Motions(self._hardware, self._planning, manipulator.hand, thinker)
         durations = durations_in(home, grid)
         self.robot = SimulatedRobot(
-            self._hardware, navigator, durations, manipulator, home, inbox, thinker
+            self._hardware, navigator, durations, manipulator, motions, home, inbox, thinker
         )
         self._inbox = inbox
         self._waits = False

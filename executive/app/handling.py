@@ -1,15 +1,22 @@
-"""How known things are held and where they can stand, for a robot with motions but no skills."""
+"""How known things are held, where they can stand and what is around them.
 
+For a robot that has motions, but no skills.
+"""
+
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cached_property
 from itertools import islice
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats, pose_from
-from executive.ros.arm import Hold
-from executive.types import Detection, Pose
+from executive.geometry import Floats, carried_by, pose_from
+from executive.records import Shape
+from executive.ros.arm import Hold, Planar
+from executive.ros.moveit import Obstacle
+from executive.types import Detection, Pose, Vector3
 from sim.home.home import Home
 from sim.objects.objects import ObjectModel
 
@@ -17,6 +24,8 @@ EYE_M = 1.2
 """Things are seen from about so high above the base."""
 WAYS, SPOTS = 4, 8
 """So many different grasps of each tilt of the hand, and so many spots of a surface, are told."""
+AROUND_M = 2.5
+"""Furniture that is farther away is not in an arm's way."""
 
 
 class KnownThings:
@@ -46,11 +55,12 @@ class KnownThings:
 
         eye = np.add(base.position, (0.0, 0.0, EYE_M))
         thing = fit_pose(model, detection.points.astype(np.float64), eye)
+        box = _box(model)
         facing = float(Rotation.from_quat(base.orientation).as_euler("ZYX")[0])
         for tilt in TILTS:
             for grasp in varied(find_grasps(model, thing, facing, tilt), WAYS):
                 for hand in grasp.hands:
-                    yield Hold(pose_from(hand.position, hand.rotation), grasp.gap, thing)
+                    yield Hold(pose_from(hand.position, hand.rotation), grasp.gap, thing, box)
 
     def spots(self, place: str, label: str, seen: Floats) -> Sequence[Pose]:
         """Where on a place the thing can stand, the handiest first."""
@@ -62,3 +72,34 @@ class KnownThings:
             for surface in piece.surfaces()
             for spot in islice(free_spots(piece, surface, model, seen), SPOTS)
         )
+
+    def stances(
+        self, place: str | None, point: Vector3, base: Pose, near_m: float
+    ) -> Sequence[Planar]:
+        """Opposite the point, before the front edge of the place; or around it, on the floor."""
+        from sim.manipulation.reaching import floor_poses, standing_poses
+
+        target = np.array(point)
+        if place is None:
+            yaw = Rotation.from_quat(base.orientation).as_euler("ZYX")[0]
+            poses = floor_poses(np.array([*base.position[:2], yaw]), target)
+        else:
+            poses = standing_poses(self._home.furniture_named(place), target, near_m)
+        return [(float(x), float(y), float(yaw)) for x, y, yaw in poses]
+
+    def obstacles(self, base: Pose) -> Sequence[Obstacle]:
+        """The furniture around, as it is built."""
+        x, y, _ = base.position
+        pieces = (*self._home.furniture, self._home.delivery)
+        return [
+            Obstacle(piece.name, replace(shape, pose=carried_by(piece.frame(), shape.pose)))
+            for piece in pieces
+            if math.dist(piece.pose[:2], (x, y)) < AROUND_M
+            for shape in piece.shapes()
+        ]
+
+
+def _box(model: ObjectModel) -> Shape:
+    """What a thing fits into, in its own frame."""
+    x, y, z = ((low + high) / 2 for low, high in zip(model.lower, model.upper, strict=True))
+    return Shape("box", model.size, (0.0, 0.0, 0.0, 1.0), Pose((x, y, z)))

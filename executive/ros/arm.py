@@ -11,9 +11,10 @@ from typing import Any, Protocol
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats, pose_from, seen_from
+from executive.geometry import Floats, carried_by, pose_from, seen_from
+from executive.records import Shape
 from executive.ros.link import GoalEnd
-from executive.ros.moveit import failure, to_joints, to_pose
+from executive.ros.moveit import Load, Obstacle, failure, scene, to_joints, to_pose
 from executive.ros.profile import ArmAction, GripperAction, Profile
 from executive.ros.protocol import Message
 from executive.ros.senses import Senses
@@ -23,11 +24,17 @@ BACK_M, UP_M = 0.10, 0.10
 """So far before a grasp the straight last part begins; so high a thing is lifted."""
 MOST_TRIES = 6
 """So many ways to grasp are reached for."""
+MOST_STANCES = 3
+"""To so many places to stand it is driven, until it gets to one."""
 ABOVE_M = 0.12
 """So far above where it is to stand a thing is brought first."""
 
 Act = Callable[[str, Mapping[str, Any]], Awaitable[GoalEnd]]
 """Has an action of a section pursue a goal."""
+Planar = tuple[float, float, float]
+"""x and y (metres) and yaw (radians) in `map`."""
+Go = Callable[[Planar], Awaitable[str]]
+"""Drives to a pose; returns why that failed, or nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,15 +45,20 @@ class Hold:
         hand: the point between the fingers in `map`; z points out of the hand, y to a finger.
         gap: how far the fingers have to be open (metres).
         thing: where the thing is in `map` then.
+        box: what the thing fits into, in the thing's frame.
     """
 
     hand: Pose
     gap: float
     thing: Pose
+    box: Shape
 
 
 class Hands(Protocol):
-    """Knows how things are held and where they can stand. Not called on the wire's thread."""
+    """Knows how things are held, where they can stand, and what is around.
+
+    Not called on the wire's thread.
+    """
 
     def grasps(self, detection: Detection, base: Pose) -> Sequence[Hold]:
         """Ways to hold what is seen, the best first; none if there is no model of it."""
@@ -54,6 +66,16 @@ class Hands(Protocol):
 
     def spots(self, place: str, label: str, seen: Floats) -> Sequence[Pose]:
         """Where on a place the thing can stand, among the points (n, 3) that are seen."""
+        ...
+
+    def stances(
+        self, place: str | None, point: Vector3, base: Pose, near_m: float
+    ) -> Sequence[Planar]:
+        """Where to stand to reach a point on a place, or on the floor (None); the best first."""
+        ...
+
+    def obstacles(self, base: Pose) -> Sequence[Obstacle]:
+        """What an arm on this base has to keep clear of."""
         ...
 
 
@@ -68,11 +90,21 @@ class NoHands:
         """None."""
         return ()
 
+    def stances(
+        self, place: str | None, point: Vector3, base: Pose, near_m: float
+    ) -> Sequence[Planar]:
+        """None."""
+        return ()
+
+    def obstacles(self, base: Pose) -> Sequence[Obstacle]:
+        """None."""
+        return ()
+
 
 class Arm:
     """Belongs to the thread of the wire."""
 
-    def __init__(self, profile: Profile, senses: Senses, hands: Hands, act: Act) -> None:
+    def __init__(self, profile: Profile, senses: Senses, hands: Hands, act: Act, go: Go) -> None:
         """The hand is believed to be as the profile's `[hand]` tells, if it does."""
         assert profile.arm is not None
         assert profile.gripper is not None
@@ -82,20 +114,21 @@ class Arm:
         self._senses = senses
         self._hands = hands
         self._act = act
+        self._go = go
         self.holds: bool | None = None
         """By what the gripper said last; None: it was not asked yet."""
         self._held: tuple[str, Hold] | None = None
         self._is_out = False
 
-    async def pick(self, detection: Detection) -> Succeeded | Failed:
-        """Take a thing that is seen."""
-        name, base = detection.label, self._senses.base
-        if base is None:
-            return Failed("nobody tells where I am")
-        found = await asyncio.to_thread(self._hands.grasps, detection, base)
-        ways = [hold for hold in found if hold.gap <= self._gripper.opens_m]
-        if not ways:
+    async def pick(self, detection: Detection, place: str | None) -> Succeeded | Failed:
+        """Take a thing that is seen on a place, or on the floor (None)."""
+        name = detection.label
+        if not await self._ways(detection):
             return Failed(f"I know no way to grasp the {name}")
+        middle = np.median(detection.points.astype(np.float64), axis=0)
+        if why := await self._come_near(place, middle):
+            return Failed(f"I do not get near the {name}: {why}")
+        ways = await self._ways(detection)
         if why := await self._grip(self._gripper.open):
             return Failed(f"my hand does not open: {why}")
         self._held, why = None, ""
@@ -106,13 +139,35 @@ class Arm:
         await self.fold()
         return Failed(f"I cannot reach the {name}: {why}")
 
+    async def _ways(self, detection: Detection) -> list[Hold]:
+        """To grasp it from where the robot stands, as far as the hand opens; the best first."""
+        if (base := self._senses.base) is None:
+            return []
+        found = await asyncio.to_thread(self._hands.grasps, detection, base)
+        return [hold for hold in found if hold.gap <= self._gripper.opens_m]
+
+    async def _come_near(self, place: str | None, point: Floats) -> str:
+        """Drive to where the point is in reach; why that could not be, or nothing."""
+        base, near_m = self._senses.base, self._arm.near_m
+        if near_m is None or base is None:
+            return ""
+        x, y, z = (float(one) for one in point)
+        stances = self._hands.stances
+        found = await asyncio.to_thread(stances, place, (x, y, z), base, near_m)
+        why = ""
+        for stance in found[:MOST_STANCES]:
+            why = await self._go(stance)
+            if not why:
+                return ""
+        return why
+
     async def _reach(self, hold: Hold) -> str:
         """Bring the open hand around the thing; why that could not be, or nothing."""
         before = _back(hold.hand)
         if why := await self._move(before):
             return why
-        if why := await self._move(hold.hand):
-            await self._move(before)
+        if why := await self._move(hold.hand, straight=True):
+            await self._move(before, straight=True)
             return why
         return ""
 
@@ -120,11 +175,11 @@ class Arm:
         why = await self._grip(self._gripper.closed)
         if why or not (self.holds or self._senses.holding):
             await self._grip(self._gripper.open)
-            await self._move(_back(hold.hand))
+            await self._move(_back(hold.hand), straight=True)
             await self.fold()
             return Failed(why or f"my hand closed without the {name}")
         self._held = name, hold
-        if why := await self._move(_shifted(hold.hand, (0.0, 0.0, UP_M))):
+        if why := await self._move(_shifted(hold.hand, (0.0, 0.0, UP_M)), straight=True):
             return Failed(f"I cannot lift the {name}: {why}")
         if why := await self.fold():
             return Failed(f"I cannot carry the {name}: {why}")
@@ -137,10 +192,12 @@ class Arm:
         name, hold = self._held
         spots = await asyncio.to_thread(self._hands.spots, place, name, seen)
         why = f"there is no room on the {place}"
+        if spots and (away := await self._come_near(place, np.array(spots[0].position))):
+            return Failed(f"I do not get near the {place}: {away}")
         for spot in spots[:MOST_TRIES]:
             hand = _moved_with(hold, spot)
             above = _shifted(hand, (0.0, 0.0, ABOVE_M))
-            why = await self._move(above) or await self._move(hand)
+            why = await self._move(above) or await self._move(hand, straight=True)
             if not why:
                 return await self._let_go(hand)
         await self.fold()
@@ -150,7 +207,7 @@ class Arm:
         if why := await self._grip(self._gripper.open):
             return Failed(f"my hand does not open: {why}")
         self._held = None
-        await self._move(_back(hand))
+        await self._move(_back(hand), straight=True)
         await self.fold()
         return Succeeded()
 
@@ -168,15 +225,32 @@ class Arm:
 
     # --- goals ---
 
-    async def _move(self, hand: Pose) -> str:
+    async def _move(self, hand: Pose, straight: bool = False) -> str:
         base = self._senses.base
         if base is None:
             return "nobody tells where I am"
         arm, pose, self._is_out = self._arm, seen_from(base, hand), True
-        return await self._motion(to_pose(arm.group, arm.tip, self._frames.base, pose, arm.speed))
+        planner = arm.straight if straight else ""
+        return await self._motion(
+            to_pose(arm.group, arm.tip, self._frames.base, pose, arm.speed, planner), straight
+        )
 
-    async def _motion(self, request: Message) -> str:
-        end = await self._act("arm", {"request": request})
+    def _load(self, touches: bool) -> Load | None:
+        """What MoveIt is told of what is in the hand."""
+        if self._held is None or touches or not self._gripper.links:
+            return None
+        _, hold = self._held
+        pose = seen_from(hold.hand, carried_by(hold.thing, hold.box.pose))
+        return Load(hold.box.size, pose, self._arm.tip, self._gripper.links)
+
+    async def _motion(self, request: Message, touches: bool = False) -> str:
+        """Have MoveIt do it; if what is held touches what it stands on, that has to be allowed."""
+        base = self._senses.base
+        if base is None:
+            return "nobody tells where I am"
+        around = await asyncio.to_thread(self._hands.obstacles, base)
+        diff = scene(around, base, self._frames.base, self._load(touches))
+        end = await self._act("arm", {"request": request, "scene": diff})
         why = failure(end.values)
         return why or ("" if end.succeeded else end.reason or "my arm did not get there")
 

@@ -49,6 +49,9 @@ nav2_msgs/action/NavigateToPose_Feedback:
 control_msgs/action/PointHead_Feedback: double pointing_angle_error
 executive_msgs/action/Pick_Feedback: builtin_interfaces/msg/Duration elapsed
 executive_msgs/action/Place_Feedback: builtin_interfaces/msg/Duration elapsed
+moveit_msgs/action/MoveGroup_Feedback: string state
+control_msgs/action/GripperCommand_Feedback:
+    double position, double effort, boolean stalled, boolean reached_goal
 """
 
 

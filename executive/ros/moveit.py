@@ -1,32 +1,105 @@
-"""Goals of MoveIt 2's `MoveGroup`, and why one failed."""
+"""Goals of MoveIt 2's `MoveGroup`, what is around it for it, and why one failed."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
+from executive.geometry import seen_from
+from executive.records import Shape
 from executive.ros.messages import UPRIGHT, header, pose_stamped
 from executive.ros.protocol import Message
-from executive.types import Pose
+from executive.types import Pose, Vector3
 
-DONE = 1
+DONE, NO_PLAN, NOT_FOLLOWED, NO_IK = 1, -1, -4, -31
 """`moveit_msgs/msg/MoveItErrorCodes`."""
 REASONS: Mapping[int, str] = {
-    -1: "I found no motion to there",
+    NO_PLAN: "I found no motion to there",
     -2: "I found no motion to there",
-    -4: "my arm could not follow its motion",
+    NOT_FOLLOWED: "my arm could not follow its motion",
     -6: "it took too long to find a motion",
     -10: "my arm touches something where it is",
     -12: "I would touch something there",
-    -31: "I cannot reach there",
+    NO_IK: "I cannot reach there",
 }
 PLANNING_S, ATTEMPTS = 5.0, 5
-_SPHERE = 2
+_BOX, _SPHERE, _CYLINDER = 1, 2, 3
+"""`shape_msgs/msg/SolidPrimitive`."""
 NEAR_M, NEAR_RAD = 0.005, 0.05
 """How exactly the tip gets to where it is sent."""
 
 
-def to_pose(group: str, tip: str, frame: str, pose: Pose, speed: float) -> Message:
-    """A `MotionPlanRequest` for the tip to be at a pose in a frame."""
-    there = pose_stamped(pose.position, pose.orientation, frame)["pose"]
-    upright = pose_stamped(pose.position, UPRIGHT, frame)["pose"]
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """A solid part of something that stands in the home; its pose is in `map`."""
+
+    name: str
+    shape: Shape
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What is in the hand: a box, as the point between the fingers sees it.
+
+    Attributes:
+        size: its lengths (metres).
+        pose: of its middle, in the frame `tip`.
+        touched: the links that touch it.
+    """
+
+    size: Vector3
+    pose: Pose
+    tip: str
+    touched: Sequence[str]
+
+
+def scene(around: Iterable[Obstacle], base: Pose, frame: str, load: Load | None = None) -> Message:
+    """A `PlanningScene` that adds to what MoveIt knows: all in the robot's own frames.
+
+    So nothing has to be known of `map` there, and nothing stays there after the goal.
+    """
+    solids = [
+        _solid(f"{one.name}_{number}", one.shape, seen_from(base, one.shape.pose), frame)
+        for number, one in enumerate(around)
+    ]
+    held = [] if load is None else [_attached(load)]
+    return {
+        "is_diff": True,
+        "robot_state": {"is_diff": True, "attached_collision_objects": held},
+        "world": {"collision_objects": solids},
+    }
+
+
+def _solid(name: str, shape: Shape, pose: Pose, frame: str) -> Message:
+    x, y, z = shape.size
+    box = {"type": _BOX, "dimensions": [x, y, z]}
+    round_one = {"type": _CYLINDER, "dimensions": [z, x / 2]}
+    return {
+        "header": header(frame),
+        "id": name,
+        "primitives": [round_one if shape.kind == "cylinder" else box],
+        "primitive_poses": [_pose(pose, frame)],
+    }
+
+
+def _attached(load: Load) -> Message:
+    shape = Shape("box", load.size, (0.0, 0.0, 0.0, 1.0))
+    return {
+        "link_name": load.tip,
+        "object": _solid("held", shape, load.pose, load.tip),
+        "touch_links": list(load.touched),
+    }
+
+
+def _pose(pose: Pose, frame: str) -> Message:
+    found: Message = pose_stamped(pose.position, pose.orientation, frame)["pose"]
+    return found
+
+
+def to_pose(
+    group: str, tip: str, frame: str, pose: Pose, speed: float, planner: str = ""
+) -> Message:
+    """A `MotionPlanRequest` for the tip to be at a pose in a frame; by a PIPELINE/PLANNER."""
+    there = _pose(pose, frame)
+    upright = _pose(Pose(pose.position, UPRIGHT), frame)
     at = {
         "header": header(frame),
         "link_name": tip,
@@ -43,9 +116,12 @@ def to_pose(group: str, tip: str, frame: str, pose: Pose, speed: float) -> Messa
         **{f"absolute_{axis}_axis_tolerance": NEAR_RAD for axis in "xyz"},
         "weight": 1.0,
     }
-    return _request(
-        group, {"position_constraints": [at], "orientation_constraints": [turned]}, speed
-    )
+    constraints = {"position_constraints": [at], "orientation_constraints": [turned]}
+    request = _request(group, constraints, speed)
+    if not planner:
+        return request
+    pipeline, _, name = planner.partition("/")
+    return {**request, "pipeline_id": pipeline, "planner_id": name}
 
 
 def to_joints(group: str, joints: Mapping[str, float], speed: float) -> Message:

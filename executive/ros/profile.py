@@ -125,12 +125,25 @@ class ArmAction(Action):
         tip: the frame of the point between the fingers; z points out of the hand, y to a finger.
         carry: positions of the joints in which things are carried (radians, metres).
         speed: part of the greatest one.
+        near_m: how near the front edge of furniture the middle of the robot stands to reach for
+            what is on it (metres); left out: it reaches from where it stopped to look.
+        straight: PIPELINE/PLANNER that moves the hand in a straight line, for the last part; left
+            out: MoveIt's default planner does that, too.
     """
 
     group: Annotated[str, Field(min_length=1)]
     tip: Annotated[str, Field(min_length=1)]
     carry: dict[str, Annotated[float, Field(ge=-100, le=100)]] = Field(min_length=1)
     speed: Annotated[float, Field(gt=0, le=1)] = 0.2
+    near_m: Annotated[float, Field(ge=0.1, le=2)] | None = None
+    straight: str = ""
+
+    @field_validator("straight")
+    @classmethod
+    def _pipeline_and_planner(cls, value: str) -> str:
+        if value and not all(value.partition("/")):
+            raise ValueError("should be like pilz_industrial_motion_planner/LIN")
+        return value
 
 
 class GripperAction(Action):
@@ -142,6 +155,8 @@ class GripperAction(Action):
         effort: the greatest one (as the action has it).
         joint: for ParallelGripperCommand: the joint's name.
         opens_m: how far it opens (metres).
+        links: of the hand, which touch what is held: MoveIt then keeps that clear of the furniture,
+            too; left out: it knows nothing of it.
     """
 
     open: float
@@ -149,6 +164,7 @@ class GripperAction(Action):
     effort: float
     joint: str = ""
     opens_m: Annotated[float, Field(gt=0, le=1)]
+    links: tuple[str, ...] = ()
 
     @model_validator(mode="after")
     def _opens_and_has_a_joint(self) -> Self:

@@ -103,7 +103,7 @@ class WireRobot:
         self._real = profile.clock is None or profile.clock.counts_while_idle
         self._request: int | None = None
         self._task: asyncio.Task[None] | None = None
-        self._arm = Arm(profile, senses, hands, self._act) if profile.arm else None
+        self._arm = Arm(profile, senses, hands, self._act, self._go) if profile.arm else None
         self._at: str | None = None
         self._spent = 0.0
         self._began: float | None = None
@@ -254,6 +254,12 @@ class WireRobot:
         self._at = place
         return Succeeded()
 
+    async def _go(self, pose: tuple[float, float, float]) -> str:
+        """Drive there, near where the robot is; why that failed, or nothing."""
+        where = planar_pose(*pose, self._profile.frames.map)
+        end = await self._act("drive", {"pose": where, "place": self._at or ""})
+        return "" if end.succeeded else self._actions.failure(end, "I cannot drive there").reason
+
     def _stand(self, place: str) -> tuple[float, float, float] | None:
         try:
             return self._places.stand(place)
@@ -306,7 +312,7 @@ class WireRobot:
 
     async def _pick(self, detection: Detection) -> Succeeded | Failed:
         if self._arm is not None:
-            return await self._arm.pick(detection)
+            return await self._arm.pick(detection, self._at)
         if self._profile.pick is None:
             return Failed("I have no arm")
         within = self._profile.frames.map

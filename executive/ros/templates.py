@@ -19,7 +19,12 @@ GOALS: Mapping[str, Mapping[str, Any]] = {
     },
     "moveit_msgs/action/MoveGroup": {
         "request": "$request",
-        "planning_options": {"plan_only": False, "replan": True, "replan_attempts": 2},
+        "planning_options": {
+            "planning_scene_diff": "$scene",
+            "plan_only": False,
+            "replan": True,
+            "replan_attempts": 2,
+        },
     },
     "control_msgs/action/GripperCommand": {
         "command": {"position": "$position", "max_effort": "$effort"}
@@ -41,7 +46,7 @@ OFFERED: Mapping[str, tuple[str, ...]] = {
     "look": ("point", "turn", "camera", "place", "joints", "angles"),
     "pick": ("label", "points", "confidence", "cut_off", "point", "pose", "place"),
     "place": ("point", "pose", "place"),
-    "arm": ("request",),
+    "arm": ("request", "scene"),
     "gripper": ("position", "effort", "joint"),
 }
 """What stands for what in a goal, by section: `$pose` and so on."""

@@ -88,6 +88,11 @@ class Hand:
         return self.touches or self._unfelt_s <= _UNFELT_S
 
     @property
+    def grips(self) -> bool:
+        """Whether it should hold something, or holds what it was not told of."""
+        return self.held is not None or self._unfelt_s <= _UNFELT_S
+
+    @property
     def wavers(self) -> bool:
         """Whether they do miss it for a moment, or have lost it."""
         return self.holding and not self.touches

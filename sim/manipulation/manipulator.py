@@ -101,7 +101,7 @@ class Manipulator:
     @property
     def handling(self) -> bool:
         """Whether the arm is out or something is in the hand."""
-        return self.hand.held is not None or not self._is_folded
+        return self.hand.grips or not self._is_folded
 
     @property
     def _is_folded(self) -> bool:

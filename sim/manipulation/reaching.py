@@ -32,7 +32,7 @@ COMFORT: Floats = np.array([0.15, 0.0, 0.1, 0.0, -2.0, 0.0, 2.1, 0.785])
 """The arm bent, hand pointing down before the robot: reaches end near it where they can."""
 _ELBOW_RIGHT: Floats = np.array([0.1, -0.7, 0.5, 0.9, -1.6, -0.4, 1.8, 0.785])
 _ELBOW_LEFT: Floats = np.array([0.1, 0.7, 0.5, -0.9, -1.6, 0.4, 1.8, 0.785])
-_POSTURES = ((COMFORT,), (_ELBOW_RIGHT, _ELBOW_LEFT))
+POSTURES = ((COMFORT,), (_ELBOW_RIGHT, _ELBOW_LEFT))
 """Near which reaches end, in order of preference: between boards there is more room beside the
 elbow than above the hand."""
 Aim = TypeVar("Aim")
@@ -80,13 +80,13 @@ class _LastPart:
     joints: list[Floats]
 
 
-def standing_poses(piece: Furniture, target: Floats) -> Iterator[Floats]:
+def standing_poses(piece: Furniture, target: Floats, near_m: float = NEAREST_M) -> Iterator[Floats]:
     """Poses (x, y, yaw) of the base from which a point on the furniture may be reached."""
     x, y, yaw = piece.pose
     out, left = np.array([np.cos(yaw), np.sin(yaw)]), np.array([-np.sin(yaw), np.cos(yaw)])
     along = float((target[:2] - (x, y)) @ left)
     for aside in ASIDE_M:
-        spot = np.array([x, y]) + (piece.size[0] / 2 + NEAREST_M) * out + (along + aside) * left
+        spot = np.array([x, y]) + (piece.size[0] / 2 + near_m) * out + (along + aside) * left
         yield np.append(spot, yaw + np.pi)
 
 
@@ -139,7 +139,7 @@ def choose_approach(
         start: joints of `ARM` to start from.
         options: gives what may be aimed at, and how; the best first.
     """
-    for postures in _POSTURES:
+    for postures in POSTURES:
         nearly: list[tuple[Aim, Approach, _LastPart]] = []
         for aim, approach in options():
             for last in _last_parts(world, approach, postures):
@@ -156,7 +156,7 @@ def choose_approach(
 
 def plan_reach(world: PlanningWorld, start: Floats, approach: Approach) -> Reach | None:
     """A collision-free motion, from joints `start` of `ARM`, by an approach that was chosen."""
-    for postures in _POSTURES:
+    for postures in POSTURES:
         lasts = list(_last_parts(world, approach, postures))
         for plan, last in product((clear_path, _roundabout), lasts):
             path = plan(world, approach.base, start, last.joints[0])

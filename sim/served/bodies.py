@@ -7,7 +7,7 @@ from executive.interfaces import Camera, SimulatedHome
 from executive.records import Transform
 from executive.types import FLOOR, PERSON, DriveTo, Goal, LookAt, Pose, Vector3
 from sim.fake import EYE_HEIGHT_M, SPEED_M_S, FakeRobot, FakeWorld
-from sim.goals import Face, GoTo
+from sim.goals import AnyGoal, Face, GoTo, Grip, MoveHand, MoveJoints
 from sim.home.home import Home, PlanarPose
 
 if TYPE_CHECKING:  # it takes long to import, and the instant world does without
@@ -45,7 +45,7 @@ class Body(Protocol):
         """Let at most so many seconds pass; return how many."""
         ...
 
-    def start(self, goal: Goal | GoTo | Face) -> int:
+    def start(self, goal: AnyGoal) -> int:
         """Pursue a goal."""
         ...
 
@@ -70,6 +70,11 @@ class Body(Protocol):
     @property
     def holding(self) -> bool:
         """Whether both fingers touch a thing."""
+        ...
+
+    @property
+    def gap(self) -> float:
+        """Between the fingers (metres)."""
         ...
 
     def joints(self) -> Joints:
@@ -132,6 +137,11 @@ class PhysicsBody:
         """By touch."""
         return self._robot.holding
 
+    @property
+    def gap(self) -> float:
+        """By the encoders of the fingers."""
+        return self.world.hardware.gap
+
 
 class FakeBody:
     """Implements Body in the instant world, where the robot glides from place to place."""
@@ -145,9 +155,9 @@ class FakeBody:
         self.advance = world.advance
         self.close = world.close
 
-    def start(self, goal: Goal | GoTo | Face) -> int:
-        """Pursue a goal; no head can be turned here but to a place."""
-        assert not isinstance(goal, Face)
+    def start(self, goal: AnyGoal) -> int:
+        """Pursue a goal; no head can be turned here but to a place, and there is no arm to move."""
+        assert not isinstance(goal, Face | MoveHand | MoveJoints | Grip)
         return self._robot.start(goal)
 
     @property
@@ -179,6 +189,11 @@ class FakeBody:
     def holding(self) -> bool:
         """Whether it has a thing."""
         return self._robot.holding
+
+    @property
+    def gap(self) -> float:
+        """It has no fingers."""
+        return 0.0
 
     def joints(self) -> Joints:
         """It has none that move."""

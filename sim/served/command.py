@@ -7,7 +7,7 @@ from executive.errors import InputError
 from executive.options import add_setting
 from executive.shell import DONE
 from executive.text import printable
-from sim.served.ordered import FASTEST, PORT
+from sim.served.ordered import FASTEST, MOVEIT, PORT, SKILLS
 
 
 def add_serving(commands: "argparse._SubParsersAction[Any]") -> None:
@@ -20,6 +20,13 @@ def add_serving(commands: "argparse._SubParsersAction[Any]") -> None:
     add_setting(serve, "home", default="four_rooms", help="name or FILE.toml (default: four_rooms)")
     world = {"choices": ["physics", "fake"], "default": "physics"}
     serve.add_argument("--world", **world, help="PyBullet, or instant (default: physics)")
+    serve.add_argument(
+        "--arm",
+        choices=[SKILLS, MOVEIT],
+        default=SKILLS,
+        help="picks up and puts down by itself, or offers MoveIt 2's motions and a gripper: "
+        f"profile served_moveit2 (default: {SKILLS})",
+    )
     add_setting(serve, "place")
     add_setting(serve, "fault")
     add_setting(serve, "seed", default=0, help="of the world and of what goes wrong (default: 0)")
@@ -49,10 +56,13 @@ def _serve(options: argparse.Namespace) -> int:
         )
     if options.seed < 0:
         raise InputError(f"--seed {options.seed}", "is negative")
+    if options.arm == MOVEIT and options.world != "physics":
+        raise InputError(f"--arm {MOVEIT}", "the instant world has no arm", "leave out --world")
     home = load_home(options.home).with_placement(options.place or {})
     plan = Plan(
         home,
         world=options.world,
+        arm=options.arm,
         faults=options.fault or (),
         seed=options.seed,
         port=options.port,

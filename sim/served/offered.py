@@ -1,5 +1,7 @@
 """What the served robot is called over the wire: its topics and actions, and their types."""
 
+from dataclasses import replace
+
 from executive.ros.graph import Graph
 
 NODE = "/robot_executive_sim"
@@ -18,6 +20,7 @@ STATE = (CLOCK, TF_STATIC, TF, ODOMETRY, JOINTS, TOUCH)
 DRIVE = "/navigate_to_pose"
 LOOK = "/head_controller/point_head_action"
 PICK, PLACE = "/pick", "/place"
+ARM, GRIPPER = "/move_action", "/gripper_controller/gripper_cmd"
 
 GRAPH = Graph(
     node=NODE,
@@ -40,3 +43,15 @@ GRAPH = Graph(
         PLACE: "executive_msgs/action/Place",
     },
 )
+"""A robot that picks up and puts down by itself."""
+
+_MOVING = {name: kind for name, kind in GRAPH.actions.items() if name not in (PICK, PLACE)}
+MOTIONS = replace(
+    GRAPH,
+    actions={
+        **_MOVING,
+        ARM: "moveit_msgs/action/MoveGroup",
+        GRIPPER: "control_msgs/action/GripperCommand",
+    },
+)
+"""The same robot, whose arm and fingers only move: what it takes, and how, is told from outside."""

@@ -10,26 +10,30 @@ from dataclasses import dataclass, field
 
 from executive.events import Ended, Inbox
 from executive.ros.goals import Goal
+from executive.ros.moveit import DONE, NO_IK, NO_PLAN, NOT_FOLLOWED
 from executive.ros.packets import PacketError
 from executive.ros.protocol import GoalStatus, Message
 from executive.ros.server import Server
 from executive.types import DriveTo, Failed, Halt, Result
-from executive.types import Goal as Wanted
-from sim.goals import Face, GoTo
+from sim.goals import NO_MOTION, UNREACHABLE, AnyGoal, GoTo
 from sim.home.home import Home
 from sim.served.bodies import Body
 from sim.served.messages import MAP, header, planar_pose, time_message
-from sim.served.offered import DRIVE, LOOK, PICK, PLACE
+from sim.served.offered import ARM, DRIVE, GRIPPER, LOOK, PICK, PLACE
 from sim.served.requests import Reader
 
 FAILED = 1
 """`error_code` of a goal that was not reached."""
+ERROR_CODES = {NO_MOTION: NO_PLAN, UNREACHABLE: NO_IK}
+"""MoveIt's, of what the arm says."""
+THIN_M = 0.002
+"""So near to where they are sent, the fingers are there."""
 
 
 @dataclass(eq=False)
 class _Pursuit:
     goal: Goal
-    wanted: Wanted | GoTo | Face
+    wanted: AnyGoal
     began_ns: int
 
 
@@ -54,11 +58,13 @@ class Pursuits:
         self._server = server
         self._tell_state = tell_state
         reader = Reader(home, body.look)
-        self._readers: dict[str, Callable[[Message], Wanted | GoTo | Face]] = {
+        self._readers: dict[str, Callable[[Message], AnyGoal]] = {
             DRIVE: reader.drive,
             LOOK: reader.point_head,
             PICK: reader.pick,
             PLACE: reader.place,
+            ARM: reader.move,
+            GRIPPER: reader.grip,
         }
         self._open: dict[int, _Pursuit] = {}
         self._halting: _Halting | None = None
@@ -103,12 +109,13 @@ class Pursuits:
             self._tell_state()
             failed = isinstance(result, Failed)
             status = GoalStatus.ABORTED if failed else GoalStatus.SUCCEEDED
-            self._server.end(pursuit.goal, status, _values(pursuit.goal, result))
+            self._server.end(pursuit.goal, status, self._values(pursuit.goal, result))
         elif self._halting is not None and self._halting.request == request:
             self._tell_state()
             goals, self._halting = self._halting.goals, None
             for goal in goals:
-                self._server.end(goal, GoalStatus.CANCELED, _values(goal, Failed("cancelled")))
+                values = self._values(goal, Failed("cancelled"))
+                self._server.end(goal, GoalStatus.CANCELED, values)
 
     def _feedback(self, pursuit: _Pursuit, time_ns: int) -> Message:
         passed = time_message(time_ns - pursuit.began_ns)
@@ -117,8 +124,6 @@ class Pursuits:
                 goal = self._home.stand(place)
             case GoTo(x, y, yaw):
                 goal = (x, y, yaw)
-            case Face():
-                return {}
             case _:
                 return {"elapsed": passed} if pursuit.goal.action in (PICK, PLACE) else {}
         here = self._body.pose
@@ -129,9 +134,27 @@ class Pursuits:
             "distance_remaining": math.dist(here[:2], goal[:2]),
         }
 
+    def _values(self, goal: Goal, result: Result) -> Message:
+        """The result of its action."""
+        failed = result if isinstance(result, Failed) else None
+        if goal.action == GRIPPER:
+            return self._grip(goal)
+        if goal.action == ARM:
+            code = ERROR_CODES.get(failed.reason, NOT_FOLLOWED) if failed else DONE
+            return {"error_code": {"val": code}}
+        reason = failed.reason if failed else ""
+        error = {"error_code": FAILED if failed else 0, "error_msg": reason}
+        if goal.action in (PICK, PLACE):
+            return {**error, "lost": failed is not None and failed.lost}
+        return error
 
-def _values(goal: Goal, result: Result) -> Message:
-    """The result of its action."""
-    reason, lost = (result.reason, result.lost) if isinstance(result, Failed) else ("", False)
-    error = {"error_code": FAILED if reason else 0, "error_msg": reason}
-    return {**error, "lost": lost} if goal.action in (PICK, PLACE) else error
+    def _grip(self, goal: Goal) -> Message:
+        """As a gripper tells it: something that keeps it from closing has it stall."""
+        gap, wanted = self._body.gap, goal.args["command"]
+        reached = abs(gap - wanted["position"]) < THIN_M
+        return {
+            "position": gap,
+            "effort": wanted.get("max_effort", 0.0),
+            "stalled": not reached,
+            "reached_goal": reached,
+        }

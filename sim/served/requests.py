@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from executive.records import Shape
 from executive.ros.packets import PacketError, octets
 from executive.ros.protocol import Message
-from executive.types import Box, Detection, Goal, Pick, PutDown, Vector3
-from sim.goals import Face, GoTo
+from executive.types import Box, Detection, Goal, Pick, Pose, PutDown, Quaternion, Vector3
+from sim.goals import Face, GoTo, Grip, MoveHand, MoveJoints
 from sim.home.home import Home
 from sim.served.bodies import Body, drive
 from sim.served.messages import MAP
@@ -24,6 +25,14 @@ FARTHEST_M = 1000.0
 """No coordinate is farther from the map's origin."""
 MOST_POINTS = 1_000_000
 MOST_TEXT = 200
+MOST_JOINTS = 100
+GROUP, TIP, STRAIGHT = "arm", "panda_grasptarget", "LIN"
+"""MoveIt's names of what moves, of the point between the fingers, and of its straight planner."""
+BASE = "base_link"
+WIDEST_M, STRONGEST_N, WIDEST_LOAD_M = 0.08, 70.0, 1.0
+"""Of the hand, and of what it can carry."""
+BOX = 1
+"""`shape_msgs/msg/SolidPrimitive`'s type."""
 _FIELDS = ("x", "y", "z")
 _FLOAT32 = 7
 """`sensor_msgs/msg/PointField`'s datatype."""
@@ -44,7 +53,7 @@ class Reader:
     def drive(self, goal: Message) -> Goal | GoTo:
         """`nav2_msgs/action/NavigateToPose`."""
         stamped = _table(goal, "pose")
-        _in_map(stamped)
+        _in_frame(stamped)
         pose = _table(stamped, "pose")
         x, y, _ = _vector(_table(pose, "position"))
         return drive(self.home, (x, y, _yaw(_table(pose, "orientation"))))
@@ -52,14 +61,14 @@ class Reader:
     def point_head(self, goal: Message) -> Goal | Face:
         """`control_msgs/action/PointHead`."""
         target = _table(goal, "target")
-        _in_map(target)
+        _in_frame(target)
         return self.look(_vector(_table(target, "point")))
 
     def pick(self, goal: Message) -> Goal:
         """`executive_msgs/action/Pick`: a name, and the points in `map` that were seen of it."""
         label, cloud = _text(goal, "label"), _table(goal, "points")
         if cloud.get("width", 0):
-            _in_map(cloud)
+            _in_frame(cloud)
         points = _points(cloud)
         mask = np.ones((1, 1), np.bool_)
         cut_off = goal.get("cut_off", False) is True
@@ -69,8 +78,88 @@ class Reader:
         """`executive_msgs/action/Place`: the name of a piece of furniture."""
         return PutDown(_text(goal, "place"))
 
+    def move(self, goal: Message) -> MoveHand | MoveJoints:
+        """`moveit_msgs/action/MoveGroup`: the tip to a pose in the base, or joints to positions.
+
+        Of what the goal adds to the planning scene, what is attached to the tip is heeded; what
+        stands around is not: the simulated planner has the map.
+        """
+        request, load = _table(goal, "request"), _load(goal)
+        if request.get("group_name") != GROUP:
+            raise PacketError(f"a goal for another group than {GROUP}")
+        speed = min(1.0, _number(request, "max_velocity_scaling_factor", 0.1)) or 0.1
+        if not speed > 0:
+            raise PacketError("a goal with a speed below zero")
+        wanted = _first(request, "goal_constraints")
+        if wanted.get("joint_constraints"):
+            return MoveJoints(_joints(wanted["joint_constraints"]), speed, load)
+        at, turned = (
+            _first(wanted, "position_constraints"),
+            _first(wanted, "orientation_constraints"),
+        )
+        for one in (at, turned):
+            if one.get("link_name") != TIP:
+                raise PacketError(f"a goal for another link than {TIP}")
+            _in_frame(one, BASE)
+        middle = _first(_table(at, "constraint_region"), "primitive_poses")
+        position = _vector(_table(middle, "position"))
+        pose = Pose(position, _quaternion(_table(turned, "orientation")))
+        return MoveHand(pose, speed, request.get("planner_id") == STRAIGHT, load)
+
+    def grip(self, goal: Message) -> Grip:
+        """`control_msgs/action/GripperCommand`: position is the gap between the fingers."""
+        command = _table(goal, "command")
+        gap, force = _number(command, "position"), _number(command, "max_effort", 0.0)
+        if not 0 <= gap <= WIDEST_M:
+            raise PacketError(f"a gap that is not from 0 to {WIDEST_M:g}")
+        return Grip(gap, min(max(force, 0.0), STRONGEST_N) or STRONGEST_N)
+
 
 # --- fields ---
+
+
+def _first(message: Message, name: str) -> Message:
+    """The only one of a list."""
+    value = message.get(name)
+    if not isinstance(value, list) or len(value) != 1 or not isinstance(value[0], dict):
+        raise PacketError(f"a goal that has not one of {name}")
+    return value[0]
+
+
+def _load(goal: Message) -> tuple[Shape, ...]:
+    """The boxes that are attached to the tip."""
+    state: Any = goal.get("planning_options")
+    for name in ("planning_scene_diff", "robot_state"):
+        state = state.get(name) if isinstance(state, dict) else None
+    held = state.get("attached_collision_objects") if isinstance(state, dict) else None
+    if not held:
+        return ()
+    one = _first(state, "attached_collision_objects")
+    if one.get("link_name") != TIP:
+        raise PacketError(f"a goal with a load on another link than {TIP}")
+    solid = _table(one, "object")
+    box, at = _first(solid, "primitives"), _first(solid, "primitive_poses")
+    lengths = box.get("dimensions")
+    if box.get("type") != BOX or not isinstance(lengths, list) or len(lengths) != 3:
+        raise PacketError("a goal with a load that is no box")
+    size = _vector(dict(zip("xyz", lengths, strict=True)))
+    if not all(0 < length <= WIDEST_LOAD_M for length in size):
+        raise PacketError(f"a goal with a load that is not within {WIDEST_LOAD_M:g} m")
+    pose = Pose(_vector(_table(at, "position")), _quaternion(_table(at, "orientation")))
+    return (Shape("box", size, (0.0, 0.0, 0.0, 1.0), pose),)
+
+
+def _joints(constraints: object) -> dict[str, float]:
+    given = constraints if isinstance(constraints, list) else []
+    tables = [one for one in given[:MOST_JOINTS] if isinstance(one, dict)]
+    return {_text(one, "joint_name"): _number(one, "position") for one in tables}
+
+
+def _quaternion(message: Message) -> Quaternion:
+    x, y, z, w = (_number(message, name, 0.0) for name in ("x", "y", "z", "w"))
+    if abs(math.hypot(x, y, z, w) - 1.0) > 0.01:
+        raise PacketError("a goal with an orientation that is no unit quaternion")
+    return x, y, z, w
 
 
 def _table(message: Message, name: str) -> Message:
@@ -102,17 +191,15 @@ def _vector(message: Message) -> Vector3:
 
 def _yaw(message: Message) -> float:
     """Of a quaternion about the vertical (radians)."""
-    x, y, z, w = (_number(message, name, 0.0) for name in ("x", "y", "z", "w"))
-    if abs(math.hypot(x, y, z, w) - 1.0) > 0.01:
-        raise PacketError("a goal with an orientation that is no unit quaternion")
+    x, y, z, w = _quaternion(message)
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
-def _in_map(stamped: Message) -> None:
+def _in_frame(stamped: Message, name: str = MAP) -> None:
     """What the robot is told is told in one frame."""
     frame = _table(stamped, "header").get("frame_id")
-    if frame != MAP:
-        raise PacketError(f"a goal in the frame {str(frame)[:MOST_TEXT]}: give it in {MAP}")
+    if frame != name:
+        raise PacketError(f"a goal in the frame {str(frame)[:MOST_TEXT]}: give it in {name}")
 
 
 def _points(cloud: Message) -> NDArray[np.float32]:

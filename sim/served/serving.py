@@ -13,7 +13,8 @@ from sim.faults.injector import FaultInjector, FaultyCamera
 from sim.faults.orders import Confuse, Fault, Miss, parse_faults, refuse_physical
 from sim.home.home import Home
 from sim.served.bodies import Body, FakeBody, PhysicsBody
-from sim.served.ordered import FASTEST, PORT
+from sim.served.offered import GRAPH, MOTIONS
+from sim.served.ordered import FASTEST, MOVEIT, PORT, SKILLS
 from sim.served.simulation import Simulation
 
 
@@ -24,6 +25,7 @@ class Plan:
     Attributes:
         home: where the robot is.
         world: `physics`, or `fake` for the instant world.
+        arm: `skills`, or, in physics, `moveit`.
         faults: what goes wrong, as `--fault` has it; times are the robot's.
         seed: of the world and of the faults.
         port: to listen on; 0: any that is free.
@@ -33,6 +35,7 @@ class Plan:
 
     home: Home
     world: str = "physics"
+    arm: str = SKILLS
     faults: Sequence[str] = ()
     seed: int = 0
     port: int = PORT
@@ -69,7 +72,8 @@ def build(plan: Plan, tell: Callable[[str], None] = lambda text: None) -> Simula
         injector.begin()
     make = _fake if plan.world == "fake" else _physics
     body = make(plan, inbox, recorder, injector)
-    simulation = Simulation(plan.home, body, inbox, plan.port, plan.speed)
+    graph = MOTIONS if plan.arm == MOVEIT else GRAPH
+    simulation = Simulation(plan.home, body, graph, inbox, plan.port, plan.speed)
     return simulation
 
 

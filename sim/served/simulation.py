@@ -18,7 +18,6 @@ from executive.ros.server import Server
 from sim.home.home import Home
 from sim.served.bodies import Body
 from sim.served.messages import time_message
-from sim.served.offered import GRAPH
 from sim.served.publishing import Publisher
 from sim.served.pursuits import Pursuits
 
@@ -38,17 +37,21 @@ PLANNING_S = 0.005
 class Simulation:
     """Implements Backend. `run` is the thread of the simulation; the server has its own."""
 
-    def __init__(self, home: Home, body: Body, inbox: Inbox, port: int, speed: float) -> None:
+    def __init__(
+        self, home: Home, body: Body, graph: Graph, inbox: Inbox, port: int, speed: float
+    ) -> None:
         """Make all ready; `run` begins.
 
         Args:
             home: where the robot is.
             body: it.
+            graph: what it offers, and what that is called.
             inbox: where the ends of what it does go.
             port: to listen on; 0: any that is free.
             speed: how many seconds may pass in a real one.
         """
         self.body = body
+        self.graph = graph
         self._inbox = inbox
         self._orders: queue.SimpleQueue[Order] = queue.SimpleQueue()
         self.server = Server(self, port)
@@ -62,11 +65,6 @@ class Simulation:
         self._over = False
 
     # --- for the server, on its thread ---
-
-    @property
-    def graph(self) -> Graph:
-        """The names of `sim.served.offered`."""
-        return GRAPH
 
     def time(self) -> Message:
         """What the clock shows."""

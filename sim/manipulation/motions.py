@@ -1,0 +1,122 @@
+"""Motions of arm and fingers for whoever decides elsewhere what they are to do.
+
+As MoveIt 2 has them: the hand to a pose, the joints to positions, the fingers to a gap.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from executive.geometry import Floats, carried_by
+from executive.types import Pose
+from sim.body.arm import follow
+from sim.body.hardware import ARM, Hardware
+from sim.body.skill import CannotError, Skill, Thinker, pause, wait_until
+from sim.goals import NO_MOTION, UNREACHABLE, Grip, MoveHand, MoveJoints
+from sim.manipulation.grasps import HandPose
+from sim.manipulation.hand import Hand
+from sim.manipulation.planning import PlanningWorld
+from sim.manipulation.reaching import POSTURES, any_path
+
+SHORT_M, TURNED = 0.2, 0.2
+"""A way of the hand that is no longer, and no more of a turn (radians), is tried straight first."""
+_CLOSING_S, _SETTLING_S = 2.0, 0.3
+_IN_HAND = HandPose(np.zeros(3), Rotation.identity())
+"""A load is told as the hand sees it."""
+Plan = Callable[[Floats, Floats], Sequence[Floats]]
+"""Joints to pass, from a base pose (x, y, yaw) and where the joints are."""
+
+
+class Motions:
+    """The arm's skills without an aim of their own."""
+
+    def __init__(
+        self, hardware: Hardware, planning: PlanningWorld, hand: Hand, thinker: Thinker
+    ) -> None:
+        """Use these parts; the planning world by what is computed, only."""
+        self._hardware = hardware
+        self._planning = planning
+        self._hand = hand
+        self._thinker = thinker
+
+    def move_hand(self, goal: MoveHand) -> Skill:
+        """Bring the point between the fingers to a pose.
+
+        Raises:
+            CannotError: if there is no way, or something is in it.
+        """
+        x, y, yaw = self._hardware.base_pose
+        base = Pose((x, y, 0.0), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
+        there = carried_by(base, goal.pose)
+        target = HandPose(np.array(there.position), Rotation.from_quat(there.orientation))
+        yield from self._go(partial(self._way_to, target, goal.straight), goal)
+
+    def move_joints(self, goal: MoveJoints) -> Skill:
+        """Bring joints of `ARM` to positions; the others stay.
+
+        Raises:
+            CannotError: if there is no way, or something is in it.
+        """
+        yield from self._go(partial(self._way_to_joints, goal.joints), goal)
+
+    def grip(self, goal: Grip) -> Skill:
+        """Open the fingers to a gap; or close them, until something is between them."""
+        if goal.gap >= self._hardware.gap:
+            self._hand.open(goal.gap)
+        else:
+            self._hardware.squeeze(goal.force)
+        yield from pause(_SETTLING_S)
+        yield from wait_until(lambda: self._hardware.fingers_still, _CLOSING_S)
+
+    def _go(self, plan: Plan, goal: MoveHand | MoveJoints) -> Skill:
+        base, arm = self._hardware.base_pose, self._hardware.arm_positions
+
+        def planned() -> Sequence[Floats]:
+            self._planning.carry(goal.load, _IN_HAND if goal.load else None)
+            return plan(base, arm)
+
+        path = yield from self._thinker.compute(planned)
+        yield from follow(self._hardware, path, goal.speed)
+
+    def _way_to(
+        self, target: HandPose, straight: bool, base: Floats, arm: Floats
+    ) -> Sequence[Floats]:
+        line = (
+            self._line(target, base, arm) if straight or self._is_short(target, base, arm) else None
+        )
+        if line is not None:
+            return line
+        if straight:
+            raise CannotError(NO_MOTION)
+        found = False
+        for posture in (arm, *(one for some in POSTURES for one in some)):
+            end = self._planning.solve(base, target, posture)
+            if end is None:
+                continue
+            found = True
+            if path := any_path(self._planning, base, arm, end):
+                return path
+        raise CannotError(NO_MOTION if found else UNREACHABLE)
+
+    def _is_short(self, target: HandPose, base: Floats, arm: Floats) -> bool:
+        hand = self._planning.hand(base, arm)
+        turn = (target.rotation * hand.rotation.inv()).magnitude()
+        return bool(np.linalg.norm(target.position - hand.position) < SHORT_M and turn < TURNED)
+
+    def _line(self, target: HandPose, base: Floats, arm: Floats) -> Sequence[Floats] | None:
+        """Straight, and near to things, as the last part of a reach is."""
+        joints = self._planning.line(base, arm, target)
+        if joints and self._planning.is_last_part_free(base, joints):
+            return joints[1:]
+        return None
+
+    def _way_to_joints(
+        self, joints: Mapping[str, float], base: Floats, arm: Floats
+    ) -> Sequence[Floats]:
+        end = np.array([joints.get(name, now) for name, now in zip(ARM, arm, strict=True)])
+        path = any_path(self._planning, base, arm, end)
+        if path is None:
+            raise CannotError(NO_MOTION)
+        return path
