@@ -50,7 +50,7 @@ class KnownThings:
         return tuple(self._holds(model, detection, base))
 
     def _holds(self, model: ObjectModel, detection: Detection, base: Pose) -> Iterator[Hold]:
-        from sim.manipulation.grasps import TILTS, find_grasps, varied
+        from sim.manipulation.grasps import TILTS, find_grasps, grip_force, varied
         from sim.manipulation.registration import fit_pose
 
         eye = np.add(base.position, (0.0, 0.0, EYE_M))
@@ -60,7 +60,8 @@ class KnownThings:
         for tilt in TILTS:
             for grasp in varied(find_grasps(model, thing, facing, tilt), WAYS):
                 for hand in grasp.hands:
-                    yield Hold(pose_from(hand.position, hand.rotation), grasp.gap, thing, box)
+                    where = pose_from(hand.position, hand.rotation)
+                    yield Hold(where, grasp.gap, thing, box, grip_force(model, thing, hand))
 
     def spots(self, place: str, label: str, seen: Floats) -> Sequence[Pose]:
         """Where on a place the thing can stand, the handiest first."""

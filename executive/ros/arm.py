@@ -4,6 +4,7 @@ The way to grasp comes from elsewhere (`Hands`): this reaches for it, closes, an
 """
 
 import asyncio
+import math
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -46,12 +47,14 @@ class Hold:
         gap: how far the fingers have to be open (metres).
         thing: where the thing is in `map` then.
         box: what the thing fits into, in the thing's frame.
+        force: how hard each finger shall press (newtons): light things are held gently.
     """
 
     hand: Pose
     gap: float
     thing: Pose
     box: Shape
+    force: float
 
 
 class Hands(Protocol):
@@ -172,7 +175,7 @@ class Arm:
         return ""
 
     async def _take(self, name: str, hold: Hold) -> Succeeded | Failed:
-        why = await self._grip(self._gripper.closed)
+        why = await self._grip(self._gripper.closed, hold.force)
         if why or not (self.holds or self._senses.holding):
             await self._grip(self._gripper.open)
             await self._move(_back(hold.hand), straight=True)
@@ -254,10 +257,11 @@ class Arm:
         why = failure(end.values)
         return why or ("" if end.succeeded else end.reason or "my arm did not get there")
 
-    async def _grip(self, position: float) -> str:
+    async def _grip(self, position: float, force: float = math.inf) -> str:
         """Move the fingers; something between them may stop these. Why it failed, or nothing."""
         gripper = self._gripper
-        values = {"position": position, "effort": gripper.effort, "joint": gripper.joint}
+        effort = min(gripper.effort, force) if gripper.newtons else gripper.effort
+        values = {"position": position, "effort": effort, "joint": gripper.joint}
         self.holds = None
         end = await self._act("gripper", values)
         stalled, reached = end.values.get("stalled"), end.values.get("reached_goal")

@@ -153,6 +153,7 @@ class GripperAction(Action):
         open: the command that opens it.
         closed: the command that closes it.
         effort: the greatest one (as the action has it).
+        newtons: whether that is what a finger presses with: light things are then held gently.
         joint: for ParallelGripperCommand: the joint's name.
         opens_m: how far it opens (metres).
         links: of the hand, which touch what is held: MoveIt then keeps that clear of the furniture,
@@ -162,6 +163,7 @@ class GripperAction(Action):
     open: float
     closed: float
     effort: float
+    newtons: bool = False
     joint: str = ""
     opens_m: Annotated[float, Field(gt=0, le=1)]
     links: tuple[str, ...] = ()

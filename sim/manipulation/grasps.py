@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 from executive.geometry import Floats
 from executive.types import Pose
 from sim.body.hardware import FINGER_TRAVEL
+from sim.bullet.client import GRAVITY_M_S2
 from sim.objects.objects import ObjectModel
 from sim.objects.solids import sample_surface, signed_distance
 
@@ -47,6 +48,11 @@ _PALM_HALF_SIZE = (0.025, 0.105)
 _STEP_X, _STEP_Y, _STEP_Z = 0.008, 0.001, 0.004
 _DEEPEST = 0.06
 Span = tuple[float, float]
+LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
+"""How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
+TWIST_M = 0.004
+"""And firmly for what is taken far from its middle of mass: two pads that press with a force resist
+a torque of twice the force times this."""
 TILTS = tuple(np.radians((0.0, 15.0, 30.0, 45.0, 60.0, 90.0)))
 """From straight down to level, away from the robot (radians), in order of preference."""
 
@@ -224,3 +230,10 @@ def _grip(points: Floats, normals: Floats, middle: Floats, width: float) -> floa
             return 0.0
         worst = min(worst, float(flat.mean()) * min(1.0, len(flat) / _FULL_PAD))
     return worst
+
+
+def grip_force(model: ObjectModel, pose: Pose, hand: HandPose) -> float:
+    """How hard each finger shall press (newtons) on a thing at `pose` in `map`, taken at `hand`."""
+    middle = Rotation.from_quat(pose.orientation).apply(model.center_of_mass) + pose.position
+    torque = model.mass_kg * GRAVITY_M_S2 * float(np.linalg.norm((middle - hand.position)[:2]))
+    return LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg + torque / (2 * TWIST_M)

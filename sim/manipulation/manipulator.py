@@ -20,11 +20,10 @@ from sim.body.base import CREEPING, drive
 from sim.body.hardware import FINGER_TRAVEL, FOLDED, Hardware
 from sim.body.head import look_at
 from sim.body.skill import CannotError, Skill, Thinker, attempt, pause, wait_until
-from sim.bullet.client import GRAVITY_M_S2
 from sim.home.furniture import Surface
 from sim.home.home import Furniture, Home
 from sim.manipulation.clutter import over
-from sim.manipulation.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, varied
+from sim.manipulation.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, grip_force, varied
 from sim.manipulation.hand import Hand, Held, LostError
 from sim.manipulation.placing import free_spots, stands
 from sim.manipulation.planning import PlanningWorld
@@ -47,11 +46,6 @@ RISES_M = (0.10, 0.05, 0.02)
 """How far the hand goes up before the robot backs off, in order of preference."""
 _RETREATS = 2
 """How often the robot backs off to fold its arm."""
-LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
-"""How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
-TWIST_M = 0.004
-"""And firmly for what is taken far from its middle of mass: two pads that press with a force resist
-a torque of twice the force times this."""
 FEWEST_POINTS = 30
 _GOOD = 0.06
 """Grasps that cost more are tried only if no better one can be reached."""
@@ -271,7 +265,7 @@ class Manipulator:
         yield from follow(hardware, reach.last, SLOW)
         facing = float(hardware.base_pose[2])
         held = Held.taken(model, pose, reach.hand, grasp.gap, facing)
-        self.hand.close_on(held, _grip_force(model, pose, reach.hand))
+        self.hand.close_on(held, grip_force(model, pose, reach.hand))
         yield from pause(_SETTLING_S)
         yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
         if not self.hand.touches:
@@ -407,13 +401,6 @@ class Manipulator:
             name == model.name and (rotation.inv() * grasp.hand.rotation).magnitude() < _ALIKE
             for name, rotation in self._missed
         )
-
-
-def _grip_force(model: ObjectModel, pose: Pose, hand: HandPose) -> float:
-    """How hard each finger shall press (newtons) on a thing at `pose` in `map`, taken at `hand`."""
-    middle = Rotation.from_quat(pose.orientation).apply(model.center_of_mass) + pose.position
-    torque = model.mass_kg * GRAVITY_M_S2 * float(np.linalg.norm((middle - hand.position)[:2]))
-    return LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg + torque / (2 * TWIST_M)
 
 
 def _surface(model: ObjectModel, pose: Pose) -> Floats:

@@ -41,6 +41,7 @@ class MotionRobot(SecondRobot):
         self.grasp: tuple[np.ndarray, Rotation] | None = None
         """Where it is in the hand, if it is there."""
         self.motions: list[dict[str, Any]] = []
+        """What it was asked for, each with the scene it was given."""
 
     async def _pursue(self, action: str) -> None:
         _, goal = self._under_way[action]
@@ -51,7 +52,8 @@ class MotionRobot(SecondRobot):
                 self.head = pan, tilt
                 await self._end(action, GoalStatus.SUCCEEDED)
             case "/move_action":
-                await self._move(goal.args["request"])
+                scene = goal.args["planning_options"]["planning_scene_diff"]
+                await self._move({**goal.args["request"], "scene": scene})
             case "/acme/gripper":
                 await self._grip(goal.args["command"]["position"])
             case _:

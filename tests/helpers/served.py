@@ -18,6 +18,7 @@ import cbor2
 from websockets.sync.client import connect
 
 from executive.testing.bench import four_rooms
+from sim.served.offered import GRAPH, MOTIONS
 from sim.served.serving import Plan, build
 from sim.served.simulation import Simulation
 
@@ -25,12 +26,7 @@ PATIENCE_S = 60.0
 ANSWERS = ("service_response", "action_result")
 ZERO = {"goal_id": {"uuid": [0] * 16}, "stamp": {"sec": 0, "nanosec": 0}}
 """What means all goals."""
-TYPES = {
-    "/navigate_to_pose": "nav2_msgs/action/NavigateToPose",
-    "/head_controller/point_head_action": "control_msgs/action/PointHead",
-    "/pick": "executive_msgs/action/Pick",
-    "/place": "executive_msgs/action/Place",
-}
+TYPES = {**GRAPH.actions, **MOTIONS.actions}
 
 
 @contextmanager

@@ -3,10 +3,12 @@
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
 from motion_robot import PROFILE, MotionRobot
+from scipy.spatial.transform import Rotation
 from second_robot import SPEED_M_S
 
 from executive.app.handling import KnownThings
@@ -110,6 +112,54 @@ def test_it_puts_down_what_it_holds_where_there_is_room(linked: Linked) -> None:
     assert linked.here.robot.holding is False
     x, y, _ = four_rooms().view_targets("coffee_table")[0]
     assert linked.there.thing == pytest.approx((x, y, middle_on("coffee_table")), abs=0.1)
+
+
+def test_it_comes_near_to_what_it_reaches_for(linked: Linked) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    before = np.linalg.norm(at[:2] - linked.there.at[:2])
+    assert linked.bench.do(Pick(seen(at))) == Succeeded()
+    assert np.linalg.norm(at[:2] - linked.there.at[:2]) < before - 0.1
+
+
+def test_a_hand_that_is_around_a_thing_moves_straight(linked: Linked) -> None:
+    taken(linked)
+    before, around, up, folded = (
+        motion.get("planner_id", "") for motion in linked.there.motions[-4:]
+    )
+    assert (before, around, up, folded) == ("", "LIN", "LIN", "")
+
+
+def test_its_planner_is_told_where_the_furniture_stands(linked: Linked) -> None:
+    taken(linked)
+    solids = linked.there.motions[-1]["scene"]["world"]["collision_objects"]
+    desk = [one for one in solids if one["id"].startswith("desk_")]
+    tops = [in_map(linked, solid)[2] + thickness(solid) / 2 for solid in desk]
+    assert max(tops) == pytest.approx(four_rooms().furniture_named("desk").size[2], abs=0.01)
+    x, y, _ = np.mean([in_map(linked, solid) for solid in desk], axis=0)
+    assert (x, y) == pytest.approx(four_rooms().furniture_named("desk").pose[:2], abs=0.3)
+
+
+def in_map(linked: Linked, solid: dict[str, Any]) -> np.ndarray:
+    """Where a solid is that was told in the frame of the base."""
+    at = solid["primitive_poses"][0]["position"]
+    x, y, yaw = linked.there.at
+    return Rotation.from_euler("z", yaw).apply([at["x"], at["y"], at["z"]]) + (x, y, 0.0)
+
+
+def thickness(solid: dict[str, Any]) -> float:
+    return float(solid["primitives"][0]["dimensions"][2])
+
+
+def test_what_is_carried_is_kept_clear_of_the_furniture(linked: Linked) -> None:
+    taken(linked)
+    up, folded = (motion["scene"]["robot_state"] for motion in linked.there.motions[-2:])
+    assert up["attached_collision_objects"] == []  # it stands on the desk still
+    [held] = folded["attached_collision_objects"]
+    assert held["link_name"] == "grip"
+    assert held["touch_links"] == ["left_finger", "right_finger"]
+    size = held["object"]["primitives"][0]["dimensions"]
+    assert size == pytest.approx(load_objects()[THING].size)
 
 
 def test_what_is_not_there_any_more_is_not_held(linked: Linked) -> None:
