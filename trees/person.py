@@ -330,11 +330,11 @@ class Announce(Step):
 class Report(Step):
     """Tells what was done.
 
-    Reads search.found, hand.put_at and hand.unplaced; writes ending.reason.
+    Reads search.found and hand.put_at; writes ending.reason.
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {the_object}, {is_}, {it}, {at}, {place}, {put}, {goal} and {why}.
+        """`text` may use {the_object}, {is_}, {it}, {at}, {place}, {put} and {goal}.
 
         As in "{The_object} {is_} {at}": the mug is on the desk in the bedroom; {place} is the same
         without "on", {put} is where it was put down.
@@ -357,7 +357,6 @@ class Report(Step):
                 place=say.the(found.place) if found else "nowhere",
                 put=say.at(hand.put_at),
                 goal=say.the(self.situation.request.goal),
-                why=hand.unplaced.get(DELIVERY, ""),
             )
         )
         self.situation.ending.tell(said)

@@ -115,6 +115,9 @@ class _Mission:
 
 def _says_so(outcome: Outcome, truth: str) -> bool:
     """Whether it says that it was not as asked for, and how it is."""
-    if outcome.kind == CommandKind.FIND and truth == HAND:
-        return outcome.reason == f"I hold the {outcome.object}."
-    return f"I put the {outcome.object} on the {truth}; I could not" in outcome.reason
+    name = str(outcome.object).replace("_", " ")
+    return (
+        outcome.kind == CommandKind.FIND
+        and truth == HAND
+        and outcome.reason == f"I hold the {name}."
+    )

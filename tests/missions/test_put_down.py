@@ -65,9 +65,9 @@ def fault(goal: Goal, full: tuple[str, ...]) -> str | None:
 def test_a_full_delivery_table_is_no_dead_end(serve: Serve) -> None:
     session, world = serve([], DELIVERY)
     outcome = session.run("Bring the hammer")
-    assert outcome.status == MissionStatus.DONE
+    assert outcome.status == MissionStatus.NOT_DONE
     assert outcome.reason == (
-        f"I put the hammer on the coffee table; I could not put it on the delivery table: {FULL}."
+        f"I put the hammer on the coffee table; I could not put it on the delivery table: {FULL}"
     )
     assert (world.held, world.resting_place("hammer")) == (None, "coffee_table")
     assert session.run("Take the power_drill").status == MissionStatus.DONE
@@ -77,14 +77,14 @@ def test_the_next_furniture_is_tried_if_the_nearest_is_full_or_out_of_reach(serv
     session, world = serve([])
     shut = DriveTo("sofa")
     world.fault = lambda g: "shut" if g == shut else fault(g, (DELIVERY, "coffee_table"))
-    assert session.run("Bring the hammer").status == MissionStatus.DONE
+    assert session.run("Bring the hammer").status == MissionStatus.NOT_DONE
     assert world.resting_place("hammer") == "dining_table"
 
 
 def test_the_person_is_asked_where_to_put_it_if_all_that_is_near_is_full(serve: Serve) -> None:
     session, world = serve(["in the pantry", "on the desk"], DELIVERY, *NEAR)
     outcome = session.run("Bring the hammer")
-    assert (outcome.status, outcome.inquiries) == (MissionStatus.DONE, 2)
+    assert (outcome.status, outcome.inquiries) == (MissionStatus.NOT_DONE, 2)
     assert world.resting_place("hammer") == "desk"
     assert outcome.reason.startswith("I put the hammer on the desk; ")
     assert isinstance(session.parts.user, Scripted)
@@ -114,9 +114,9 @@ def test_what_finds_no_room_stays_in_the_hand_and_can_be_brought_later(serve: Se
     assert outcome.status == MissionStatus.NOT_DONE
     assert outcome.reason.endswith("the script has no more answers; I still hold the hammer")
     assert world.held == "hammer"
-    world.fault = lambda goal: fault(goal, (DELIVERY, "coffee_table"))
+    world.fault = lambda goal: None
     assert session.run("Bring the hammer").status == MissionStatus.DONE
-    assert world.resting_place("hammer") == "sofa"
+    assert world.resting_place("hammer") == DELIVERY
 
 
 def test_what_falls_on_the_way_to_other_furniture_is_said_to_have_fallen(tmp_path: Path) -> None:
@@ -188,8 +188,9 @@ def test_what_is_held_is_put_down_by_the_person_if_it_has_no_room_where_it_was(
 ) -> None:
     session, world = serve([], HAMMERS_PLACE, DELIVERY)
     session.run("Take the hammer")
-    assert session.run("Bring the power_drill").status == MissionStatus.DONE
+    session.run("Bring the power_drill")
     assert world.resting_place("hammer") == "coffee_table"
+    assert world.held is None
 
 
 def test_a_full_hand_without_room_for_what_it_holds_says_so(serve: Serve) -> None:

@@ -3,13 +3,14 @@
 from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
+from py_trees.common import Status
 
 from executive.types import DELIVERY, FLOOR, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.deeds.fall import SayItFell, pick_up_again
 from trees.deeds.put_down import put_down_somewhere
-from trees.nodes import Check, fallback, sequence
+from trees.nodes import Check, Step, fallback, sequence
 from trees.person import Report
 from trees.robot import DriveBack, PutDownAt
 
@@ -29,26 +30,39 @@ class Bring(Deed):
             Check("at the delivery place", context, lambda: situation.search.is_delivered),
             Report("report", context, "{The_object} {is_} here already, on the delivery table."),
         )
-        yield sequence("bring", asked_to(context, self.kind), deliver(context), say_where(context))
+        yield sequence(
+            "bring",
+            asked_to(context, self.kind),
+            deliver(context),
+            ThereIndeed("there indeed", context),
+            say_where(context),
+        )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
         """It is on the delivery table."""
         return whereabouts == DELIVERY
 
 
+class ThereIndeed(Step):
+    """Succeeds if it was put down on the delivery table; else says where it is, and why.
+
+    Reads hand.put_at and hand.unplaced.
+    """
+
+    def update(self) -> Status:
+        """What stands elsewhere was not brought."""
+        hand, say = self.situation.hand, self.context.say
+        if hand.put_at == DELIVERY:
+            return self.succeed()
+        name, why = self.situation.request.object or "", hand.unplaced.get(DELIVERY, "")
+        there = f"I could not put {say.it(name)} {say.at(DELIVERY)}"
+        return self.fail(f"I put {say.the(name)} {say.at(hand.put_at)}; {there}: {why}")
+
+
 def say_where(context: MissionContext) -> Behaviour:
-    """Tell where it is now, if that is not the delivery table, else where it was."""
+    """Tell that it is here, and where it was."""
     return fallback(
         "say so",
-        sequence(
-            "elsewhere",
-            Check("on other furniture", context, lambda: context.situation.hand.put_at != DELIVERY),
-            Report(
-                "report",
-                context,
-                "I put {the_object} {put}; I could not put {it} on the delivery table: {why}.",
-            ),
-        ),
         sequence(
             "from there",
             found_at_a_place(context),
