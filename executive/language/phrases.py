@@ -40,7 +40,7 @@ def words_of(text: str) -> Words:
 
     Case, underscores, hyphens and all other punctuation do not count.
     """
-    plain = unicodedata.normalize("NFKC", text).casefold()
+    plain = unicodedata.normalize("NFKC", text).upper().casefold()
     return tuple(stem(word) for word in re.findall(r"[^\W_]+", plain) if word not in _DETERMINERS)
 
 
