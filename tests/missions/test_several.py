@@ -187,8 +187,10 @@ def test_what_had_no_room_on_the_delivery_table_is_told_with_where_it_is() -> No
         return next(left, "there is no room") if at_the_person else None
 
     two = run("Bring the two fruits from the high table", fault=full)
+    assert two.outcome.status == NOT_DONE
     assert two.outcome.reason == (
-        "I brought both: the peach on the delivery table and the pear on the coffee table."
+        "I brought one of two: the peach; not the pear: I put the pear on the coffee table; "
+        "I could not put it on the delivery table: there is no room."
     )
 
 
