@@ -89,9 +89,12 @@ def draw(client: BulletClient, view: View) -> Rendering:
         shadow=0,
         renderer=p.ER_TINY_RENDERER,
     )
-    bodies = np.reshape(segmentation, (view.height, view.width)).astype(np.int32)
-    buffer = np.reshape(depth, (view.height, view.width)).astype(np.float64)
-    metres = view.far * NEAR_M / (view.far - (view.far - NEAR_M) * buffer)
+    shape = view.height, view.width
+    bodies = np.asarray(segmentation, np.int32).reshape(shape)
+    metres = np.asarray(depth).reshape(shape).astype(np.float64)
+    metres *= NEAR_M - view.far  # in place: far * near / (far - (far - near) * depth)
+    metres += view.far
+    np.divide(view.far * NEAR_M, metres, out=metres)
     metres[bodies == BACKGROUND] = np.inf
-    pixels = np.reshape(color, (view.height, view.width, 4))[..., :3].astype(np.uint8)
-    return Rendering(pixels, metres.astype(np.float32), bodies)
+    pixels = np.asarray(color, np.uint8).reshape(*shape, 4)
+    return Rendering(np.ascontiguousarray(pixels[..., :3]), metres.astype(np.float32), bodies)
