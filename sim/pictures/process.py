@@ -25,6 +25,13 @@ _NO_THREADS = {"OPENBLAS_NUM_THREADS": "1"}
 """It does no linear algebra."""
 
 
+class NotDrawnError(RuntimeError):
+    """A picture that was asked for will never be there.
+
+    It is no OSError: a log that cannot have the picture is sound all the same.
+    """
+
+
 def command() -> list[str]:
     """What starts it, with the packages of this process."""
     return [sys.executable or "", "-c", PROGRAM.format(path=sys.path)]
@@ -73,13 +80,13 @@ class Painter:
 
     def _painted(self, asked: Asked) -> Pixels:
         if self.failure:
-            raise ConnectionError(self.failure)
+            raise NotDrawnError(self.failure)
         try:
             self._say(asked)
             pixels: Pixels = pickle.load(self._answers())
         except Exception as error:
             self.failure = self._why(error)
-            raise ConnectionError(self.failure) from error
+            raise NotDrawnError(self.failure) from error
         return pixels
 
     def _why(self, error: Exception) -> str:
