@@ -135,9 +135,5 @@ class Actors:
 
 
 def _movable(client: BulletClient, robot: int) -> Sequence[int]:
-    kinds = ((joint, client.getJointInfo(robot, joint)[2]) for joint in _all_joints(client, robot))
-    return [joint for joint, kind in kinds if kind != p.JOINT_FIXED]
-
-
-def _all_joints(client: BulletClient, robot: int) -> range:
-    return range(client.getNumJoints(robot))
+    joints = range(client.getNumJoints(robot))
+    return [joint for joint in joints if client.getJointInfo(robot, joint)[2] != p.JOINT_FIXED]
