@@ -87,7 +87,7 @@ class CameraBeside:
         stage = Stage(blueprint.steps, actors.bodies, actors.robot)
         try:
             self._painter = Painter(stage)
-        except OSError as error:
+        except (OSError, RuntimeError) as error:  # no process, or no thread, is to be had
             self._untold = f"no process can be started for them: {error}"
 
     def capture(self) -> Frame:
