@@ -40,6 +40,8 @@ from sim.navigation.durations import durations_in
 from sim.navigation.grid import OccupancyGrid
 from sim.navigation.navigator import Navigator
 from sim.objects.objects import ObjectModel
+from sim.pictures.beside import CameraBeside
+from sim.pictures.scene import Actors, Blueprint
 from sim.robot import SimulatedRobot
 from sim.transforms import FrameTree
 
@@ -72,6 +74,7 @@ class PhysicsWorld:
         camera_hz: float = 1.0,
         injector: FaultInjector | None = None,
         left: Collection[str] = (),
+        beside: bool = False,
     ) -> None:
         """Build the home with the robot in it.
 
@@ -85,12 +88,14 @@ class PhysicsWorld:
             camera_hz: pictures for the log per second while something moves; 0 for none.
             injector: what goes wrong by order.
             left: things that are where they were left, so that the seed leaves them there.
+            beside: whether another process draws the pictures for the log.
         """
         self._home = home
         self._models = models
         self._recorder = recorder
         self._client = connect(gui)
         self._client.setPhysicsEngineParameter(deterministicOverlappingPairs=1)
+        blueprint = Blueprint(self._client) if beside and camera_hz else None
         self._fixtures = build_home(self._client, home)
         if gui:
             aim_window(self._client, home.extent())
@@ -126,6 +131,11 @@ class PhysicsWorld:
         self._frames = FrameTree(self._client, self._hardware, movable)
         self._robots_frames = FrameTree(self._client, self._hardware, {})
         self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
+        self._beside: CameraBeside | None = None
+        if blueprint and not (injector and injector.spoils_pictures):
+            actors = Actors(self._client, movable, self._hardware.body)
+            self._beside = CameraBeside(glancing, actors, blueprint, recorder)
+        self._log_camera: Camera = self._beside or self._glancing
 
     # --- SimulatedHome ---
 
@@ -157,6 +167,8 @@ class PhysicsWorld:
 
     def close(self) -> None:
         """Free the simulator."""
+        if self._beside:
+            self._beside.close()
         self.robot.close()
         self._planning.close()
         self._client.disconnect()
@@ -169,7 +181,7 @@ class PhysicsWorld:
         self._recorder.record(Scene(entities))
         self._recorder.record(Transforms(self._frames.all()))
         if self._picture_every:
-            self._recorder.record(Picture(self._glancing.capture()))
+            self._recorder.record(Picture(self._log_camera.capture()))
 
     def resting_place(self, name: str) -> str | None:
         """The furniture that an object rests on, by the simulator's truth; None if on none."""
@@ -254,7 +266,7 @@ class PhysicsWorld:
         if self._periods % TRANSFORMS_EVERY == 0:
             self._write_moved()
         if self._picture_every and self._periods % self._picture_every == 0:
-            self._recorder.record(Picture(self._glancing.capture()))
+            self._recorder.record(Picture(self._log_camera.capture()))
 
     def _use_steps(self, steps: int) -> None:
         if steps != self._steps:

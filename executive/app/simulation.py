@@ -49,6 +49,7 @@ def physics(setup: Setup) -> Embodiment:
     Raises:
         InputError: if a fault is none, or a file is wrong.
     """
+    from sim.pictures.beside import worthwhile
     from sim.world import PhysicsWorld  # takes long: the model loads meanwhile
 
     settings = setup.settings
@@ -66,6 +67,7 @@ def physics(setup: Setup) -> Embodiment:
         camera_hz=settings.camera_hz,
         injector=injector,
         left=setup.left,
+        beside=worthwhile(),
     )
     clock = SimulatedClock(setup.inbox, world)
     detector = world.detector if settings.detector == "simulated" else setup.detector()

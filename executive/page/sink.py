@@ -67,7 +67,7 @@ class PageSink:
                 )
             case PlannedPath(points):
                 self._board.put("path", [_rounded(x, y) for x, y, *_ in points])
-            case Picture(frame):
+            case Picture(frame) if frame.color.size:  # waited for here, not where it is served
                 self._keep(frame)
             case Seen():
                 self._show_seen(record)

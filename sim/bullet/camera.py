@@ -1,63 +1,21 @@
-"""The simulated camera, and a stand-in for a learned detector.
-
-Pictures come from PyBullet's TinyRenderer, which computes on the CPU.
-"""
+"""The simulated camera, and a stand-in for a learned detector."""
 
 from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from executive.types import Box, Detection, Frame, Intrinsics, Pose, Vector3
+from executive.types import Box, Detection, Frame, Intrinsics, Pose
+from sim.bullet.rendering import DAYLIGHT, NEAR_M, Light, Rendering, View, draw
 from sim.engine import BulletClient
-from sim.engine import pybullet as p
 
-NEAR_M, FAR_M = 0.05, 15.0
-BACKGROUND = -1
+FAR_M = 15.0
 KEPT_SEGMENTATIONS = 4
 _OPTICAL_TO_OPENGL = np.diag([1.0, -1.0, -1.0, 1.0])
 """OpenGL cameras look along -z with y up, optical frames along z with y down."""
-
-
-@dataclass(frozen=True, slots=True)
-class Light:
-    """One lamp at infinity, and what comes from everywhere.
-
-    Attributes:
-        direction: towards the lamp, in `map`.
-        color: of the lamp; red, green, blue in [0, 1].
-        ambient: share of a surface's colour that it shows without the lamp.
-        diffuse: share that the lamp adds where it shines straight on it.
-        specular: strength of reflections.
-    """
-
-    direction: Vector3 = (-0.4, -0.3, 1.0)
-    color: Vector3 = (1.0, 1.0, 1.0)
-    ambient: float = 0.65
-    diffuse: float = 0.4
-    specular: float = 0.02
-
-
-DAYLIGHT = Light()
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Rendering:
-    """What the renderer says of one picture.
-
-    Attributes:
-        color: (height, width, 3) uint8, RGB.
-        depth: (height, width) float32, metres along the optical axis, infinite where nothing is.
-        segmentation: (height, width) int32, body ids; BACKGROUND where nothing is.
-    """
-
-    color: NDArray[np.uint8]
-    depth: NDArray[np.float32]
-    segmentation: NDArray[np.int32]
 
 
 def pinhole(width: int, height: int, hfov: float = np.radians(65.0)) -> Intrinsics:
@@ -80,26 +38,21 @@ def render(
     light: Light = DAYLIGHT,
 ) -> Rendering:
     """Draw the world, up to `far` metres, as a camera sees it whose optical frame is at `pose`."""
-    width, height = intrinsics.width, intrinsics.height
-    _, _, color, depth, segmentation = client.getCameraImage(
-        width,
-        height,
+    return draw(client, view_from(pose, intrinsics, far, light))
+
+
+def view_from(
+    pose: Pose, intrinsics: Intrinsics, far: float = FAR_M, light: Light = DAYLIGHT
+) -> View:
+    """What a camera shows whose optical frame is at `pose` in `map`."""
+    return View(
+        intrinsics.width,
+        intrinsics.height,
         _view_matrix(pose),
         _projection_matrix(intrinsics, far),
-        lightDirection=light.direction,
-        lightColor=light.color,
-        lightAmbientCoeff=light.ambient,
-        lightDiffuseCoeff=light.diffuse,
-        lightSpecularCoeff=light.specular,
-        shadow=0,
-        renderer=p.ER_TINY_RENDERER,
+        far,
+        light,
     )
-    bodies = np.reshape(segmentation, (height, width)).astype(np.int32)
-    buffer = np.reshape(depth, (height, width)).astype(np.float64)
-    metres = far * NEAR_M / (far - (far - NEAR_M) * buffer)
-    metres[bodies == BACKGROUND] = np.inf
-    pixels = np.reshape(color, (height, width, 4))[..., :3].astype(np.uint8)
-    return Rendering(pixels, metres.astype(np.float32), bodies)
 
 
 class SimulatedCamera:
@@ -117,16 +70,16 @@ class SimulatedCamera:
         Cameras that share `numbers` count their pictures together.
         """
         self._client = client
-        self._pose = pose
-        self._lens = lens
-        self._numbers = count() if numbers is None else numbers
+        self.pose = pose
+        self.lens = lens
+        self.numbers = count() if numbers is None else numbers
         self._segmentations: OrderedDict[int, NDArray[np.int32]] = OrderedDict()
 
     def capture(self) -> Frame:
         """The picture of this moment."""
-        pose = self._pose()
-        seen = render(self._client, pose, self._lens)
-        frame = Frame(next(self._numbers), seen.color, seen.depth, self._lens, pose)
+        pose = self.pose()
+        seen = render(self._client, pose, self.lens)
+        frame = Frame(next(self.numbers), seen.color, seen.depth, self.lens, pose)
         self._segmentations[frame.number] = seen.segmentation
         if len(self._segmentations) > KEPT_SEGMENTATIONS:
             self._segmentations.popitem(last=False)
@@ -176,16 +129,16 @@ def _detection(label: str, mask: NDArray[np.bool_]) -> Detection:
     return Detection(label, 1.0, Box(left, top, width, height), inside)
 
 
-def _view_matrix(pose: Pose) -> list[float]:
+def _view_matrix(pose: Pose) -> tuple[float, ...]:
     """`map` in OpenGL's camera frame, column by column."""
     camera_to_map = np.eye(4)
     camera_to_map[:3, :3] = Rotation.from_quat(pose.orientation).as_matrix()
     camera_to_map[:3, 3] = pose.position
     view = _OPTICAL_TO_OPENGL @ np.linalg.inv(camera_to_map)
-    return [float(value) for value in view.T.ravel()]
+    return tuple(view.T.ravel().tolist())
 
 
-def _projection_matrix(intrinsics: Intrinsics, far: float) -> list[float]:
+def _projection_matrix(intrinsics: Intrinsics, far: float) -> tuple[float, ...]:
     """OpenGL's projection of a pinhole camera, column by column.
 
     TinyRenderer samples a pixel at its lower left corner, not at its middle: column u is drawn at
@@ -200,4 +153,4 @@ def _projection_matrix(intrinsics: Intrinsics, far: float) -> list[float]:
     projection[2, 2] = -(far + NEAR_M) / (far - NEAR_M)
     projection[2, 3] = -2 * far * NEAR_M / (far - NEAR_M)
     projection[3, 2] = -1
-    return [float(value) for value in projection.T.ravel()]
+    return tuple(projection.T.ravel().tolist())

@@ -52,6 +52,11 @@ class FaultInjector:
         """Those at work that have not struck in this mission."""
         return tuple(fault for fault in self.active(kind) if fault not in self._struck)
 
+    @property
+    def spoils_pictures(self) -> bool:
+        """Whether pictures are ever other than what is to be seen."""
+        return bool(self.ordered(Blind) or self.ordered(Noise))
+
     def draw(self, kind: type[R], what: str) -> R | None:
         """Whether one that strikes by chance does so now, upon `what`."""
         for fault in self.active(kind):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from executive.types import Color
-from sim.bullet.camera import Light
+from sim.bullet.rendering import Light
 from sim.engine import BulletClient
 
 PATTERN = 64

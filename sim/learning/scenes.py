@@ -19,8 +19,9 @@ from executive.types import Box, Frame, Pose, Vector3
 from sim.body.hardware import Hardware
 from sim.body.head import aim
 from sim.bullet.bodies import PERSON_SHAPES, create_body, create_object
-from sim.bullet.camera import LOOKING, Rendering, pinhole, render
+from sim.bullet.camera import LOOKING, pinhole, render
 from sim.bullet.client import connect
+from sim.bullet.rendering import Rendering
 from sim.home.furniture import Furniture, Surface, box
 from sim.home.home import STAND_OFF_M, VIEW_DEPTH_M, VIEW_HEIGHT_M
 from sim.learning.decor import draw_light, dress, through_the_lens, write_patterns

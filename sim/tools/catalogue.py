@@ -8,8 +8,9 @@ from scipy.spatial.transform import Rotation
 
 from executive.types import Pose
 from sim.bullet.bodies import create_body
-from sim.bullet.camera import BACKGROUND, pinhole, render
+from sim.bullet.camera import pinhole, render
 from sim.bullet.client import connect
+from sim.bullet.rendering import BACKGROUND
 from sim.objects.objects import ObjectModel
 
 COLUMNS = 6

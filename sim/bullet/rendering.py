@@ -1,0 +1,100 @@
+"""Draws a PyBullet world with its TinyRenderer, which computes on the CPU.
+
+Of ours it imports the engine alone, for it is also used by a process that does nothing else.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.engine import BulletClient
+from sim.engine import pybullet as p
+
+NEAR_M = 0.05
+BACKGROUND = -1
+
+
+@dataclass(frozen=True, slots=True)
+class Light:
+    """One lamp at infinity, and what comes from everywhere.
+
+    Attributes:
+        direction: towards the lamp, in `map`.
+        color: of the lamp; red, green, blue in [0, 1].
+        ambient: share of a surface's colour that it shows without the lamp.
+        diffuse: share that the lamp adds where it shines straight on it.
+        specular: strength of reflections.
+    """
+
+    direction: tuple[float, float, float] = (-0.4, -0.3, 1.0)
+    color: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    ambient: float = 0.65
+    diffuse: float = 0.4
+    specular: float = 0.02
+
+
+DAYLIGHT = Light()
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """From where and how a picture is drawn.
+
+    Attributes:
+        width: pixels in a row.
+        height: rows.
+        matrix: `map` in OpenGL's camera frame, column by column.
+        projection: OpenGL's, column by column.
+        far: how far one sees (metres).
+        light: what it is lit by.
+    """
+
+    width: int
+    height: int
+    matrix: tuple[float, ...]
+    projection: tuple[float, ...]
+    far: float
+    light: Light
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rendering:
+    """What the renderer says of one picture.
+
+    Attributes:
+        color: (height, width, 3) uint8, RGB.
+        depth: (height, width) float32, metres along the optical axis, infinite where nothing is.
+        segmentation: (height, width) int32, body ids; BACKGROUND where nothing is.
+    """
+
+    color: NDArray[np.uint8]
+    depth: NDArray[np.float32]
+    segmentation: NDArray[np.int32]
+
+
+def draw(client: BulletClient, view: View) -> Rendering:
+    """Draw the world as it is now."""
+    light = view.light
+    _, _, color, depth, segmentation = client.getCameraImage(
+        view.width,
+        view.height,
+        view.matrix,
+        view.projection,
+        lightDirection=light.direction,
+        lightColor=light.color,
+        lightAmbientCoeff=light.ambient,
+        lightDiffuseCoeff=light.diffuse,
+        lightSpecularCoeff=light.specular,
+        shadow=0,
+        renderer=p.ER_TINY_RENDERER,
+    )
+    shape = view.height, view.width
+    bodies = np.asarray(segmentation, np.int32).reshape(shape)
+    metres = np.asarray(depth).reshape(shape).astype(np.float64)
+    metres *= NEAR_M - view.far  # in place: far * near / (far - (far - near) * depth)
+    metres += view.far
+    np.divide(view.far * NEAR_M, metres, out=metres)
+    metres[bodies == BACKGROUND] = np.inf
+    pixels = np.asarray(color, np.uint8).reshape(*shape, 4)
+    return Rendering(np.ascontiguousarray(pixels[..., :3]), metres.astype(np.float32), bodies)

@@ -1,0 +1,120 @@
+"""Pictures for the log, drawn beside the physics by a process with its own copy of the world.
+
+What it draws is the same to the bit, and nobody waits for it: a frame's pixels come later. Where
+there is no such process, or too much waits for it, pictures are drawn here and at once.
+"""
+
+import logging
+import multiprocessing
+import os
+from concurrent.futures import Future
+
+import numpy as np
+from numpy.typing import NDArray
+
+from executive.interfaces import Recorder
+from executive.records import Note
+from executive.text import printable
+from executive.types import Frame, Intrinsics, Pose
+from sim.bullet.camera import SimulatedCamera, view_from
+from sim.pictures.painter import Asked, Pixels, Stage
+from sim.pictures.process import Painter
+from sim.pictures.scene import Actors, Blueprint
+
+log = logging.getLogger(__name__)
+
+
+def worthwhile() -> bool:
+    """Whether a second process has a core of its own; the workers of a pool share theirs."""
+    return _cores() > 1 and multiprocessing.parent_process() is None
+
+
+def _cores() -> int:
+    """Those that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+class ComingFrame(Frame):
+    """A Frame whose pixels are still drawn; who reads them waits for them.
+
+    Reading them raises what the drawing raised.
+    """
+
+    __slots__ = ("_pixels",)
+    _pixels: "Future[Pixels]"
+
+    def __init__(
+        self, number: int, intrinsics: Intrinsics, pose: Pose, pixels: "Future[Pixels]"
+    ) -> None:
+        """All is known but the pixels."""
+        known = {"number": number, "intrinsics": intrinsics, "pose": pose, "_pixels": pixels}
+        for name, value in known.items():
+            object.__setattr__(self, name, value)  # frames are frozen
+
+    @property
+    def color(self) -> NDArray[np.uint8]:
+        """As any frame's."""
+        return self._pixels.result()[0]
+
+    @property
+    def depth(self) -> NDArray[np.float32]:
+        """As any frame's."""
+        return self._pixels.result()[1]
+
+
+class CameraBeside:
+    """A Camera whose pictures are drawn by another process, and by this one where that cannot."""
+
+    def __init__(
+        self, camera: SimulatedCamera, actors: Actors, blueprint: Blueprint, recorder: Recorder
+    ) -> None:
+        """Start the process.
+
+        Args:
+            camera: the same, drawn here; both count their pictures together.
+            actors: what moves in its world.
+            blueprint: of its world, which is built.
+            recorder: is told when the other process draws no more.
+        """
+        self._camera = camera
+        self._actors = actors
+        self._recorder = recorder
+        self._painter: Painter | None = None
+        self._untold = ""
+        """Why there is no painter, until that is told."""
+        stage = Stage(blueprint.steps, actors.bodies, actors.robot)
+        try:
+            self._painter = Painter(stage)
+        except (OSError, RuntimeError) as error:  # no process, or no thread, is to be had
+            self._untold = f"no process can be started for them: {error}"
+
+    def capture(self) -> Frame:
+        """The picture of this moment."""
+        coming = self._coming()
+        if self._untold:
+            text = f"pictures for the log are not drawn beside the physics: {self._untold}"
+            log.warning("%s", printable(text))
+            self._recorder.record(Note("warning", printable(text)))
+            self._untold = ""
+        return coming or self._camera.capture()
+
+    def _coming(self) -> Frame | None:
+        """Ask the other process; None if it has to be drawn here."""
+        if self._painter is None:
+            return None
+        pose, lens = self._camera.pose(), self._camera.lens
+        pixels = self._painter.paint(Asked(view_from(pose, lens), self._actors.where()))
+        if pixels is not None:
+            return ComingFrame(next(self._camera.numbers), lens, pose, pixels)
+        if self._painter.failure:
+            self._untold = self._painter.failure
+            self.close()
+        return None
+
+    def close(self) -> None:
+        """Have what was asked for drawn, and end the process."""
+        if self._painter is not None:
+            self._painter.close()
+            self._painter = None

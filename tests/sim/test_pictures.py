@@ -1,0 +1,175 @@
+"""Pictures for the log, drawn by a process of their own."""
+
+import multiprocessing
+import os
+import subprocess
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from executive.events import Inbox
+from executive.records import Note, Picture
+from executive.testing.bench import Notebook, four_rooms
+from executive.types import DriveTo, Frame, Pose
+from sim.bullet.camera import GLANCING, view_from
+from sim.faults.injector import FaultInjector
+from sim.faults.orders import parse_fault
+from sim.objects.objects import load_objects
+from sim.pictures import process
+from sim.pictures.beside import worthwhile
+from sim.pictures.painter import Asked, Stage
+from sim.pictures.process import NotDrawnError
+from sim.pictures.scene import Moment
+from sim.world import PhysicsWorld
+
+MODELS = load_objects()
+ORDERED = [parse_fault(order) for order in ("crate=8.0,6.0@1", "moved=mug:desk@1")]
+
+physics = pytest.mark.physics
+
+
+class Filmed(PhysicsWorld):
+    """A world whose robot drives, with two pictures a second for the log."""
+
+    def __init__(self, camera_hz: float = 2.0, faults: Sequence[Any] = ()) -> None:
+        self.notes = Notebook()
+        self.seconds = 0.0
+        injector = FaultInjector(faults, self.notes, lambda: self.seconds) if faults else None
+        super().__init__(
+            four_rooms(),
+            MODELS,
+            Inbox(),
+            self.notes,
+            seed=3,
+            camera_hz=camera_hz,
+            injector=injector,
+            beside=True,
+        )
+
+    def film(self, seconds: float) -> list[Frame]:
+        """What the log is given meanwhile."""
+        before = len(self.pictures())
+        self.robot.start(DriveTo("desk"))
+        end = self.seconds + seconds
+        while self.seconds < end:
+            self.seconds += self.advance(1.0)
+        return self.pictures()[before:]
+
+    def pictures(self) -> list[Frame]:
+        return [picture.frame for picture in self.notes.all(Picture)]
+
+    def warnings(self) -> list[str]:
+        return [note.text for note in self.notes.all(Note) if note.level == "warning"]
+
+
+@pytest.fixture
+def here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No process can be started."""
+
+    def refused(*given: object, **named: object) -> None:
+        raise OSError("no more processes")
+
+    monkeypatch.setattr(subprocess, "Popen", refused)
+
+
+def same(one: Frame, other: Frame) -> bool:
+    """Whether two frames are the same to the bit."""
+    facts = [(frame.number, frame.pose, frame.intrinsics) for frame in (one, other)]
+    return (
+        facts[0] == facts[1]
+        and np.array_equal(one.color, other.color)
+        and np.array_equal(one.depth, other.depth)
+    )
+
+
+@physics
+def test_pictures_drawn_beside_the_physics_are_the_same_to_the_bit(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    filmed = Filmed(faults=ORDERED)
+    beside_it = filmed.film(6.0)
+    filmed.close()
+    monkeypatch.setattr(process, "MOST_WAITING", 0)
+    plain = Filmed(faults=ORDERED)
+    at_once = plain.film(6.0)
+    plain.close()
+    assert len(beside_it) == 12
+    assert any(type(frame) is not Frame for frame in beside_it)
+    assert all(type(frame) is Frame for frame in at_once)
+    assert all(map(same, beside_it, at_once))
+
+
+@physics
+def test_what_was_asked_for_is_drawn_before_the_world_is_closed():
+    filmed = Filmed()
+    frames = filmed.film(2.0)
+    filmed.close()
+    assert [frame.color.shape for frame in frames] == [(240, 320, 3)] * 4
+
+
+@physics
+def test_when_the_process_dies_it_is_told_once_and_pictures_are_drawn_here(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    monkeypatch.setattr(process, "command", lambda: ["sleep", "0"])
+    filmed = Filmed()
+    lost, *_, kept = filmed.film(4.0)
+    filmed.close()
+    with pytest.raises(NotDrawnError) as raised:
+        _ = lost.color
+    assert not isinstance(raised.value, OSError)  # that would be the end of a log
+    assert kept.color.shape == (240, 320, 3)
+    (told,) = filmed.warnings()
+    assert "the process that drew them has ended (exit status 0)" in told
+
+
+@physics
+def test_where_no_process_can_be_started_that_is_told_once_and_pictures_are_drawn_here(here: None):
+    world = Filmed()
+    assert len(world.film(1.0)) == 2
+    world.close()
+    (told,) = world.warnings()
+    assert told.endswith("no process can be started for them: no more processes")
+
+
+@physics
+@pytest.mark.parametrize(
+    ("camera_hz", "faults"), [(0.0, []), (2.0, [parse_fault("noise=0.1")])], ids=["none", "noisy"]
+)
+def test_no_process_is_started_for_no_pictures_nor_for_spoilt_ones(
+    here: None, camera_hz: float, faults: list[Any]
+):
+    world = Filmed(camera_hz, faults)
+    world.film(1.0)
+    world.close()
+    assert not world.warnings()
+
+
+def test_the_process_ends_when_whoever_asks_is_gone():
+    painter = subprocess.Popen(process.command(), stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    painter.communicate(timeout=60)
+    assert painter.returncode == 0
+
+
+def test_a_process_that_does_not_answer_is_given_up(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(process, "PATIENCE_S", 0.01)
+    painter = process.Painter(Stage((), (), 0), ["sleep", "60"])
+    asked = Asked(view_from(Pose(), GLANCING), Moment())
+    coming = painter.paint(asked)
+    assert coming is not None
+    with pytest.raises(NotDrawnError, match="has not answered"):
+        coming.result()
+    assert painter.paint(asked) is None
+    painter.close()
+
+
+def test_drawing_beside_is_worthwhile_with_cores_of_ones_own_only(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+    assert worthwhile()
+    monkeypatch.setattr(multiprocessing, "parent_process", object)
+    assert not worthwhile()
+    monkeypatch.undo()
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0}, raising=False)
+    assert not worthwhile()
