@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import logging
+import os
 import threading
 import time
 from collections.abc import Callable
@@ -77,6 +78,7 @@ def until(stop: threading.Event) -> Checkpoint:
 @dataclass(slots=True)
 class _Loaded:
     model: Gguf
+    kept: Kept
     writing: Context
     scorer: Scorer | None = None
 
@@ -241,10 +243,16 @@ class LlamaCpp:
     def _load(self, gpu_layers: int) -> _Loaded:
         model = Gguf(self._path, gpu_layers, until(self._closing))
         try:
-            return _Loaded(model, Context(model, self._n_ctx, threads=self._threads))
+            kept = Kept(mark_of(self._path), llama_cpp.llama_print_system_info(), self._settings())
+            writing = Context(model, self._n_ctx, threads=self._threads, kept=kept)
         except ModelError:
             model.close()
             raise
+        return _Loaded(model, kept, writing)
+
+    def _settings(self) -> tuple[object, ...]:
+        """All that what the model makes of a text may depend on, beside file and processor."""
+        return self._n_ctx, self._threads or os.cpu_count(), self._gpu_layers
 
     def _write(self, request: ChatRequest, checkpoint: Checkpoint) -> Result:
         began = time.monotonic()
@@ -289,9 +297,7 @@ class LlamaCpp:
     def _scorer(self) -> Scorer:
         loaded = self._loading.result()
         if loaded.scorer is None:
-            settings = self._n_ctx, self._threads, self._gpu_layers
-            kept = Kept(mark_of(self._path), llama_cpp.llama_print_system_info(), settings)
-            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads, kept)
+            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads, loaded.kept)
         return loaded.scorer
 
     def _sampler(self, model: Gguf, request: ChatRequest) -> Sampler:
