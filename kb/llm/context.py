@@ -65,7 +65,7 @@ class Context:
         self._memory: Any = llama_cpp.llama_get_memory(self.pointer)
         self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, sequences)
         self._vocabulary_size = model.vocabulary_size
-        self._width: int = llama_cpp.llama_model_n_embd(model.pointer)
+        self._width = model.width
         self._sequences = sequences
         self._n_ctx = tokens
         self.evaluated = 0
@@ -160,11 +160,6 @@ class Context:
             for sequence in sequences.values():
                 llama_cpp.llama_memory_seq_rm(self._memory, sequence, *WHOLE)
         return scores
-
-    @property
-    def width(self) -> int:
-        """How many numbers a state is."""
-        return self._width
 
     def state(self) -> NDArray[np.float64]:
         """(width,) the last layer's state after the last token of sequence 0.

@@ -79,20 +79,21 @@ def until(stop: threading.Event) -> Checkpoint:
 class _Loaded:
     model: Gguf
     kept: Kept
-    writing: Context
+    writing: Context | None = None
     scorer: Scorer | None = None
 
     @property
     def evaluated(self) -> int:
         """Tokens that were evaluated so far."""
-        return self.writing.evaluated + (self.scorer.evaluated if self.scorer else 0)
+        return sum(one.evaluated for one in (self.writing, self.scorer) if one)
 
 
 class LlamaCpp:
     """Implements `LanguageModel`. Requests are served one after the other, in their order.
 
     The model is loaded in the background; requests wait for it. What a prompt shares with the one
-    before it is not evaluated again; writing and scoring have a KV cache each.
+    before it is not evaluated again; writing and scoring have a KV cache each, made when it is
+    needed.
     """
 
     def __init__(
@@ -197,10 +198,9 @@ class LlamaCpp:
         if self._loading.cancelled() or self._loading.exception():
             return
         loaded = self._loading.result()
-        if loaded.scorer:
-            loaded.scorer.close()
-        loaded.writing.close()
-        loaded.model.close()
+        for one in (loaded.scorer, loaded.writing, loaded.model):
+            if one:
+                one.close()
 
     def _start(self, work: Callable[[Checkpoint], Result]) -> int:
         self._prepared_enough.set()
@@ -235,7 +235,7 @@ class LlamaCpp:
                 self._scorer().prepare(request, checkpoint)
             else:
                 prompt, head = self._prompt(request)
-                loaded.writing.begin(prompt[:head], checkpoint)
+                self._writing().begin(prompt[:head], checkpoint)
         tokens, seconds = loaded.evaluated - before, time.monotonic() - began
         self._prepared = self._prepared[0] + tokens, self._prepared[1] + seconds
         log.info("read %d tokens ahead in %.2f s", tokens, seconds)
@@ -243,12 +243,12 @@ class LlamaCpp:
     def _load(self, gpu_layers: int) -> _Loaded:
         model = Gguf(self._path, gpu_layers, until(self._closing))
         try:
-            kept = Kept(mark_of(self._path), llama_cpp.llama_print_system_info(), self._settings())
-            writing = Context(model, self._n_ctx, threads=self._threads, kept=kept)
+            mark = mark_of(self._path)
         except ModelError:
             model.close()
             raise
-        return _Loaded(model, kept, writing)
+        processor = llama_cpp.llama_print_system_info()
+        return _Loaded(model, Kept(mark, processor, self._settings()))
 
     def _settings(self) -> tuple[object, ...]:
         """All that what the model makes of a text may depend on, beside file and processor."""
@@ -257,7 +257,7 @@ class LlamaCpp:
     def _write(self, request: ChatRequest, checkpoint: Checkpoint) -> Result:
         began = time.monotonic()
         loaded = self._loading.result()
-        model, context = loaded.model, loaded.writing
+        model, context = loaded.model, self._writing()
         before = loaded.evaluated
         prompt, head = self._prompt(request)
         context.read(prompt, head, checkpoint)
@@ -293,6 +293,14 @@ class LlamaCpp:
         """The request's tokens, and how many of them the system turn makes, which others share."""
         system_only = (*request.messages[:1], Message("user", ""))
         return self._loading.result().model.prompt(request.messages, system_only)
+
+    def _writing(self) -> Context:
+        loaded = self._loading.result()
+        if loaded.writing is None:
+            loaded.writing = Context(
+                loaded.model, self._n_ctx, threads=self._threads, kept=loaded.kept
+            )
+        return loaded.writing
 
     def _scorer(self) -> Scorer:
         loaded = self._loading.result()

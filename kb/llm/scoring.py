@@ -1,5 +1,7 @@
 """How likely each of some options is as the next words of a chat, and what like chats suggest."""
 
+from functools import partial
+
 import numpy as np
 
 from executive.geometry import Floats
@@ -28,14 +30,13 @@ class Scorer:
     ) -> None:
         """Score with this model, in chats of at most `n_ctx` tokens.
 
-        What others worked out is looked for in what was `kept`.
-
-        Raises:
-            ModelError: if there is not enough memory.
+        What others worked out is looked for in what was `kept`; the context is made for what is
+        not there.
         """
         self._model = model
-        self._context = Context(
-            model, n_ctx, sequences=1 + SCORED_AT_ONCE, threads=threads, kept=kept
+        self._opened: Context | None = None
+        self._open = partial(
+            Context, model, n_ctx, sequences=1 + SCORED_AT_ONCE, threads=threads, kept=kept
         )
         self._kept = kept
         self._lengths: dict[Chat, int] = {}
@@ -47,13 +48,14 @@ class Scorer:
     @property
     def evaluated(self) -> int:
         """Tokens that were evaluated so far."""
-        return self._context.evaluated
+        return self._opened.evaluated if self._opened else 0
 
     def score(self, request: RankRequest, checkpoint: Checkpoint) -> Floats:
         """(options,) the logarithm of how likely each option is, up to a constant.
 
         Raises:
-            ModelError: if a chat is too long, or an option is empty or too long.
+            ModelError: if a chat is too long, or an option is empty or too long, or if there is not
+                enough memory.
         """
         self.prepare(request, checkpoint)
         likelihoods = self._likelihood(request.messages, request.options, checkpoint)
@@ -89,7 +91,13 @@ class Scorer:
 
     def close(self) -> None:
         """Free the memory."""
-        self._context.close()
+        if self._opened:
+            self._opened.close()
+
+    @property
+    def _context(self) -> Context:
+        self._opened = self._opened or self._open()
+        return self._opened
 
     def _likelihood(self, chat: Chat, options: tuple[str, ...], checkpoint: Checkpoint) -> Floats:
         """(options,) log P(option | chat), which is kept."""
@@ -106,7 +114,7 @@ class Scorer:
     def _state(self, chat: Chat, checkpoint: Checkpoint) -> Floats:
         """What the model makes of a chat, which is kept."""
         if chat not in self._states:
-            known = self._recall(self._context.width, "state", chat)
+            known = self._recall(self._model.width, "state", chat)
             if known is None:
                 self._evaluate(chat, checkpoint)
             else:
