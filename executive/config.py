@@ -1,21 +1,26 @@
-"""Every setting in one model: from a TOML file, the environment, the command line; last wins."""
+"""Every setting in one model: from a TOML file, the environment, the command line; last wins.
+
+`--help` is made of the fields alone. So what reads the environment, and what checks values, is
+imported and built when the first settings are made.
+"""
 
 import re
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 from urllib.parse import urlsplit
 
 import tomli_w
-from pydantic import Field, ValidationError, field_validator
-from pydantic_core import ErrorDetails
-from pydantic_settings import (
-    BaseSettings,
-    PydanticBaseSettingsSource,
-    SettingsConfigDict,
-    SettingsError,
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    field_validator,
+    model_validator,
 )
+from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.toml_file import read_toml
@@ -48,14 +53,18 @@ class KnowledgeSystem(StrEnum):
     OKB_LLM_MEM = "okb+llm+mem"
 
 
-class Settings(BaseSettings):
+class Settings(BaseModel):
     """What a mission is run with. Environment variables are named EXECUTIVE_HOME and so on.
 
     A setting is one field. One that is annotated with an `Option` is an option of the command line.
     """
 
-    model_config = SettingsConfigDict(
-        env_prefix=PREFIX, extra="forbid", frozen=True, allow_inf_nan=False
+    model_config = ConfigDict(
+        extra="forbid",
+        frozen=True,
+        allow_inf_nan=False,
+        validate_default=True,
+        defer_build=True,
     )
 
     home: Annotated[str, Option("NAME or FILE.toml")] = Field(
@@ -185,17 +194,11 @@ class Settings(BaseSettings):
         1.0, ge=0, description="pictures a second for the log while the robot moves"
     )
 
+    @model_validator(mode="before")
     @classmethod
-    def settings_customise_sources(
-        cls,
-        settings_cls: type[BaseSettings],
-        init_settings: PydanticBaseSettingsSource,
-        env_settings: PydanticBaseSettingsSource,
-        dotenv_settings: PydanticBaseSettingsSource,
-        file_secret_settings: PydanticBaseSettingsSource,
-    ) -> tuple[PydanticBaseSettingsSource, ...]:
-        """What is given, then the environment: pydantic's other files are none of ours."""
-        return init_settings, env_settings
+    def _with_environment(cls, given: Any) -> Any:
+        """What is not given is taken from the environment."""
+        return {**_said_in_environment(cls), **given} if isinstance(given, dict) else given
 
     @field_validator("kb", "fault", mode="before")
     @classmethod
@@ -317,14 +320,27 @@ def _address(url: str, secret: str = "EXECUTIVE_LLM_API_KEY") -> str:
     return url
 
 
+def _said_in_environment(settings: type[Settings]) -> dict[str, Any]:
+    """What the environment has for each field, as it is written there, or of JSON.
+
+    Raises:
+        SettingsError: if something should be JSON, and is none.
+    """
+    from pydantic_settings import EnvSettingsSource  # see above
+
+    return EnvSettingsSource(cast(Any, settings), env_prefix=PREFIX)()
+
+
 def _environment() -> dict[str, Any]:
     """The settings that the environment gives.
 
     Raises:
         InputError: names the variable and what is wrong with it.
     """
+    from pydantic_settings import SettingsError
+
     try:
-        return Settings().model_dump(exclude_unset=True)
+        return Settings(**_said_in_environment(Settings)).model_dump(exclude_unset=True)
     except ValidationError as error:
         fault = error.errors()[0]
         first, *rest = map(str, fault["loc"] or ("settings",))

@@ -1,10 +1,20 @@
-"""Points and frames: from pixels with depth to points in `map`, from one frame to another."""
+"""Points and frames: from pixels with depth to points in `map`, from one frame to another.
+
+Importing SciPy takes as long as all of a mission in the instant world, which needs only little of
+it. So this little is written out here; it gives the same numbers to the last bit.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
-from executive.types import Frame, Intrinsics, Pose
+from executive.types import Frame, Intrinsics, Pose, Quaternion
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
 
 Floats = NDArray[np.float64]
 
@@ -45,11 +55,60 @@ def rays(intrinsics: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.int
 
 def transform(pose: Pose, points: Floats) -> Floats:
     """Points (n, 3) from the child frame of `pose` to its parent frame."""
-    moved: Floats = Rotation.from_quat(pose.orientation).apply(points) + pose.position
+    moved: Floats = turned(pose.orientation, points) + pose.position
     return moved
 
 
-def pose_from(position: Floats, turn: Rotation) -> Pose:
+def turned(orientation: Quaternion, vectors: Floats) -> Floats:
+    """Vectors (n, 3), turned so."""
+    result: Floats = np.asarray(vectors, np.float64) @ matrix_of(orientation).T
+    return result
+
+
+def matrix_of(orientation: Quaternion) -> Floats:
+    """The rotation matrix (3, 3) of a quaternion (x, y, z, w) of any length but 0."""
+    x, y, z, w = orientation
+    length = math.sqrt(x * x + y * y + z * z + w * w)
+    x, y, z, w = x / length, y / length, z / length, w / length
+    xx, yy, zz, ww = x * x, y * y, z * z, w * w
+    xy, xz, yz, xw, yw, zw = x * y, x * z, y * z, x * w, y * w, z * w
+    return np.array(
+        [
+            [xx - yy - zz + ww, 2 * (xy - zw), 2 * (xz + yw)],
+            [2 * (xy + zw), -xx + yy - zz + ww, 2 * (yz - xw)],
+            [2 * (xz - yw), 2 * (yz + xw), -xx - yy + zz + ww],
+        ]
+    )
+
+
+def orientation_of(angles: Sequence[float]) -> Quaternion:
+    """The quaternion of turns (radians) about x, then y, then z, axes that do not turn along."""
+    orientation = _about(0, angles[0])
+    for axis in (1, 2):
+        orientation = _product(_about(axis, angles[axis]), orientation)
+    return orientation
+
+
+def _about(axis: int, angle: float) -> Quaternion:
+    sines = [0.0, 0.0, 0.0]
+    sines[axis] = math.sin(angle / 2)
+    x, y, z = sines
+    return x, y, z, math.cos(angle / 2)
+
+
+def _product(after: Quaternion, first: Quaternion) -> Quaternion:
+    """The two turns, one after the other."""
+    ax, ay, az, aw = after
+    x, y, z, w = first
+    return (
+        aw * x + w * ax + (ay * z - az * y),
+        aw * y + w * ay + (az * x - ax * z),
+        aw * z + w * az + (ax * y - ay * x),
+        aw * w - ax * x - ay * y - az * z,
+    )
+
+
+def pose_from(position: Floats, turn: "Rotation") -> Pose:
     """A pose at this position (3,; metres), turned so."""
     x, y, z = (float(one) for one in position)
     a, b, c, d = (float(one) for one in turn.as_quat())
@@ -58,6 +117,8 @@ def pose_from(position: Floats, turn: Rotation) -> Pose:
 
 def seen_from(one: Pose, other: Pose) -> Pose:
     """`other` in the frame `one`, if both are in the same frame."""
+    from scipy.spatial.transform import Rotation  # see above
+
     back = Rotation.from_quat(one.orientation).inv()
     offset = np.subtract(other.position, one.position)
     return pose_from(back.apply(offset), back * Rotation.from_quat(other.orientation))
@@ -65,6 +126,8 @@ def seen_from(one: Pose, other: Pose) -> Pose:
 
 def carried_by(one: Pose, other: Pose) -> Pose:
     """`other`, told in the frame `one`, in the frame that `one` is told in."""
+    from scipy.spatial.transform import Rotation  # see above
+
     turn = Rotation.from_quat(one.orientation)
     return pose_from(
         turn.apply(other.position) + one.position, turn * Rotation.from_quat(other.orientation)

@@ -12,7 +12,6 @@ from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import Fault, parse_faults, refuse_physical
 from sim.home.home import Home
 from sim.home.state import with_room
-from sim.objects.ycb import with_scans
 
 
 def fake(setup: Setup) -> Embodiment:
@@ -49,6 +48,7 @@ def physics(setup: Setup) -> Embodiment:
     Raises:
         InputError: if a fault is none, or a file is wrong.
     """
+    from sim.objects.ycb import with_scans
     from sim.pictures.beside import worthwhile
     from sim.world import PhysicsWorld  # takes long: the model loads meanwhile
 

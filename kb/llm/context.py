@@ -65,7 +65,7 @@ class Context:
         self._memory: Any = llama_cpp.llama_get_memory(self.pointer)
         self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, sequences)
         self._vocabulary_size = model.vocabulary_size
-        self._width: int = llama_cpp.llama_model_n_embd(model.pointer)
+        self._width = model.width
         self._sequences = sequences
         self._n_ctx = tokens
         self.evaluated = 0
@@ -99,15 +99,13 @@ class Context:
         cuts = (*range(0, head, BATCH_TOKENS), *range(head, len(tokens), TAIL_TOKENS), len(tokens))
         batches = [tuple(tokens[start:end]) for start, end in pairwise(cuts)]
         begins = len(range(0, head, BATCH_TOKENS))
-        same = sum(takewhile(bool, map(operator.eq, self._batches, batches[:-1])))
-        if same < begins < len(batches) and self._recall(batches[:begins]):
-            same = begins
-        kept = sum(map(len, batches[:same]))
-        if not llama_cpp.llama_memory_seq_rm(self._memory, 0, kept, -1):
-            llama_cpp.llama_memory_clear(self._memory, True)
-            same = kept = 0
-        self._batches, self._length = batches[:same], kept
-        for batch in batches[same:]:
+        if self._in_common(batches[:-1]) < begins < len(batches):
+            self._recall(batches[:begins])
+        same = self._in_common(batches[:-1])
+        self._batches, self._length = batches[:same], sum(map(len, batches[:same]))
+        if not llama_cpp.llama_memory_seq_rm(self._memory, 0, self._length, -1):
+            self._forget()
+        for batch in batches[len(self._batches) :]:
             checkpoint()
             self.append(batch)
             self._batches.append(batch)
@@ -116,8 +114,12 @@ class Context:
 
     def begin(self, head: Tokens, checkpoint: Checkpoint) -> None:
         """Evaluate what later prompts begin with, unless sequence 0 begins with it already."""
-        if [*chain(*self._batches)][: len(head)] != head:
+        if [*chain(*self._batches)][: len(head)] == head:
+            return
+        cuts = (*range(0, len(head), BATCH_TOKENS), len(head))
+        if not self._recall([tuple(head[start:end]) for start, end in pairwise(cuts)]):
             self.read(head, len(head), checkpoint)
+            self._remember()
 
     def append(self, tokens: Sequence[int]) -> None:
         """Evaluate further tokens of sequence 0 (at most BATCH_TOKENS)."""
@@ -159,11 +161,6 @@ class Context:
                 llama_cpp.llama_memory_seq_rm(self._memory, sequence, *WHOLE)
         return scores
 
-    @property
-    def width(self) -> int:
-        """How many numbers a state is."""
-        return self._width
-
     def state(self) -> NDArray[np.float64]:
         """(width,) the last layer's state after the last token of sequence 0.
 
@@ -185,17 +182,28 @@ class Context:
         llama_cpp.llama_batch_free(self._batch)
         llama_cpp.llama_free(self.pointer)
 
+    def _in_common(self, batches: list[tuple[int, ...]]) -> int:
+        """How many of these sequence 0 begins with."""
+        return sum(takewhile(bool, map(operator.eq, self._batches, batches)))
+
+    def _forget(self) -> None:
+        llama_cpp.llama_memory_clear(self._memory, True)
+        self._batches, self._length = [], 0
+
     def _recall(self, batches: list[tuple[int, ...]]) -> bool:
         """Make sequence 0 these batches without evaluating them, if what they make is known."""
         content = self._kept.get("cache", batches) if self._kept else None
         if content is None:
             return False
-        llama_cpp.llama_memory_clear(self._memory, True)
+        self._forget()
         buffer = (ctypes.c_uint8 * len(content)).from_buffer_copy(content)
-        if not llama_cpp.llama_state_seq_set_data(self.pointer, buffer, len(content), 0):
-            self._batches = []
+        read = llama_cpp.llama_state_seq_set_data(self.pointer, buffer, len(content), 0)
+        length = sum(map(len, batches))
+        reaches = llama_cpp.llama_memory_seq_pos_max(self._memory, 0) + 1
+        if read != len(content) or reaches != length:
+            self._forget()
             return False
-        self._batches, self._length = batches, sum(map(len, batches))
+        self._batches, self._length = batches, length
         return True
 
     def _remember(self) -> None:

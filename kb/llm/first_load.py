@@ -148,9 +148,9 @@ def _folder() -> Path:
     Raises:
         OSError: if there is no place for them.
     """
-    if (folder := cache_folder()) is None:
+    if (folder := cache_folder("models")) is None:
         raise OSError("there is no cache folder of our own")
-    return folder / "models"
+    return folder
 
 
 def _recall(mark: str) -> list[str]:
@@ -163,7 +163,6 @@ def _recall(mark: str) -> list[str]:
 def _remember(mark: str, known: list[str]) -> None:
     """Where nothing can be written, the file is tried anew next time."""
     try:
-        _folder().mkdir(parents=True, exist_ok=True)
         (_folder() / mark).write_text("\n".join(known))
     except OSError as error:
         log.info("it is not remembered that the model can be loaded: %s", error)

@@ -79,6 +79,8 @@ class Gguf:
             raise ModelError(f"model {printable(path)} cannot be loaded: {last_complaint()}")
         self.vocabulary: Any = llama_cpp.llama_model_get_vocab(self.pointer)
         self.vocabulary_size = llama_cpp.llama_vocab_n_tokens(self.vocabulary)
+        self.width: int = llama_cpp.llama_model_n_embd(self.pointer)
+        """How many numbers a state is."""
         try:
             self._template = Template(*self._template_texts(path))
         except ModelError as error:

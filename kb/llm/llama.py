@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import logging
+import os
 import threading
 import time
 from collections.abc import Callable
@@ -77,20 +78,22 @@ def until(stop: threading.Event) -> Checkpoint:
 @dataclass(slots=True)
 class _Loaded:
     model: Gguf
-    writing: Context
+    kept: Kept
+    writing: Context | None = None
     scorer: Scorer | None = None
 
     @property
     def evaluated(self) -> int:
         """Tokens that were evaluated so far."""
-        return self.writing.evaluated + (self.scorer.evaluated if self.scorer else 0)
+        return sum(one.evaluated for one in (self.writing, self.scorer) if one)
 
 
 class LlamaCpp:
     """Implements `LanguageModel`. Requests are served one after the other, in their order.
 
     The model is loaded in the background; requests wait for it. What a prompt shares with the one
-    before it is not evaluated again; writing and scoring have a KV cache each.
+    before it is not evaluated again; writing and scoring have a KV cache each, made when it is
+    needed.
     """
 
     def __init__(
@@ -195,10 +198,9 @@ class LlamaCpp:
         if self._loading.cancelled() or self._loading.exception():
             return
         loaded = self._loading.result()
-        if loaded.scorer:
-            loaded.scorer.close()
-        loaded.writing.close()
-        loaded.model.close()
+        for one in (loaded.scorer, loaded.writing, loaded.model):
+            if one:
+                one.close()
 
     def _start(self, work: Callable[[Checkpoint], Result]) -> int:
         self._prepared_enough.set()
@@ -233,7 +235,7 @@ class LlamaCpp:
                 self._scorer().prepare(request, checkpoint)
             else:
                 prompt, head = self._prompt(request)
-                loaded.writing.begin(prompt[:head], checkpoint)
+                self._writing().begin(prompt[:head], checkpoint)
         tokens, seconds = loaded.evaluated - before, time.monotonic() - began
         self._prepared = self._prepared[0] + tokens, self._prepared[1] + seconds
         log.info("read %d tokens ahead in %.2f s", tokens, seconds)
@@ -241,15 +243,21 @@ class LlamaCpp:
     def _load(self, gpu_layers: int) -> _Loaded:
         model = Gguf(self._path, gpu_layers, until(self._closing))
         try:
-            return _Loaded(model, Context(model, self._n_ctx, threads=self._threads))
+            mark = mark_of(self._path)
         except ModelError:
             model.close()
             raise
+        processor = llama_cpp.llama_print_system_info()
+        return _Loaded(model, Kept(mark, processor, self._settings()))
+
+    def _settings(self) -> tuple[object, ...]:
+        """All that what the model makes of a text may depend on, beside file and processor."""
+        return self._n_ctx, self._threads or os.cpu_count(), self._gpu_layers
 
     def _write(self, request: ChatRequest, checkpoint: Checkpoint) -> Result:
         began = time.monotonic()
         loaded = self._loading.result()
-        model, context = loaded.model, loaded.writing
+        model, context = loaded.model, self._writing()
         before = loaded.evaluated
         prompt, head = self._prompt(request)
         context.read(prompt, head, checkpoint)
@@ -286,12 +294,18 @@ class LlamaCpp:
         system_only = (*request.messages[:1], Message("user", ""))
         return self._loading.result().model.prompt(request.messages, system_only)
 
+    def _writing(self) -> Context:
+        loaded = self._loading.result()
+        if loaded.writing is None:
+            loaded.writing = Context(
+                loaded.model, self._n_ctx, threads=self._threads, kept=loaded.kept
+            )
+        return loaded.writing
+
     def _scorer(self) -> Scorer:
         loaded = self._loading.result()
         if loaded.scorer is None:
-            settings = self._n_ctx, self._threads, self._gpu_layers
-            kept = Kept(mark_of(self._path), llama_cpp.llama_print_system_info(), settings)
-            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads, kept)
+            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads, loaded.kept)
         return loaded.scorer
 
     def _sampler(self, model: Gguf, request: ChatRequest) -> Sampler:

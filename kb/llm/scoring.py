@@ -1,5 +1,7 @@
 """How likely each of some options is as the next words of a chat, and what like chats suggest."""
 
+from functools import partial
+
 import numpy as np
 
 from executive.geometry import Floats
@@ -18,9 +20,9 @@ Chat = tuple[Message, ...]
 class Scorer:
     """Scores options. Belongs to one thread.
 
-    What all chats begin with stays in the KV cache. What was worked out once is remembered: the
-    likelihoods of the neutral chat, above all, and the states about precedents. These are kept for
-    other processes, too.
+    What all chats begin with stays in the KV cache. What was worked out once is remembered, and
+    kept for other processes: likelihoods, those of the neutral chat above all, and states, which
+    each thing has that is asked for or is a precedent.
     """
 
     def __init__(
@@ -28,14 +30,13 @@ class Scorer:
     ) -> None:
         """Score with this model, in chats of at most `n_ctx` tokens.
 
-        What does not depend on a request's own thing is looked for in what was `kept`.
-
-        Raises:
-            ModelError: if there is not enough memory.
+        What others worked out is looked for in what was `kept`; the context is made for what is
+        not there.
         """
         self._model = model
-        self._context = Context(
-            model, n_ctx, sequences=1 + SCORED_AT_ONCE, threads=threads, kept=kept
+        self._opened: Context | None = None
+        self._open = partial(
+            Context, model, n_ctx, sequences=1 + SCORED_AT_ONCE, threads=threads, kept=kept
         )
         self._kept = kept
         self._lengths: dict[Chat, int] = {}
@@ -47,18 +48,20 @@ class Scorer:
     @property
     def evaluated(self) -> int:
         """Tokens that were evaluated so far."""
-        return self._context.evaluated
+        return self._opened.evaluated if self._opened else 0
 
     def score(self, request: RankRequest, checkpoint: Checkpoint) -> Floats:
         """(options,) the logarithm of how likely each option is, up to a constant.
 
         Raises:
-            ModelError: if a chat is too long, or an option is empty or too long.
+            ModelError: if a chat is too long, or an option is empty or too long, or if there is not
+                enough memory.
         """
         self.prepare(request, checkpoint)
         likelihoods = self._likelihood(request.messages, request.options, checkpoint)
         if request.neutral:
-            likelihoods = likelihoods - self._neutral(request.neutral, request.options, checkpoint)
+            neutral = self._likelihood(request.neutral, request.options, checkpoint)
+            likelihoods = likelihoods - neutral
         scores = likelihood_weight(len(request.precedents)) * likelihoods
         if known := request.precedents:
             chats = [request.messages, *(precedent.messages for precedent in known)]
@@ -75,7 +78,7 @@ class Scorer:
             ModelError: as `score` does.
         """
         if request.neutral:
-            self._neutral(request.neutral, request.options, checkpoint)
+            self._likelihood(request.neutral, request.options, checkpoint)
         for precedent in request.precedents:
             self._state(precedent.messages, checkpoint)
 
@@ -88,44 +91,51 @@ class Scorer:
 
     def close(self) -> None:
         """Free the memory."""
-        self._context.close()
+        if self._opened:
+            self._opened.close()
+
+    @property
+    def _context(self) -> Context:
+        self._opened = self._opened or self._open()
+        return self._opened
 
     def _likelihood(self, chat: Chat, options: tuple[str, ...], checkpoint: Checkpoint) -> Floats:
-        """(options,) log P(option | chat)."""
+        """(options,) log P(option | chat), which is kept."""
         if (chat, options) not in self._likelihoods:
-            self._evaluate(chat, checkpoint)
-            answers = [self._model.tokenize(option) for option in options]
-            self._likelihoods[chat, options] = self._context.continuations(answers, checkpoint)
-        return self._likelihoods[chat, options]
-
-    def _neutral(self, chat: Chat, options: tuple[str, ...], checkpoint: Checkpoint) -> Floats:
-        """The same, which is kept."""
-        if (chat, options) not in self._likelihoods and self._kept:
-            known = self._kept.numbers(1 + len(options), "likelihoods", chat, options)
+            known = self._recall(len(options), "likelihoods", chat, options)
             if known is None:
-                found = self._likelihood(chat, options, checkpoint)
-                numbers = (self._lengths[chat], *found)
-                self._kept.put_numbers(numbers, "likelihoods", chat, options)
-            else:
-                self._lengths[chat] = int(known[0])
-                self._likelihoods[chat, options] = known[1:]
-        return self._likelihood(chat, options, checkpoint)
+                self._evaluate(chat, checkpoint)
+                answers = [self._model.tokenize(option) for option in options]
+                known = self._context.continuations(answers, checkpoint)
+                self._remember(known, "likelihoods", chat, options)
+            self._likelihoods[chat, options] = known
+        return self._likelihoods[chat, options]
 
     def _state(self, chat: Chat, checkpoint: Checkpoint) -> Floats:
         """What the model makes of a chat, which is kept."""
-        if chat not in self._states and self._kept:
-            known = self._kept.numbers(1 + self._context.width, "state", chat)
+        if chat not in self._states:
+            known = self._recall(self._model.width, "state", chat)
             if known is None:
                 self._evaluate(chat, checkpoint)
-                self._kept.put_numbers((self._lengths[chat], *self._states[chat]), "state", chat)
             else:
-                self._lengths[chat], self._states[chat] = int(known[0]), known[1:]
-        if chat not in self._states:
-            self._evaluate(chat, checkpoint)
+                self._states[chat] = known
         return self._states[chat]
+
+    def _recall(self, count: int, what: str, chat: Chat, *about: object) -> Floats | None:
+        """So many numbers about a chat, if they are kept: with them is how long it is."""
+        known = self._kept.numbers(1 + count, what, chat, *about) if self._kept else None
+        if known is None:
+            return None
+        self._lengths[chat] = int(known[0])
+        return known[1:]
+
+    def _remember(self, numbers: Floats, what: str, chat: Chat, *about: object) -> None:
+        if self._kept:
+            self._kept.put_numbers((self._lengths[chat], *numbers), what, chat, *about)
 
     def _evaluate(self, chat: Chat, checkpoint: Checkpoint) -> None:
         """Make it what the context has read; all but its last turn is shared with others."""
         tokens, head = self._model.prompt(chat, (*chat[:-1], Message("user", "")))
         self._context.read(tokens, head, checkpoint)
         self._lengths[chat], self._states[chat] = len(tokens), self._context.state()
+        self._remember(self._states[chat], "state", chat)

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
-from scipy.spatial.transform import Rotation
 
+from executive.geometry import matrix_of
 from executive.records import Entity, Planned, Shape
 from executive.types import Vector3
 from logs.viewer.states import State, states
@@ -86,7 +86,7 @@ def _balls(middles: list[Vector3], drawn: Mapping[str, State]) -> rr.Points3D:
 
 def _above(shapes: Sequence[Shape]) -> Vector3:
     """A point over the middle of shapes that stand in `map`."""
-    turns = Rotation.from_quat([shape.pose.orientation for shape in shapes]).as_matrix()
+    turns = np.stack([matrix_of(shape.pose.orientation) for shape in shapes])
     boxes = _CORNERS * np.array([shape.size for shape in shapes])[:, np.newaxis]
     middles = np.array([shape.pose.position for shape in shapes])[:, np.newaxis]
     corners = (boxes @ turns.transpose(0, 2, 1) + middles).reshape(-1, 3)

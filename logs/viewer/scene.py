@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import rerun as rr
-from scipy.spatial.transform import Rotation
 
 from executive.records import Entity, PlannedPath, Seen, Shape, Transform
 from executive.types import Color, Intrinsics, Pose
@@ -30,7 +29,7 @@ PICTURE_WIDTH = 640
 """Of every picture (pixels). The viewer takes JPEGs that follow one another for a video, which has
 one size; but what the robot looks at is larger than what is taken by the way."""
 
-_GLTF_TURN = Rotation.from_quat((0.5, 0.5, 0.5, 0.5))
+_GLTF_TURN = (0.5, 0.5, 0.5, 0.5)
 """glTF has y up and looks along z; the viewer takes its coordinates as they are."""
 _CAMERA = (255, 255, 255, 160)
 _FOUND = (60, 220, 90)
@@ -97,9 +96,11 @@ def _log_mesh(
 ) -> None:
     if not Path(shape.mesh).is_file():
         raise ValueError(f"the mesh {shape.mesh} is not there")
+    from scipy.spatial.transform import Rotation  # takes long to import, and few show meshes
+
     turn = Rotation.from_quat(shape.pose.orientation)
     if shape.mesh.endswith(".glb"):
-        turn *= _GLTF_TURN
+        turn *= Rotation.from_quat(_GLTF_TURN)
     stream.log(
         path,
         frame,

@@ -12,7 +12,6 @@ from executive.errors import InputError
 from executive.records import Shape
 from executive.types import Color, Pose, Vector3
 from sim.home.arrangement import Spot
-from sim.objects.meshes import aligned
 from sim.objects.objects import GREY, WHITE, HexColor, ObjectModel, object_model, rgba
 
 Extent = Annotated[float, Field(strict=True, ge=0.005, le=0.5)]
@@ -77,6 +76,8 @@ class OwnObject(Spot):
         plain = self.model(name)
         if self.mesh is None:
             return plain
+        from sim.objects.meshes import aligned  # takes long to import, and few have a mesh
+
         look = aligned(plain, mesh_in(folder, self.mesh), self.paint or WHITE)
         return object_model(name, plain.shapes, mass_kg=plain.mass_kg, look=look, shown=(look,))
 

@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from executive.computing import still_wanted
-from executive.geometry import Floats
+from executive.geometry import Floats, matrix_of
 from executive.records import Shape
 
 Numbers = NDArray[np.floating[Any]]
@@ -29,9 +28,7 @@ class SignedDistance:
     def __init__(self, shapes: Sequence[Shape]) -> None:
         """Sort the shapes by their kind."""
         ordered = sorted(shapes, key=lambda shape: shape.kind)
-        self._turns = np.stack(
-            [Rotation.from_quat(s.pose.orientation).as_matrix().T for s in ordered]
-        )
+        self._turns = np.stack([matrix_of(s.pose.orientation).T for s in ordered])
         middles = np.array([shape.pose.position for shape in ordered])
         self._axes = self._turns.reshape(-1, 3)
         self._shift = np.einsum("sij,sj->si", self._turns, middles).reshape(-1, 1)

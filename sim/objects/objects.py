@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AfterValidator, BaseModel, ConfigDict, TypeAdapter
 from pydantic_core import PydanticCustomError
-from scipy.spatial.transform import Rotation
 
+from executive.geometry import matrix_of, orientation_of, transform
 from executive.records import Shape
 from executive.toml_file import parse_toml
 from executive.types import Color, Pose, Vector3
@@ -128,8 +128,8 @@ class _Part(BaseModel):
     def shapes(self) -> tuple[Shape, ...]:
         if self.kind == "tube":
             return tuple(self._wall(i) for i in range(TUBE_WALLS))
-        turn = Rotation.from_euler("xyz", self.rpy, degrees=True)
-        return (Shape(self.kind, self.size, WHITE, _pose(self.at, turn)),)
+        pose = Pose(self.at, orientation_of(np.deg2rad(self.rpy).tolist()))
+        return (Shape(self.kind, self.size, WHITE, pose),)
 
     def _wall(self, index: int) -> Shape:
         """One of the boxes that stand in a ring for the tube's wall."""
@@ -137,9 +137,9 @@ class _Part(BaseModel):
         angle = 2 * math.pi * index / TUBE_WALLS
         middle = (diameter - thickness) / 2
         width = diameter * math.tan(math.pi / TUBE_WALLS)
-        turn = Rotation.from_euler("z", angle)
-        x, y, z = turn.apply((middle, 0.0, 0.0)) + np.asarray(self.at)
-        return Shape("box", (thickness, width, height), WHITE, _pose((x, y, z), turn))
+        turn = orientation_of((0.0, 0.0, angle))
+        [at] = transform(Pose(self.at, turn), np.array([[middle, 0.0, 0.0]]))
+        return Shape("box", (thickness, width, height), WHITE, Pose(_vector(at), turn))
 
 
 class _Row(BaseModel):
@@ -208,15 +208,10 @@ def _vector(values: Sequence[float] | NDArray[np.float64]) -> Vector3:
     return x, y, z
 
 
-def _pose(position: Vector3, turn: Rotation) -> Pose:
-    x, y, z, w = (float(v) for v in turn.as_quat())
-    return Pose(_vector(position), (x, y, z, w))
-
-
 def _half_extent(shape: Shape) -> NDArray[np.float64]:
     """Half lengths of the axis-aligned box around a shape (metres)."""
     half = np.asarray(shape.size) / 2
-    axes = Rotation.from_quat(shape.pose.orientation).as_matrix()
+    axes = matrix_of(shape.pose.orientation)
     if shape.kind == "sphere":
         return half
     if shape.kind == "cylinder":

@@ -4,9 +4,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats
+from executive.geometry import Floats, transform, turned
 from executive.records import Shape
 from sim.objects.distance import distance_to
 
@@ -24,9 +23,8 @@ def _surface(shapes: tuple[Shape, ...], spacing: float) -> tuple[Floats, Floats]
     found_points, found_normals = [], []
     for shape in shapes:
         points, normals = _SAMPLERS[shape.kind](np.asarray(shape.size), spacing)
-        turn = Rotation.from_quat(shape.pose.orientation)
-        found_points.append(turn.apply(points) + shape.pose.position)
-        found_normals.append(turn.apply(normals))
+        found_points.append(transform(shape.pose, points))
+        found_normals.append(turned(shape.pose.orientation, normals))
     points, normals = np.concatenate(found_points), np.concatenate(found_normals)
     outside = signed_distance(shapes, points) > -spacing / 10
     return points[outside], normals[outside]

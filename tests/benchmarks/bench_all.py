@@ -65,7 +65,7 @@ with Session(settings, out=io.StringIO()) as session:
     session.run("{order}")
     print(time.thread_time() - began, *spent.values())
 """
-IMPORTS = "import numpy, scipy.spatial.transform, rdflib, lark, py_trees, pyarrow, cv2, mcap, rerun"
+IMPORTS = "import numpy, rdflib, lark, py_trees, pyarrow, cv2, mcap, rerun"
 
 REPEAT = """
 import time
@@ -165,7 +165,7 @@ def rows(other: Path, rounds: int, runs: str) -> Iterator[str]:
     """The table, a line at a time."""
     yield f"| what | {name_of(other)} | {name_of(HERE)} | ratio | bounded by |"
     yield "|---|---|---|---|---|"
-    settings = alone("import pydantic_settings", rounds)
+    settings = alone("from pydantic import BaseModel", rounds)
     for door in DOORS:
         bound = "Python" if door in ("kb", "logs", "trees") else f"pydantic: {settings:.2f} s"
         helped = paired(other, rounds, "-m", door, "--help")

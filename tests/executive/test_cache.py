@@ -52,3 +52,21 @@ def test_without_a_place_for_it_nothing_is_kept(base: Path) -> None:
     (base / "robot-executive").write_text("a file")
     assert cache_folder() is None
     assert isinstance(Reader().read(WORDS), Request)
+
+
+def test_the_environment_names_another_folder_or_none(
+    base: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("EXECUTIVE_CACHE", str(tmp_path / "mine"))
+    assert cache_folder("read") == tmp_path / "mine" / "read"
+    assert (tmp_path / "mine" / "read").stat().st_mode & 0o777 == 0o700
+    monkeypatch.setenv("EXECUTIVE_CACHE", "none")
+    assert cache_folder("read") is None
+    assert not (base / "robot-executive").exists()
+
+
+def test_a_part_in_which_others_may_write_is_not_used(base: Path) -> None:
+    part = cache_folder("read")
+    assert part
+    part.chmod(0o722)
+    assert cache_folder("read") is None

@@ -1,12 +1,18 @@
 """What a model has read is kept for other processes, and never trusted blindly."""
 
+import os
+import random
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from executive.events import Ended, Inbox
 from executive.testing.bench import ontology
-from executive.types import Scored
+from executive.types import Replied, Scored
+from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker
 from kb.llm.kept import Kept
 from kb.llm.llama import LlamaCpp, embedded_model
@@ -41,6 +47,69 @@ def test_what_is_damaged_is_not_found(cache: Path):
     assert kept.get("mug") is None
 
 
+@given(at=st.integers(0, 41), byte=st.integers(0, 255), length=st.integers(0, 60))
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+def test_whatever_is_changed_in_a_file_it_is_as_it_was_or_not_there(cache, at, byte, length):
+    kept = Kept()
+    kept.put(b"many bytes", "mug")
+    [path] = cache.iterdir()
+    whole = path.read_bytes()
+    changed = (whole[:at] + bytes([byte]) + whole[at + 1 :]).ljust(length, b"-")[:length]
+    path.write_bytes(changed)
+    assert kept.get("mug") == (b"many bytes" if changed == whole else None)
+
+
+def moved(path: Path) -> None:
+    """Another piece under its name."""
+    other = Kept()
+    other.put(b"other bytes", "cup")
+    [there] = (one for one in path.parent.iterdir() if one != path)
+    there.replace(path)
+
+
+def linked_to_nothing(path: Path) -> None:
+    path.unlink()
+    path.symlink_to("nowhere")
+
+
+def piped(path: Path) -> None:
+    path.unlink()
+    os.mkfifo(path)
+
+
+def endless(path: Path) -> None:
+    path.unlink()
+    path.symlink_to("/dev/zero")
+
+
+@pytest.mark.parametrize("strange", [moved, linked_to_nothing, piped, endless, Path.unlink])
+def test_what_is_none_of_ours_is_not_read_and_is_replaced(
+    cache: Path, strange: Callable[[Path], None]
+):
+    kept = Kept()
+    kept.put(b"many bytes", "mug")
+    [path] = cache.iterdir()
+    strange(path)
+    assert kept.get("mug") is None
+    kept.put(b"many bytes", "mug")
+    assert kept.get("mug") == b"many bytes"
+    assert path.is_file()
+    assert not path.is_symlink()
+
+
+def test_what_cannot_be_written_is_told_once(cache: Path, caplog: pytest.LogCaptureFixture):
+    caplog.set_level("INFO")
+    kept = Kept()
+    kept.put(b"many bytes", "mug")
+    [path] = cache.iterdir()
+    path.unlink()
+    path.mkdir()
+    for _ in range(2):
+        kept.put(b"many bytes", "mug")
+        assert kept.get("mug") is None
+    assert caplog.text.count("is not kept") == 1
+
+
 def test_where_nothing_can_be_kept_nothing_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     (tmp_path / "file").touch()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
@@ -58,31 +127,108 @@ def test_of_too_many_files_the_oldest_go(cache: Path, monkeypatch: pytest.Monkey
     assert len(list(cache.iterdir())) == 2
 
 
-def rank(thing: str) -> Scored:
-    """Ask a model that was just loaded where the thing is."""
-    model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024, threads=1)
-    model.rank(Ranker(ontology(True)).ranking(thing, ()))
+def test_of_too_many_bytes_those_go_that_were_not_asked_for_the_longest(
+    cache: Path, monkeypatch: pytest.MonkeyPatch
+):
+    for age, name in enumerate(("jar", "cup", "mug")):
+        before = set(cache.iterdir()) if cache.exists() else set()
+        Kept().put(bytes(100), name)
+        [path] = set(cache.iterdir()) - before
+        os.utime(path, (2e8 - 1e5 * age, 2e8 - 1e5 * age))
+    assert Kept().get("mug") == bytes(100)
+    monkeypatch.setattr("kb.llm.kept.MOST_BYTES_IN_ALL", 300)
+    kept = Kept()
+    assert [kept.get(name) is not None for name in ("jar", "cup", "mug")] == [True, False, True]
+
+
+def asked(ask: Callable[[LlamaCpp], int]) -> object:
+    """What a model that was just loaded answers."""
+    model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024, threads=1, max_tokens=8)
+    ask(model)
     assert inbox.wait(60)
     model.close()
     [event] = inbox.take_all()
     assert isinstance(event, Ended)
-    assert isinstance(event.result, Scored)
     return event.result
 
 
+def rank(thing: str) -> Scored:
+    """Ask where the thing is."""
+    scored = asked(lambda model: model.rank(Ranker(ontology(True)).ranking(thing, ())))
+    assert isinstance(scored, Scored)
+    return scored
+
+
+def written(thing: str) -> Replied:
+    """Have it write where the thing is."""
+
+    def ask(model: LlamaCpp) -> int:
+        return model.chat(Lister(ontology(True), model, remembers=False).inquiry(thing, ()))
+
+    replied = asked(ask)
+    assert isinstance(replied, Replied)
+    return replied
+
+
+def damage(path: Path, chance: random.Random) -> None:
+    """Leave it, or change it in one of many ways; or put another in its place."""
+    whole = path.read_bytes()
+    at = chance.randrange(len(whole))
+    match chance.randrange(5):
+        case 0:
+            path.unlink()
+        case 1:
+            path.write_bytes(whole[:at])
+        case 2:
+            path.write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :])
+        case 3:
+            path.write_bytes(chance.choice(sorted(path.parent.iterdir())).read_bytes())
+
+
 @pytest.mark.llm
-def test_the_next_process_reads_only_what_is_about_its_own_thing(cache: Path):
+def test_the_next_process_evaluates_only_what_is_about_its_own_thing(cache: Path):
+    rank("mug")
+    next_one = rank("hammer")
+    assert 0 < next_one.usage.evaluated_tokens < 70
+    for path in cache.iterdir():
+        path.unlink()
+    anew = rank("hammer")
+    assert anew.scores == next_one.scores
+    assert anew.usage.evaluated_tokens > 300
+
+
+@pytest.mark.llm
+def test_what_was_asked_before_is_known(cache: Path):
     first, second = rank("hammer"), rank("hammer")
     assert second.scores == first.scores
     assert second.usage.input_tokens == first.usage.input_tokens
-    assert second.usage.evaluated_tokens < 70 < 300 < first.usage.evaluated_tokens
+    assert second.usage.evaluated_tokens == 0
 
 
 @pytest.mark.llm
-def test_what_is_damaged_is_read_anew(cache: Path):
+def test_whatever_is_damaged_no_score_is_another(cache: Path):
     first = rank("hammer")
-    for path in cache.iterdir():
-        path.write_bytes(path.read_bytes()[:-8] + bytes(8))
-    second = rank("hammer")
-    assert second.scores == first.scores
-    assert second.usage.evaluated_tokens == first.usage.evaluated_tokens
+    chance = random.Random(17)
+    for _ in range(3):
+        for path in sorted(cache.iterdir()):
+            damage(path, chance)
+        again = rank("hammer")
+        assert again.scores == first.scores
+        assert again.usage.evaluated_tokens > 0
+
+
+@pytest.mark.llm
+def test_a_cache_that_llama_cpp_refuses_is_evaluated_anew(
+    cache: Path, monkeypatch: pytest.MonkeyPatch
+):
+    first = rank("hammer")
+    refused = bytes(5000)
+    monkeypatch.setattr(Kept, "get", lambda self, *asked: refused if "cache" in asked else None)
+    assert rank("hammer").scores == first.scores
+
+
+@pytest.mark.llm
+def test_what_prompts_begin_with_is_kept_for_writing(cache: Path):
+    first, second = written("hammer"), written("hammer")
+    assert second.text == first.text
+    assert second.usage.evaluated_tokens < 40 < 300 < first.usage.evaluated_tokens
