@@ -28,6 +28,14 @@ _CENTERING = 0.1
 _SEED = 0
 _FITS_M = 0.008
 """A model that is off by less, in its surface and height together, is not doubted."""
+_HOPELESS_M = 0.03
+"""One that is off by more, when it was fitted closely, will not fit when it is fitted exactly."""
+_LIKELY = 2
+"""Of so many ways to have fallen, the likeliest after a rough fit, the fit goes on."""
+_SIFTING, _SIFTED = 3, 6
+"""Of what has fallen, so many of the nudged guesses go on after so many steps."""
+_LIKELY_YAWS = 8
+"""And with so many of the yaws it begins."""
 Which = NDArray[np.intp]
 
 
@@ -39,7 +47,7 @@ def fit_pose(model: ObjectModel, points: Floats, eye: Floats) -> Pose:
     several.
     """
     seen, stands = _Seen(points, eye), lyings(model)[0]
-    return seen.refine(stands, seen.fit([stands])[0]).pose
+    return seen.exactly(stands, seen.closely([stands], seen.roughly([stands]))[0]).pose
 
 
 def fit_fallen_pose(
@@ -51,17 +59,28 @@ def fit_fallen_pose(
         The one of `forms(model)` that fits the visible points (n, 3), and its pose in `map`.
     """
     seen, (stands, *fallen) = _Seen(points, eye), lyings(model)
-    upright = seen.refine(stands, seen.fit([stands])[0])
-    if upright.doubt(support) < _FITS_M:
-        return model, upright.pose
-    found = seen.fit(fallen)
-    doubts = [fits[0].doubt(support) for fits in found]
+    upright = seen.closely([stands], seen.roughly([stands]))[0]
+    may_stand = upright[0].doubt(support) < _HOPELESS_M
+    stood = seen.exactly(stands, upright) if may_stand else upright[0]
+    if stood.doubt(support) < _FITS_M:
+        return model, stood.pose
+    lying, lies = _fallen(seen, fallen, support)
+    if lies.doubt(support) < stood.doubt(support):
+        return lying.model, lies.pose
+    return model, stood.pose if may_stand else seen.exactly(stands, upright).pose
+
+
+def _fallen(seen: "_Seen", lyings: Sequence[Lying], support: float) -> tuple[Lying, "_Fit"]:
+    """In which of these ways a thing lies, and where."""
+    rough = seen.roughly(lyings, _LIKELY_YAWS)
+    by_doubt = sorted(range(len(lyings)), key=lambda way: rough[way][0].doubt(support))
+    ways = sorted(by_doubt[:_LIKELY])
+    close = seen.closely([lyings[way] for way in ways], [rough[way] for way in ways], sifted=True)
+    doubts = [fits[0].doubt(support) for fits in close]
     sure = (number for number, doubt in enumerate(doubts) if doubt < _FITS_M)
     likely = next(sure, int(np.argmin(doubts)))
-    lies = seen.refine(fallen[likely], found[likely])
-    if lies.doubt(support) < upright.doubt(support):
-        return fallen[likely].model, lies.pose
-    return model, upright.pose
+    lying = lyings[ways[likely]]
+    return lying, seen.exactly(lying, close[likely])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,27 +112,49 @@ class _Seen:
         self._middle = (few.min(axis=0) + few.max(axis=0))[:2] / 2
         self._away = (self._middle - eye[:2]) / np.linalg.norm(self._middle - eye[:2])
 
-    def fit(self, lyings: Sequence[Lying]) -> list[list[_Fit]]:
-        """Where a thing is, roughly, for each of these ways to lie; the likeliest first."""
+    def roughly(self, lyings: Sequence[Lying], yaws: int = _YAWS) -> list[list[_Fit]]:
+        """About where a thing is, for each of these ways to lie; the likeliest first.
+
+        For each it begins with so many of the yaws, the likeliest.
+        """
         surface = _Surface(lyings, self._points[::_FEW])
-        guesses, which = self._starts(surface, lyings)
-        guesses, which = self._best(surface, guesses, which, _ROUGH, _NUDGED)
+        guesses, which = self._starts(surface, lyings, yaws)
+        return self._fits(surface, *self._best(surface, guesses, which, _ROUGH, _NUDGED))
+
+    def closely(
+        self, lyings: Sequence[Lying], rough: Sequence[Sequence[_Fit]], sifted: bool = False
+    ) -> list[list[_Fit]]:
+        """The same, better; if they are `sifted`, only with the guesses that promise most."""
+        surface = _Surface(lyings, self._points[::_FEW])
         nudges = np.zeros((len(_NUDGES_M), 4))
         nudges[:, :2] = np.outer(_NUDGES_M, self._away)
-        guesses, which = (guesses[:, None] + nudges).reshape(-1, 4), which.repeat(len(nudges))
-        guesses, which = self._best(surface, guesses, which, _FINE, _REFINED)
-        off = np.abs(surface.distances(guesses, which)).mean(axis=1)
-        fits = [_Fit(*fit) for fit in zip(guesses, off.tolist(), strict=True)]
-        return [fits[first : first + _REFINED] for first in range(0, len(fits), _REFINED)]
+        guesses = np.array([fit.guess for fits in rough for fit in fits])
+        which = np.repeat(np.arange(len(lyings)), len(rough[0]) * len(nudges))
+        guesses = (guesses[:, None] + nudges).reshape(-1, 4)
+        if sifted:
+            guesses, which = self._best(surface, guesses, which, _SIFTING, _SIFTED)
+        return self._fits(surface, *self._best(surface, guesses, which, _FINE, _REFINED))
 
-    def refine(self, lying: Lying, fits: Sequence[_Fit]) -> _Fit:
-        """Where exactly."""
+    def exactly(self, lying: Lying, fits: Sequence[_Fit]) -> _Fit:
+        """Where, to all points."""
         surface, which = _Surface([lying], self._points), np.zeros(len(fits), np.intp)
         guesses, which = self._best(surface, np.array([f.guess for f in fits]), which, _EXACT, 1)
-        return _Fit(guesses[0], float(np.abs(surface.distances(guesses, which)).mean()))
+        return self._fits(surface, guesses, which)[0][0]
 
-    def _starts(self, surface: "_Surface", lyings: Sequence[Lying]) -> tuple[Floats, Which]:
-        """A guess (x, y, z, yaw) for each yaw: below the middle of what is seen, or behind that."""
+    def _fits(self, surface: "_Surface", guesses: Floats, which: Which) -> list[list[_Fit]]:
+        """As many for each way to lie."""
+        off = np.abs(surface.distances(guesses, which)).mean(axis=1)
+        fits = [_Fit(*fit) for fit in zip(guesses, off.tolist(), strict=True)]
+        each = len(fits) // (int(which.max()) + 1)
+        return [fits[first : first + each] for first in range(0, len(fits), each)]
+
+    def _starts(
+        self, surface: "_Surface", lyings: Sequence[Lying], kept: int
+    ) -> tuple[Floats, Which]:
+        """A guess (x, y, z, yaw) for each yaw: below the middle of what is seen, or behind that.
+
+        For each way to lie so many of them are `kept`, the likeliest.
+        """
         yaws = np.arange(_YAWS) * 2 * np.pi / _YAWS
         across = np.stack((np.cos(yaws), np.sin(yaws), -np.sin(yaws), np.cos(yaws)), axis=-1)
         along = np.abs(across.reshape(-1, 2, 2) @ self._away)
@@ -126,9 +167,13 @@ class _Seen:
         guesses[..., 3] = yaws[:, None]
         which = np.repeat(np.arange(len(lyings)), _YAWS * len(_BEHIND))
         off = surface.off_only(guesses.reshape(-1, 4), which)
-        best = (off**2).sum(axis=1).reshape(-1, len(_BEHIND)).argmin(axis=1)
+        costs = (off**2).sum(axis=1).reshape(-1, len(_BEHIND))
         flat = guesses.reshape(-1, len(_BEHIND), 4)
-        return flat[np.arange(len(flat)), best], np.repeat(np.arange(len(lyings)), _YAWS)
+        best = flat[np.arange(len(flat)), costs.argmin(axis=1)].reshape(len(lyings), _YAWS, 4)
+        likely = costs.min(axis=1).reshape(-1, _YAWS).argsort(axis=1, kind="stable")[:, :kept]
+        likely.sort(axis=1)
+        chosen = np.take_along_axis(best, likely[:, :, None], axis=1).reshape(-1, 4)
+        return chosen, np.repeat(np.arange(len(lyings)), kept)
 
     def _best(
         self, surface: "_Surface", starts: Floats, which: Which, steps: int, kept: int
