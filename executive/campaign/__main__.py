@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from executive.campaign.names import DESCRIPTIONS
+from executive.campaign.workers import start_loading
 from executive.config import KnowledgeSystem
 from executive.errors import InputError
 from executive.options import add_setting
@@ -22,6 +23,8 @@ from executive.usage import Parser
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is left of a campaign, write its tables, return the exit code."""
     options = parser().parse_args(arguments)
+    if options.workers > 1:
+        start_loading()  # while this process imports what it needs itself
     # heavy: not for --help or a wrong option
     if options.weeks:
         from executive.campaign.weeks.watching import Weeks
