@@ -15,7 +15,7 @@ from executive.campaign.workers import start_loading
 from executive.config import KnowledgeSystem
 from executive.errors import InputError
 from executive.options import add_setting
-from executive.shell import entry_point
+from executive.shell import all_is_kept, entry_point
 from executive.usage import Parser
 
 
@@ -27,12 +27,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         start_loading()  # while this process imports what it needs itself
     # heavy: not for --help or a wrong option
     if options.weeks:
-        from executive.campaign.weeks.watching import Weeks
+        with all_is_kept():
+            from executive.campaign.weeks.watching import Weeks
 
         return Weeks(options).run()
     if options.habits:
         raise InputError("--habits", "nobody lives in a grid of missions", "add --weeks 8")
-    from executive.campaign.campaign import Campaign
+    with all_is_kept():
+        from executive.campaign.campaign import Campaign
 
     return Campaign(options).run()
 
