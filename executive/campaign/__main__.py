@@ -11,10 +11,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from executive.campaign.names import DESCRIPTIONS
+from executive.campaign.workers import start_loading
 from executive.config import KnowledgeSystem
 from executive.errors import InputError
 from executive.options import add_setting
-from executive.shell import entry_point
+from executive.shell import all_is_kept, entry_point
 from executive.usage import Parser
 
 
@@ -22,14 +23,18 @@ from executive.usage import Parser
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is left of a campaign, write its tables, return the exit code."""
     options = parser().parse_args(arguments)
+    if options.workers > 1:
+        start_loading()  # while this process imports what it needs itself
     # heavy: not for --help or a wrong option
     if options.weeks:
-        from executive.campaign.weeks.watching import Weeks
+        with all_is_kept():
+            from executive.campaign.weeks.watching import Weeks
 
         return Weeks(options).run()
     if options.habits:
         raise InputError("--habits", "nobody lives in a grid of missions", "add --weeks 8")
-    from executive.campaign.campaign import Campaign
+    with all_is_kept():
+        from executive.campaign.campaign import Campaign
 
     return Campaign(options).run()
 

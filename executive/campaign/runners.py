@@ -3,7 +3,6 @@
 A runner is given what is left to do, and appends each mission to the journal when it has ended.
 """
 
-import multiprocessing
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, wait
@@ -11,6 +10,7 @@ from concurrent.futures.process import BrokenProcessPool
 from multiprocessing.synchronize import Event
 from typing import Any, Protocol
 
+from executive.campaign.workers import start_loading
 from executive.errors import ExecutiveError
 from executive.shell import leave_stopping_to_the_parent
 
@@ -95,7 +95,7 @@ class ProcessPool:
 
     def _run(self, campaign: Sequence[Unit], journal: Kept, progress: Callable[[], None]) -> None:
         before = journal.entries()
-        context = multiprocessing.get_context("spawn")
+        context = start_loading()
         stop = context.Event()
         pool = ProcessPoolExecutor(
             self._workers, mp_context=context, initializer=start_worker, initargs=(stop,)
