@@ -37,8 +37,8 @@ export function stepIn(box) {
   box.replaceChildren(
     element("h3", {}, text("step_in")), name, question,
     element("label", {}, hold, text("hold_words")),
-    element("label", {}, holdPlaces, text("hold_places")), elsewhere, choice,
-    button(text("stop"), () => act("stop"), { class: "stop" }), said, held);
+    element("label", {}, holdPlaces, text("hold_places")), elsewhere,
+    button(text("stop"), () => act("stop"), { class: "stop" }), said, choice, held);
 
   function ask(asked) {
     if (!asked) return question.replaceChildren(element("span", {}, text("asks_nothing")));

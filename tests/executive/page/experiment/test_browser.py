@@ -183,7 +183,7 @@ def test_an_experimenter_holds_where_it_goes(browser: Browser, tmp_path: Path) -
         expect(panel.locator(".choice")).to_contain_text("It would look next: sofa.")
         assert not faults(tab)
         panel.get_by_label("Instead").select_option("high table")
-        panel.get_by_role("button", name="There instead").click()
+        panel.get_by_role("button", name="Send there instead").click()
         assert made.ended(1).visited == ("high_table",)
         expect(panel.locator(".choice")).to_be_hidden()
         expect(tab.locator("#live .lines .of-intervened").last).to_contain_text(
