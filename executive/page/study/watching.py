@@ -2,6 +2,7 @@
 
 import threading
 from dataclasses import dataclass
+from datetime import UTC, datetime
 
 from executive.events import THE_PERSON, Deed, Intervened, StopRequested
 from executive.page.experiment.wizard import AS_BEFORE
@@ -31,7 +32,7 @@ class Watch:
         """Nobody has stepped in."""
         self._lock = threading.Lock()
         self._seen: list[SteppedIn] = []
-        self._unheard: list[Intervened] = []
+        self._unheard: list[tuple[str, Intervened]] = []
         self._was_stopped = False
         """Whether an experimenter stops it, in the person's stead."""
 
@@ -54,11 +55,11 @@ class Watch:
     def beside(self, event: Intervened) -> None:
         """An experimenter does this; a mission that runs hears of it. From any thread."""
         with self._lock:
-            self._unheard.append(event)
+            self._unheard.append((datetime.now(UTC).isoformat(timespec="milliseconds"), event))
 
     def _hear(self, event: Intervened, time_s: float) -> None:
         with self._lock:
-            self._unheard = [one for one in self._unheard if one is not event]
+            self._unheard = [one for one in self._unheard if one[1] is not event]
             self._was_stopped = event.deed == Deed.STOP
             if event.was != AS_BEFORE:
                 self._seen.append(_stepped_in(event, time_s))
@@ -75,11 +76,11 @@ class Watch:
             seen, self._seen = self._seen, []
         return seen
 
-    def take_unheard(self) -> list[SteppedIn]:
-        """What no mission heard of: for when none runs."""
+    def take_unheard(self) -> list[tuple[str, SteppedIn]]:
+        """What no mission heard of, and when it was done (wall time): for when none runs."""
         with self._lock:
             unheard, self._unheard = self._unheard, []
-        return [_stepped_in(event, 0.0) for event in unheard]
+        return [(at, _stepped_in(event, 0.0)) for at, event in unheard]
 
 
 def _stepped_in(event: Intervened, time_s: float) -> SteppedIn:
