@@ -23,7 +23,7 @@ from pydantic import (
 from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
-from executive.toml_file import read_toml
+from executive.toml_file import misread, read_toml
 
 PREFIX = "EXECUTIVE_"
 """How the environment's variables of settings begin."""
@@ -281,8 +281,9 @@ def load_settings(config: Path | None = None, **given: Any) -> Settings:
     from_file = read_toml(config) if config else {}
     given = {name: value for name, value in given.items() if value is not None}
     from_environment = _environment()
+    said = {**from_file, **from_environment, **given}
     try:
-        return Settings(**{**from_file, **from_environment, **given})
+        settings = Settings(**said)
     except ValidationError as error:
         fault = error.errors()[0]
         name = ".".join(str(part) for part in fault["loc"])
@@ -291,6 +292,11 @@ def load_settings(config: Path | None = None, **given: Any) -> Settings:
         in_file = fault["loc"] and fault["loc"][0] in from_file
         where = f"{config}: {name}" if in_file else f"setting '{name}'"
         raise InputError(where, in_words(fault), right) from None
+    for other in misread(said, settings):
+        if isinstance(other.value, bool):
+            where = f"{config}: {other.key}" if other.key in from_file else f"setting '{other.key}'"
+            raise InputError(where, f"is {other.shown}", other.right)
+    return settings
 
 
 def in_words(fault: ErrorDetails) -> str:

@@ -84,8 +84,14 @@ class Deed(StrEnum):
     WORDS = "words"
     """Let a sentence go that was held, as it was or otherwise; empty: it is never said."""
     PLACE = "place"
-    """Send the robot elsewhere than it would go in its search."""
+    """Send the robot elsewhere than it would go: on its way to look, or where its choice waits."""
+    HOLD_PLACE = "hold_place"
+    """Hold what the robot chooses from here on of places (`on`), or let it go (`off`)."""
     STOP = "stop"
+
+
+ON, OFF = "on", "off"
+"""What becomes of `HOLD` and `HOLD_PLACE`."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,10 +6,11 @@ later is refused here: large files, deep nesting, numbers of more than 64 bits.
 
 import re
 import tomllib
+from collections.abc import Iterator, Mapping
 from datetime import date, time
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from executive.errors import InputError
 from executive.files import decoded, read_bytes
@@ -78,6 +79,82 @@ def packaged(package: str, folder: str) -> tuple[str, ...]:
 def in_words(said: str) -> str:
     """What pydantic says of a value, by the names that TOML has for kinds of values."""
     return _PYTHONS.sub(lambda found: _TOMLS.get(found[0].lower(), "table"), said)
+
+
+class Misread(NamedTuple):
+    """A value that was taken for one of another kind: `true` for 1, `"5"` for 5.
+
+    Attributes:
+        path: of keys and, in lists, numbers from 0.
+        value: as the file has it.
+        right: what it should be.
+    """
+
+    path: tuple[str | int, ...]
+    value: bool | int | float | str
+    right: str
+
+    @property
+    def key(self) -> str:
+        """Where, as messages have it."""
+        return ".".join(map(str, self.path))[:_SHOWN]
+
+    @property
+    def shown(self) -> str:
+        """What, as the file has it."""
+        return (
+            str(self.value).lower() if isinstance(self.value, bool) else repr(self.value)[:_SHOWN]
+        )
+
+
+def misread(tables: Mapping[str, Any], read: object) -> Iterator[Misread]:
+    """Values that pydantic has taken for what they are not, because it helps where it can.
+
+    Args:
+        tables: as the file has them.
+        read: what was made of them: a model, whose fields have the names of the keys.
+    """
+    left: list[tuple[tuple[str | int, ...], Any, Any]] = [((), tables, read)]
+    while left:
+        path, said, made = left.pop()
+        if isinstance(said, dict):
+            left += [((*path, key), one, _part(made, key)) for key, one in said.items()]
+        elif isinstance(said, list):
+            left += [((*path, n), one, _item(made, n)) for n, one in enumerate(said)]
+        elif isinstance(said, bool | int | float | str) and (right := _other_kind(said, made)):
+            yield Misread(path, said, right)
+
+
+def refuse_misread_bools(tables: Mapping[str, Any], read: object, where: str) -> None:
+    """See that no bool of a file was taken for a number.
+
+    Raises:
+        InputError: if one was.
+    """
+    for one in misread(tables, read):
+        if isinstance(one.value, bool):
+            raise InputError(where, f"{one.key} is {one.shown}", one.right)
+
+
+def _part(made: object, key: str) -> object:
+    return made.get(key) if isinstance(made, dict) else getattr(made, key, None)
+
+
+def _item(made: object, number: int) -> object:
+    """Of a list; a point or a pose, which is made of one, has nothing but numbers."""
+    if isinstance(made, list | tuple):
+        return made[number] if number < len(made) else None
+    return None if made is None else 0.0
+
+
+def _other_kind(said: bool | float | str, made: object) -> str:
+    """What a value should have been; empty if it is of the kind that was made of it."""
+    if isinstance(made, bool):
+        return "" if isinstance(said, bool) else "should be true or false"
+    is_number = isinstance(made, int | float)
+    if is_number and isinstance(said, bool):
+        return "should be a number"
+    return "should be a number, without quotes" if is_number and isinstance(said, str) else ""
 
 
 def _check(tables: dict[str, Any], where: str) -> None:

@@ -8,6 +8,7 @@ from py_trees.behaviour import Behaviour
 from executive.records import Activity
 from trees.context import MissionContext
 from trees.hearing import consult, wants_advice, what_is_known
+from trees.held import HoldWhereToLook
 from trees.nodes import Check, FirstOf, as_long_as, beside, fallback, sequence
 from trees.planning import (
     AskWhereItIs,
@@ -79,6 +80,7 @@ def next_step(context: MissionContext, ways: Ways) -> Behaviour:
                 PlanNext("plan alone", context, ways),
             ),
         ),
+        HoldWhereToLook("choice", context),
         TellWhere("announce", context),
         sequence(
             "go and look",

@@ -20,6 +20,7 @@ from executive.interfaces import (
 from executive.language.wording import Wording, as_said
 from executive.pending import Pending
 from executive.situation import Situation
+from executive.standby import Standby
 from executive.types import Vector3
 
 
@@ -100,7 +101,7 @@ class MissionContext:
     `near_person` is the furniture by the person, the nearest first, where things may be put down if
     the delivery table has no room; `handiest` is all furniture, that where things are put down most
     easily first. `pending` is what the behaviours wait for: the loop that ticks them has to be
-    given the same.
+    given the same. `standby` is how they wait for somebody who was not asked.
     """
 
     situation: Situation
@@ -111,6 +112,7 @@ class MissionContext:
     robot: Robot
     perception: Perception
     user: User
+    standby: Standby
     model: LanguageModel | None = None
     advice: Advice | None = None
     parameters: Parameters = Parameters()

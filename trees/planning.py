@@ -16,7 +16,7 @@ from trees.context import MissionContext
 from trees.hearing import PERSON_TRUST, believed
 from trees.nodes import Step
 from trees.person import AskWhere, who_says
-from trees.robot import Visit
+from trees.robot import EXPERIMENTER, Visit
 from trees.telling import tell
 
 MOST_PLANNED = 60
@@ -150,14 +150,17 @@ class PlanNext(Step):
 
 
 class PlanStands(PlanNext):
-    """Fails if there is news, and by that another place is better, or to ask."""
+    """Fails if there is news, and by that another place is better, or to ask.
+
+    Where an experimenter sends the robot, it goes, whatever is planned.
+    """
 
     def update(self) -> Status:
         """Plan anew, if somebody has said something since."""
         search = self.situation.search
-        if not search.whereabouts.news:
-            return self.succeed()
         assert search.candidate
+        if not search.whereabouts.news or search.candidate.source == EXPERIMENTER:
+            return self.succeed()
         plan = self.plan()
         if plan.order[:1] == (search.candidate.place,) and not plan.asks:
             return self.take_up()
@@ -298,6 +301,8 @@ class TellWhere(Step):
             tell(self.context, f"I look for {the} {where}, and think about {may_be} meanwhile.")
             return
         usually = self.situation.search.default_locations
-        others = {ANYWHERE: NOBODY_SAYS} | ({Source.ONTOLOGY: USUALLY} if usually else {})
+        others = {ANYWHERE: NOBODY_SAYS, EXPERIMENTER: NOBODY_SAYS} | (
+            {Source.ONTOLOGY: USUALLY} if usually else {}
+        )
         why = who_says(self.context, source, **others)
         tell(self.context, f"I look for {the} {where}: {why}.")

@@ -14,7 +14,8 @@ def on_to_the_next(context: MissionContext) -> str:
     if at == 0:
         return ""
     there, before = say.the(places[at]), places[at - 1]
-    if before in context.situation.survey.found.values():
+    looked_at = before in search.looks.visited or before in search.looks.unreached
+    if before in context.situation.survey.found.values() or not looked_at:
         return f"On to {there}."
     if search.looks.all_without(before) and before not in search.looks.unreached:
         return f"Not here; on to {there}."

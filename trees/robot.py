@@ -27,6 +27,7 @@ from executive.types import (
 from trees.context import MissionContext
 from trees.nodes import UNSAID, Action, why_of
 from trees.progress import on_the_way, on_to_the_next
+from trees.recall import is_here
 from trees.telling import tell
 
 EXPERIMENTER = "experimenter"
@@ -184,14 +185,15 @@ class Visit(DriveToCandidate):
     def start(self) -> int:
         """Go where it is sent, if it is."""
         search = self.situation.search
-        if search.sent_to:
+        if search.sent_to and is_here(self.context, search.sent_to):
             search.candidate = Candidate(search.sent_to, EXPERIMENTER)
-            search.sent_to = ""
+        search.sent_to = ""
         return super().start()
 
     def update(self) -> Status:
         """Turn round where it is sent elsewhere."""
-        if self.situation.search.sent_to and (request := self._request) is not None:
+        sent_to, request = self.situation.search.sent_to, self._request
+        if sent_to and is_here(self.context, sent_to) and request is not None:
             self._wait_no_more(request)
             self.cancel(request)
             return self.start_again()

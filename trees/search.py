@@ -8,6 +8,7 @@ from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Source
 from trees.context import MissionContext
+from trees.held import HoldWhereToLook
 from trees.location import resolve_location
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Announce, AskWhere
@@ -92,6 +93,7 @@ def visit_candidates(context: MissionContext) -> Behaviour:
         choose,
         sequence(
             "go and look",
+            HoldWhereToLook("choice", context),
             Visit("drive", context),
             look_over(context),
             activity=Activity.SEARCHING,

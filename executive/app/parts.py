@@ -32,6 +32,7 @@ from executive.interfaces import (
 from executive.language.grammar import EnglishInterpreter
 from executive.loop import Executive
 from executive.situation import Situation
+from executive.standby import Standby
 from executive.types import DELIVERY, Vector3
 from kb.advice.advisor import advise
 from kb.advice.prompts import Prompts
@@ -168,6 +169,7 @@ def build_context(parts: Parts, situation: Situation) -> MissionContext:
         robot=GuardedRobot(parts.robot, inbox, recorder),
         perception=GuardedPerception(parts.perception, inbox, recorder),
         user=GuardedUser(parts.user, inbox, recorder),
+        standby=Standby(inbox),
         model=guarded_model(parts, parts.model) if parts.model else None,
         advice=parts.advice,
         parameters=parts.parameters,

@@ -4,7 +4,7 @@ import logging
 import sys
 import time
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -19,7 +19,7 @@ from executive.app.run_folder import new_folder, to_json, write
 from executive.app.sources import checked
 from executive.config import Settings
 from executive.errors import ExecutiveError
-from executive.events import THE_PERSON, Broke, Ended, Heard, Inbox, Started, StopRequested
+from executive.events import THE_PERSON, Broke, Ended, Event, Heard, Inbox, Started, StopRequested
 from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
@@ -108,6 +108,9 @@ class Session:
         self._last: Outcome | None = None
         self._restless = False
         self._closed = False
+        self.standing: Callable[[], Iterable[Event]] = tuple
+        """Tells what each mission begins with, beside its words: what an experimenter has ordered
+        before it."""
         self.heard: deque[str] = deque()
         """What the person has said too late for the mission in which it was said, oldest first."""
         self.ticks = 0
@@ -276,7 +279,8 @@ class Session:
     def _carry_out(self, situation: Situation) -> None:
         """Have the tree decide, from the words on."""
         executive = build_mission(self.parts, situation, self._build)
-        self.inbox.post(Started(situation.request.words))
+        for event in (Started(situation.request.words), *self.standing()):
+            self.inbox.post(event)
         if control(situation.request.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             user = GuardedUser(self.parts.user, self.inbox, self.recorder)

@@ -1,4 +1,4 @@
-"""The page beside single missions: `python -m executive.page study FILE.toml` runs a study."""
+"""The page beside missions: `study FILE.toml` leads through a study, `runs` shows past runs."""
 
 from executive.start import begin
 
@@ -9,7 +9,8 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from executive.page.study import command
+from executive.page.experiment import command as past
+from executive.page.study import command as study
 from executive.shell import entry_point
 from executive.usage import Parser
 
@@ -24,8 +25,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    p = Parser(prog="python -m executive.page", description="Run studies by the person's page.")
-    command.add_to(p.add_subparsers(required=True, metavar="COMMAND"))
+    p = Parser(
+        prog="python -m executive.page", description="Studies by the person's page, and past runs."
+    )
+    commands = p.add_subparsers(required=True, metavar="COMMAND")
+    study.add_to(commands)
+    past.add_to(commands)
     return p
 
 

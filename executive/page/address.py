@@ -74,15 +74,16 @@ class Address:
             raise InputError("--page-cert", f"cannot be used: {why}", right) from None
 
 
-def add_page(parser: argparse.ArgumentParser) -> None:
-    """Add the options of the page to a command line."""
+def add_page(parser: argparse.ArgumentParser, *, experimenter: bool = True) -> None:
+    """Add the options of the page to a command line; of the experimenter's, if it may have one."""
+    what = "talk by a page" if experimenter else "where they are shown"
     parser.add_argument(
         "--page",
         nargs="?",
         type=_port,
         const=PORT,
         metavar="PORT",
-        help=f"talk by a page in the browser, on this machine (default port: {PORT})",
+        help=f"{what} in the browser, on this machine (default port: {PORT})",
     )
     parser.add_argument(
         "--page-address", metavar="ADDRESS", help="of this machine, for other devices; 0.0.0.0: all"
@@ -90,11 +91,12 @@ def add_page(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--page-cert", type=Path, metavar="FILE", help="certificate (PEM), for https"
     )
-    parser.add_argument(
-        "--page-experimenter",
-        action="store_true",
-        help="serve the experimenter's page, too, at an address of its own",
-    )
+    if experimenter:
+        parser.add_argument(
+            "--page-experimenter",
+            action="store_true",
+            help="serve the experimenter's page, too, at an address of its own",
+        )
     parser.add_argument("--page-key", type=Path, metavar="FILE", help="its private key (PEM)")
 
 

@@ -36,6 +36,8 @@ class Board:
         self._notices: dict[str, Change] = {}
         self._said: deque[Change] = deque(maxlen=MOST_SAID)
         self._waiting: set[Callable[[], None]] = set()
+        self.left: Callable[[], None] = lambda: None
+        """Is called when the last page that was open is closed."""
         self.over = False
         """Whether nothing comes any more."""
 
@@ -90,7 +92,11 @@ class Board:
     def wait_no_more(self, wake: Callable[[], None]) -> None:
         """Do not call it any more."""
         with self._lock:
+            was = bool(self._waiting)
             self._waiting.discard(wake)
+            is_last = was and not self._waiting
+        if is_last and not self.over:
+            self.left()
 
     @property
     def readers(self) -> int:

@@ -101,6 +101,7 @@ class Page:
             self.desk.look_in(session.settings.runs)
             if self.desk.wizard:
                 self.desk.wizard.know({p.name: spoken(p.name) for p in home.furniture})
+                session.standing = self.desk.wizard.standing
 
     @property
     def sinks(self) -> tuple[Sink, ...]:

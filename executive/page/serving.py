@@ -62,7 +62,9 @@ def _bound(address: Address) -> socket.socket:
     try:
         found = socket.getaddrinfo(address.host, address.port, type=socket.SOCK_STREAM)
         family, _, _, _, where = found[0]
-        listening = socket.socket(family)
+        # asyncio sends at once (TCP_NODELAY) only by what says that it is TCP; else an answer in
+        # two parts waits 40 ms for the receipt of the first
+        listening = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listening.bind(where)

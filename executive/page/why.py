@@ -7,6 +7,7 @@ from typing import Any
 
 from executive.errors import InputError
 from executive.records import Tick, Utterance
+from logs.questions.interventions import EXPERIMENTER
 from logs.questions.why import NOT_NEEDED, why
 from logs.recording.reader import Run
 
@@ -20,6 +21,8 @@ POLL_S = 0.1
 def why_said(run: Path, time_s: float) -> list[dict[str, Any]]:
     """The decisions that were settled when it was said, the latest first.
 
+    Who experiments decides whether the person is told that somebody steps in: the page does not.
+
     What is being recorded may not be on the disk yet: then it is waited for.
 
     Raises:
@@ -27,7 +30,8 @@ def why_said(run: Path, time_s: float) -> list[dict[str, Any]]:
     """
     try:
         _await_written(run, time_s + EPSILON_S)
-        settled = [d for d in why(Run(run)) if d.time_s <= time_s + EPSILON_S]
+        known = (d for d in why(Run(run)) if d.time_s <= time_s + EPSILON_S)
+        settled = [d for d in known if d.source != EXPERIMENTER]
     except OSError as error:
         raise InputError(str(run), f"cannot be read: {error.strerror}") from None
     chain = [asdict(decision) for decision in reversed(settled)]

@@ -14,7 +14,13 @@ from pydantic_core import ErrorDetails
 from executive.errors import InputError
 from executive.files import read_bytes
 from executive.ros.templates import GOALS, OFFERED, placeholders
-from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml
+from executive.toml_file import (
+    MOST_BYTES,
+    in_words,
+    packaged,
+    parse_toml,
+    refuse_misread_bools,
+)
 
 EXAMPLE = "see docs/own-robot.md"
 
@@ -344,10 +350,13 @@ def load_profile(name_or_path: str) -> Profile:
         InputError: if there is none or something in it is wrong, naming file and key.
     """
     content, where = profile_text(name_or_path)
+    tables = parse_toml(content, where)
     try:
-        return Profile.model_validate(parse_toml(content, where))
+        profile = Profile.model_validate(tables)
     except ValidationError as error:
         raise _input_error(where, error.errors(include_url=False)[0]) from None
+    refuse_misread_bools(tables, profile, where)
+    return profile
 
 
 def _input_error(where: str, fault: ErrorDetails) -> InputError:

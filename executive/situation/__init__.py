@@ -6,15 +6,19 @@ from executive.situation.ending import TAKEN_BACK, Ending
 from executive.situation.hand import Hand
 from executive.situation.search import Consultation, candidates_from
 from executive.situation.situation import Situation
+from executive.situation.steering import Choice, For, Steering
 
 __all__ = [
     "TAKEN_BACK",
     "Agenda",
+    "Choice",
     "Consultation",
     "Ending",
+    "For",
     "Hand",
     "Leg",
     "Situation",
+    "Steering",
     "Task",
     "Whole",
     "candidates_from",

@@ -6,6 +6,7 @@ from functools import cache
 from typing import Any, Self
 
 from executive.events import (
+    ON,
     Broke,
     DeadlinePassed,
     Deed,
@@ -26,6 +27,7 @@ from executive.situation.model import ModelUse
 from executive.situation.request import Request
 from executive.situation.search import Search
 from executive.situation.snapshot import PART, snapshot
+from executive.situation.steering import Steering
 from executive.situation.survey import Survey
 from executive.types import (
     Command,
@@ -57,6 +59,7 @@ class Situation:
     dialogue: Dialogue = field(default_factory=Dialogue, metadata=PART)
     model: ModelUse = field(default_factory=ModelUse, metadata=PART)
     ending: Ending = field(default_factory=Ending, metadata=PART)
+    steering: Steering = field(default_factory=Steering, metadata=PART)
 
     @classmethod
     def at_start(
@@ -90,6 +93,10 @@ class Situation:
                 self.dialogue.heard.append(words)
             case HandFelt(holding):
                 self.hand.feel(holding)
+            case Intervened(deed=Deed.HOLD_PLACE, became=on):
+                self.steering.holds = on == ON
+            case Intervened(deed=Deed.PLACE, became=place) if self.steering.choice:
+                self.steering.instead = place
             case Intervened(deed=Deed.PLACE, became=place) if self.search.goes_on:
                 self.search.sent_to = place
             case Ended() | DeadlinePassed() | Intervened():

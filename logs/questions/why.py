@@ -16,6 +16,7 @@ from executive.events import Heard
 from executive.records import (
     Activity,
     EventTaken,
+    Intervention,
     LlmCall,
     NodeShape,
     NodeState,
@@ -28,6 +29,7 @@ from executive.records import (
 from executive.situation import TAKEN_BACK
 from executive.text import printable
 from executive.types import Scored
+from logs.questions.interventions import EXPERIMENTER, done
 from logs.recording.reader import At, Run
 
 WORLD = "world"
@@ -56,8 +58,8 @@ class Decision:
         time_s: mission time at which it was settled.
         question: what was to be settled, as the tree names it.
         answer: what came of it.
-        source: as the behaviour declares it: `person`, `ontology`, `llm`, `user`; or `eyes`, or
-            `world`; empty where the tree itself decides.
+        source: as the behaviour declares it: `person`, `ontology`, `llm`, `user`; or `eyes`,
+            `world` or `experimenter`; empty where the tree itself decides.
         by: the behaviour that settled it.
         alternatives: what was not taken.
     """
@@ -80,13 +82,27 @@ def why(run: Run) -> list[Decision]:
         Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
         for at in run.mishaps()
     )
-    chain = merge(_heard(run), _Chain(run).decisions(), planned, ordered, key=lambda d: d.time_s)
+    chain = merge(
+        _stepped_in(run),
+        _heard(run),
+        _Chain(run).decisions(),
+        planned,
+        ordered,
+        key=lambda d: d.time_s,
+    )
     decisions = list(chain)
     outcome = run.outcome()
     if outcome is not None:
         ending = outcome.reason or outcome.status
         decisions.append(Decision(outcome.mission_time_s, "outcome", ending, "", outcome.status))
     return decisions
+
+
+def _stepped_in(run: Run) -> Iterator[Decision]:
+    """What an experimenter did, in the person's stead or the robot's."""
+    for at in run.records(Intervention):
+        who = at.value.by
+        yield Decision(at.time_s, f"{who} stepped in", done(at.value), EXPERIMENTER, who)
 
 
 def _heard(run: Run) -> Iterator[Decision]:

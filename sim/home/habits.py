@@ -23,7 +23,13 @@ from pydantic import (
 
 from executive.errors import InputError
 from executive.text import printable
-from executive.toml_file import in_words, packaged, parse_toml, read_toml
+from executive.toml_file import (
+    in_words,
+    packaged,
+    parse_toml,
+    read_toml,
+    refuse_misread_bools,
+)
 from sim.home.furniture import FORM_OF_KIND
 from sim.home.home import Home
 
@@ -121,6 +127,7 @@ def load_habits(name_or_file: str, home: Home) -> Habits:
         habits = Habits.model_validate(tables)
     except ValidationError as error:
         raise _input_error(where, error) from None
+    refuse_misread_bools(tables, habits, where)
     for number, habit in enumerate(habits.habits):
         _fit_to(home, habit, f"{where}: habits.{number}")
     return habits

@@ -14,7 +14,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from executive.errors import InputError
 from executive.files import write_whole
 from executive.text import printable
-from executive.toml_file import in_words, read_toml
+from executive.toml_file import in_words, read_toml, refuse_misread_bools
 from executive.types import Vector3
 from sim.home.arrangement import NoRoomError, Spot
 from sim.home.furniture import Furniture
@@ -65,6 +65,7 @@ def read_state(file: Path, home: Home) -> HomeState | None:
         key = printable(".".join(map(str, fault["loc"])))[:_SHOWN]
         what = f"is no state of a home: {key}: {in_words(fault['msg'])}"
         raise InputError(where, what, RIGHT) from None
+    refuse_misread_bools(tables, state, where)
     if state.home != home.name:
         what = f"is the state of the home {printable(state.home)[:_SHOWN]}, not of {home.name}"
         raise InputError(where, what, "give each home a file of its own")

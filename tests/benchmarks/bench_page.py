@@ -16,6 +16,7 @@ from tempfile import TemporaryDirectory
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 from browsing import chromium, opened
+from playwright.sync_api import Browser
 from playwright.sync_api import Page as Tab
 
 from executive import Session, load_settings
@@ -98,14 +99,26 @@ def mission(page: Page | None, runs: Path, seed: int) -> tuple[float, float]:
         return time.process_time() - cpu, time.monotonic() - began
 
 
-def overhead(page: Page, runs: Path, missions: int) -> None:
-    """Missions in turn, shown and not."""
+def overhead(browser: Browser, page: Page, runs: Path, missions: int) -> None:
+    """Missions in turn: without a page, with one that nobody has opened, with one open, with two.
+
+    The browser is a process of its own; what counts is this one.
+    """
     mission(None, runs, 0)
-    pairs = [(mission(None, runs, n), mission(page, runs, n)) for n in range(missions)]
-    for index, name in enumerate(("CPU time of this process", "time")):
-        ratio = [shown[index] / plain[index] - 1 for plain, shown in pairs]
-        plain = median(pair[0][index] for pair in pairs)
-        print(f"a mission, {name}: {plain:.2f} s without, {median(ratio):+.1%} with two pages")
+    ways = {"without a page": None, "none open": 0, "one open": 1, "two open": 2}
+    took: dict[str, list[tuple[float, float]]] = {way: [] for way in ways}
+    for number in range(missions):
+        for way, count in ways.items():
+            with ExitStack() as stack:
+                for _ in range(count or 0):
+                    stack.enter_context(opened(browser, page))
+                took[way].append(mission(None if count is None else page, runs, number))
+    for index, name in enumerate(("processor time of this process", "time")):
+        plain = [one[index] for one in took["without a page"]]
+        print(f"a mission, {name}: {median(plain):.2f} s without a page")
+        for way in list(ways)[1:]:
+            more = [one[index] / of - 1 for one, of in zip(took[way], plain, strict=True)]
+            print(f"  {way}: {median(more):+.1%}")
 
 
 def main() -> None:
@@ -119,13 +132,15 @@ def main() -> None:
         runs = Path(stack.enter_context(TemporaryDirectory()))
         page = stack.enter_context(Page(Inbox(), Address(port=0)))
         browser = stack.enter_context(chromium())
-        tab, _ = (stack.enter_context(opened(browser, page)) for _ in range(2))
-        tab.wait_for_timeout(2000)
-        if options.times:
-            from_event_to_page(page, tab, options.times)
-        idle(options.idle_s)
+        with ExitStack() as two:
+            tab, _ = (two.enter_context(opened(browser, page)) for _ in range(2))
+            tab.wait_for_timeout(2000)
+            if options.times:
+                from_event_to_page(page, tab, options.times)
+            if options.idle_s:
+                idle(options.idle_s)
         if options.missions:
-            overhead(page, runs, options.missions)
+            overhead(browser, page, runs, options.missions)
 
 
 if __name__ == "__main__":

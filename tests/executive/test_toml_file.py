@@ -1,6 +1,7 @@
 """Whatever a TOML file holds, it is read, or refused in a sentence, and never waited for."""
 
 import os
+import re
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 
 from executive.config import load_settings
 from executive.errors import InputError
+from executive.ros.profile import load_profile, profile_text
 from executive.toml_file import MOST_BYTES, parse_toml, read_toml
 from kb.advice.prompts import Prompts
 
@@ -105,3 +107,20 @@ def test_a_wrong_variable_of_the_environment_is_named(
     monkeypatch.setenv(f"EXECUTIVE_{name}", value)
     with pytest.raises(InputError, match=sentence):
         load_settings()
+
+
+def test_a_bool_in_a_settings_file_or_a_programs_setting_is_no_number(tmp_path: Path) -> None:
+    file = tmp_path / "settings.toml"
+    file.write_text("question_s = true")
+    with pytest.raises(InputError, match=r"settings.toml: question_s: is true; should be a number"):
+        load_settings(file)
+    with pytest.raises(InputError, match=r"setting 'seed': is true; should be a number"):
+        load_settings(seed=True)
+
+
+def test_a_bool_in_a_profile_is_no_number(tmp_path: Path) -> None:
+    content, _ = profile_text("nav2")
+    file = tmp_path / "profile.toml"
+    file.write_text(re.sub(r"= \d[\d.]*$", "= true", content.decode(), count=1, flags=re.M))
+    with pytest.raises(InputError, match=r"profile.toml: \S+ is true; should be a number"):
+        load_profile(str(file))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from email.message import Message
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlencode, urlsplit
+from urllib.parse import parse_qs, urlencode, urlsplit
 
 from executive import Session, load_settings
 from executive.app.embodiment import Embodiment, Setup
@@ -146,6 +146,25 @@ def ask(page: Page, path: str, **given: Any) -> Answer:
 def post(page: Page, path: str, value: Any, **given: Any) -> int:
     """Send JSON; the status."""
     return ask(page, path, method="POST", body=json.dumps(value).encode(), **given).status
+
+
+def step_in(page: Page, deed: str, *, status: int = 200, by: str = "Anna", **values: Any) -> Any:
+    """Do something as an experimenter; what the server says."""
+    body = json.dumps({"deed": deed, "by": by, **values}).encode()
+    given = {"method": "POST", "body": body, "token": their_token(page)}
+    answer = ask(page, "/experiment/intervene", **given)
+    assert answer.status == status, answer.body
+    return json.loads(answer.body)
+
+
+def notice(page: Page, name: str, **values: Any) -> Any:
+    """What the experimenter's page is told."""
+    return heard(page, name, token=their_token(page), path="/experiment/events", **values)
+
+
+def their_token(page: Page) -> str:
+    """That of the experimenter."""
+    return parse_qs(urlsplit(page.experimenter_url).query)["token"][0]
 
 
 def told(page: Page, **given: Any) -> Iterator[Told]:

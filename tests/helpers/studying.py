@@ -69,9 +69,14 @@ class Led:
 
 
 @contextmanager
-def led(data: StudyData, code: str, *, to_the_end: bool = True) -> Iterator[Led]:
+def led(
+    data: StudyData, code: str, *, to_the_end: bool = True, experimenter: bool = False
+) -> Iterator[Led]:
     """Lead a participant, in a thread; what is raised there is raised here."""
-    with data.one(code) as journal, StudyPage(Address(port=0), TOKEN) as page:
+    with (
+        data.one(code) as journal,
+        StudyPage(Address(port=0, experimenter=experimenter), TOKEN) as page,
+    ):
         made = Led(page, Leader(data, journal, page))
 
         def lead() -> None:

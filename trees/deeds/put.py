@@ -1,6 +1,6 @@
 """Put a thing where the person says: on that furniture, or in that room; nowhere else is done."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -10,6 +10,7 @@ from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to
 from trees.deeds.fall import pick_up_again
 from trees.deeds.put_down import go_and_put
+from trees.held import HoldGoal, each_untried
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut, Report
 from trees.robot import DriveToGoal, PutDownAtGoal
@@ -56,6 +57,9 @@ def put_at_goal(context: MissionContext) -> Behaviour:
     """
     situation = context.situation
 
+    def goals() -> Iterator[str]:
+        return each_untried(situation.request.goals, lambda: situation.request.goal)
+
     def choose_goal(place: str) -> None:
         situation.request.goal = place
 
@@ -65,7 +69,7 @@ def put_at_goal(context: MissionContext) -> Behaviour:
     holds = Check("still in my hand", context, lambda: situation.hand.in_hand is not None)
     return fallback(
         "put it there",
-        FirstOf("where it is to go", lambda: situation.request.goals, choose_goal, carry(context)),
+        FirstOf("where it is to go", goals, choose_goal, carry(context)),
         sequence(
             "elsewhere",
             holds,
@@ -93,6 +97,7 @@ def carry(context: MissionContext) -> Behaviour:
     return sequence(
         "carry it there",
         Check("still in my hand", context, lambda: hand.in_hand is not None),
+        HoldGoal("choice", context),
         fallback(
             "get there",
             DriveToGoal("carry", context),

@@ -8,6 +8,7 @@ from py_trees.common import Status
 from executive.types import DELIVERY, HAND, HELD, SOMETHING, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.held import HoldSurface, each_untried
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut, Report
 from trees.robot import DriveToSurface, PutDownThere
@@ -66,15 +67,16 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
     situation = context.situation
 
     def near() -> Iterator[str]:
-        yield from first
-        yield from context.near_person[:NEAR]
+        return each_untried([*first, *context.near_person[:NEAR]], lambda: situation.hand.surface)
 
     def choose(place: str) -> None:
         situation.hand.surface = place
 
     return fallback(
         name,
-        FirstOf("near the person", near, choose, go_and_put(context)),
+        FirstOf(
+            "near the person", near, choose, go_and_put(context, HoldSurface("choice", context))
+        ),
         sequence(
             "where the person says",
             Check("still in my hand", context, lambda: situation.hand.in_hand is not None),
@@ -86,11 +88,12 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
     )
 
 
-def go_and_put(context: MissionContext) -> Behaviour:
-    """Take it to the surface at hand, and put it down there."""
+def go_and_put(context: MissionContext, *before: Behaviour) -> Behaviour:
+    """Take it to the surface at hand, and put it down there; `before` may choose another one."""
     return sequence(
         "go and put",
         Check("still in my hand", context, lambda: context.situation.hand.in_hand is not None),
+        *before,
         DriveToSurface("drive", context),
         PutDownThere("put down", context),
     )

@@ -56,6 +56,8 @@ class Desk:
         person.asking = asking
         self.wizard = Wizard(inbox, person, self.board)
         self.wizard.going = self.live.going
+        self.wizard.choosing = self.live.choosing
+        self.live.flushed = self.wizard.show_choice
 
     def look_in(self, folder: Path) -> None:
         """The past runs are in this folder."""

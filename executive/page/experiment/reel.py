@@ -26,6 +26,7 @@ from executive.records import (
 )
 from executive.text import printable
 from executive.types import Outcome
+from logs.questions.interventions import done
 from logs.recording.events import in_words
 
 T = TypeVar("T")
@@ -119,8 +120,8 @@ class Reel:
                 self._tick(time_s, record)
             case Utterance(speaker, text):
                 self._add(time_s, "said", f"{speaker}: {text}")
-            case EventTaken(Intervened(by, deed, was, became)):
-                self._add(time_s, "intervened", f"{by}: {deed}: {was} → {became}")
+            case EventTaken(Intervened(by) as deed):
+                self._add(time_s, "intervened", f"{by}: {done(deed)}")
             case EventTaken(event):
                 self._add(time_s, "event", in_words(event))
             case LlmCall(result):

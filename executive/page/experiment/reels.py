@@ -4,6 +4,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from executive.errors import ExecutiveError
 from executive.page.board import Board
@@ -30,6 +31,8 @@ class LiveReel:
         self._number = 0
         self.name: Callable[[], str] = lambda: ""
         """Tells the name of the mission's folder; empty if it is not recorded."""
+        self.flushed: Callable[[], None] = lambda: None
+        """Is called before the pages are told."""
         self.reel = Reel(LIVE)
         self.reel.whole = True
 
@@ -47,8 +50,14 @@ class LiveReel:
         searches = fact("candidate") and not fact("found") and not reel.whole
         return str(fact("candidate")["place"]) if searches else ""
 
+    def choosing(self) -> dict[str, Any] | None:
+        """Which choice of a place waits for an experimenter; None if none does."""
+        choice = None if self.reel.whole else self.reel.fact("held_choice")
+        return choice if isinstance(choice, dict) else None
+
     def flush(self) -> None:
         """Tell the pages how far it is."""
+        self.flushed()
         reel = self.reel
         self._board.put(
             "live",

@@ -3,11 +3,12 @@
 So it stands in the recording, with who and when, and a replay of the mission is the same.
 """
 
+import threading
 from collections.abc import Callable
 from typing import Any
 
 from executive.errors import InputError
-from executive.events import Deed, Inbox, Intervened
+from executive.events import OFF, ON, Deed, Event, Inbox, Intervened
 from executive.page.board import Board
 from executive.page.person import PagePerson
 from executive.text import LONGEST, one_line, printable, writable
@@ -15,6 +16,10 @@ from executive.text import LONGEST, one_line, printable, writable
 SOMEBODY = "the experimenter"
 LONGEST_NAME = 60
 OVER = "it is over"
+LEFT_S = 30.0
+"""A page that was closed, and comes back no later (s), was loaded anew, or lost the connection."""
+AS_BEFORE = "as before this mission"
+LEFT = "no page of an experimenter is open any more"
 
 
 class Wizard:
@@ -28,8 +33,18 @@ class Wizard:
         self._places: tuple[str, ...] = ()
         self.going: Callable[[], str] = lambda: ""
         """Tells to which place the robot goes to look; empty if to none."""
+        self.choosing: Callable[[], dict[str, Any] | None] = lambda: None
+        """Tells which choice of a place waits, as the situation has it; None if none does."""
+        self._holder = ""
+        """Who holds choices of places; empty if nobody does."""
+        self._silencer = ""
+        """Who holds what the robot says; empty if nobody does."""
+        self.done: Callable[[Intervened], None] = lambda event: None
+        """Is told of each deed, whether a mission hears of it or not."""
         person.gate.changed = self._tell
+        board.left = self._look_again_later
         self._tell()
+        self.show_choice()
 
     def know(self, places: dict[str, str]) -> None:
         """Where the robot can be sent: names, each with how it is called."""
@@ -53,6 +68,8 @@ class Wizard:
                 done = self._say(by, number, _line(words))
             case {"deed": Deed.PLACE, "place": str(place)}:
                 done = self._send(by, place)
+            case {"deed": Deed.HOLD_PLACE, "on": bool(on)}:
+                done = self._hold_place(by, on)
             case {"deed": Deed.STOP}:
                 self._post(by, Deed.STOP, "", "")
                 self._person.stops()
@@ -65,7 +82,8 @@ class Wizard:
 
     def _hold(self, by: str, on: bool) -> bool:
         gate = self._person.gate
-        self._post(by, Deed.HOLD, "", "on" if on else "off")
+        self._silencer = by if on else ""
+        self._post(by, Deed.HOLD, "", ON if on else OFF)
         if on:
             gate.holds = True
             self._tell()
@@ -86,13 +104,48 @@ class Wizard:
     def _send(self, by: str, place: str) -> bool:
         if place not in self._places:
             raise InputError("place", "there is no such place")
-        if not (was := self.going()):
+        choice = self.choosing()
+        if choice and choice["among"] and place not in choice["among"]:
+            right = f"it may be {' or '.join(choice['among'])}"
+            raise InputError("place", "the person wants it elsewhere", right)
+        if not (was := choice["place"] if choice else self.going()):
             return False
         self._post(by, Deed.PLACE, was, place)
         return True
 
+    # --- choices of places ---
+
+    def standing(self) -> tuple[Event, ...]:
+        """What each mission begins with: what is held from before."""
+        held = ((self._silencer, Deed.HOLD), (self._holder, Deed.HOLD_PLACE))
+        return tuple(Intervened(by, deed, AS_BEFORE, ON) for by, deed in held if by)
+
+    def show_choice(self) -> None:
+        """Tell whether choices are held, and which one waits."""
+        self._board.put("choice", {"holds": bool(self._holder), "held": self.choosing()})
+        self._board.flush()
+
+    def _hold_place(self, by: str, on: bool, why: str = "") -> bool:
+        self._holder = by if on else ""
+        self._post(by, Deed.HOLD_PLACE, why, ON if on else OFF)
+        self.show_choice()
+        return True
+
+    def _look_again_later(self) -> None:
+        """No page is open: if that stays so, the robot need not wait for one."""
+        if self._holder:
+            timer = threading.Timer(LEFT_S, self._let_go_if_left)
+            timer.daemon = True
+            timer.start()
+
+    def _let_go_if_left(self) -> None:
+        if (by := self._holder) and not self._board.readers:
+            self._hold_place(by, on=False, why=LEFT)
+
     def _post(self, by: str, deed: Deed, was: str, became: str) -> None:
-        self._inbox.post(Intervened(by, deed, was, became))
+        event = Intervened(by, deed, was, became)
+        self.done(event)
+        self._inbox.post(event)
 
     def _tell(self) -> None:
         gate = self._person.gate

@@ -19,7 +19,7 @@ from executive.page.study.questionnaire import (
     Table,
     templates,
 )
-from executive.toml_file import in_words, read_toml
+from executive.toml_file import in_words, misread, read_toml
 
 RIGHT = "see docs/study.md"
 THANKS = "That was all. Thank you for taking part!"
@@ -125,6 +125,8 @@ def read_study(file: Path) -> Study:
         study = Study.model_validate(tables)
     except ValidationError as error:
         raise _wrong(file, error.errors(include_url=False)[0]) from None
+    for other in misread(tables, study):
+        raise InputError(str(file), f"{other.key} is {other.shown}", other.right)
     for condition in study.conditions:
         settings_of(study, condition, str(file))
     return study

@@ -138,6 +138,8 @@ class Leader:
             settings, inbox=self._inbox, user=person, sinks=[*self._page.sinks, watch]
         ) as session:
             self._page.follow(session)
+            if self._page.desk and self._page.desk.wizard:
+                self._page.desk.wizard.done = watch.beside
             yield _Talks(session, self._page, self._journal, watch, self._data.folder)
 
 
@@ -165,6 +167,7 @@ class _Talks:
             self._write(line, outcome, where)
             if session.stopped_by not in ("", THE_PERSON):
                 raise KeyboardInterrupt
+        self._write_unheard(where)
 
     def _stepped_in(self) -> list[SteppedIn]:
         """Who stepped in; the last stop of a participant who left is no stop."""
@@ -174,9 +177,14 @@ class _Talks:
             seen[theirs[-1]] = replace(seen[theirs[-1]], what=LEFT)
         return seen
 
+    def _write_unheard(self, where: dict[str, Any]) -> None:
+        for at, one in self._watch.take_unheard():
+            self._journal.append("intervention", at=at, recording="", **asdict(one), **where)
+
     def _write(self, words: str, outcome: Outcome, where: dict[str, Any]) -> None:
         folder = outcome.run_dir
         recording = str(Path(folder).relative_to(self._root)) if folder else ""
+        self._write_unheard(where)
         for one in self._stepped_in():
             self._journal.append("intervention", recording=recording, **asdict(one), **where)
         self._journal.append(

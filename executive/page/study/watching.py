@@ -1,9 +1,11 @@
-"""Who stepped in while a mission ran: a log that keeps it for the study's journal."""
+"""Who stepped in, while a mission ran or between two: what the study's journal keeps of it."""
 
 import threading
 from dataclasses import dataclass
+from datetime import UTC, datetime
 
-from executive.events import Intervened, StopRequested
+from executive.events import THE_PERSON, Deed, Intervened, StopRequested
+from executive.page.experiment.wizard import AS_BEFORE
 from executive.page.study.tables import STOP
 from executive.records import EventTaken, Record
 from logs.recorder import Stamp
@@ -11,7 +13,10 @@ from logs.recorder import Stamp
 
 @dataclass(frozen=True)
 class SteppedIn:
-    """What somebody did, who, and when (mission time, s); what was, and what became of it."""
+    """What somebody did, who, and when (mission time, s); what was, and what became of it.
+
+    What no mission heard of, because none ran, has no such time: 0.
+    """
 
     what: str
     by: str
@@ -27,18 +32,37 @@ class Watch:
         """Nobody has stepped in."""
         self._lock = threading.Lock()
         self._seen: list[SteppedIn] = []
+        self._unheard: list[tuple[str, Intervened]] = []
+        self._was_stopped = False
+        """Whether an experimenter stops it, in the person's stead."""
 
     def write(self, stamp: Stamp, record: Record) -> None:
         """Keep it if somebody stepped in."""
         match record:
             case EventTaken(StopRequested(by)):
-                with self._lock:
-                    self._seen.append(SteppedIn(STOP, by, stamp.mission_s))
-            case EventTaken(Intervened(by, deed, was, became)):
-                with self._lock:
-                    self._seen.append(SteppedIn(deed, by, stamp.mission_s, was, became))
+                self._stop(by, stamp.mission_s)
+            case EventTaken(Intervened() as event):
+                self._hear(event, stamp.mission_s)
             case _:
                 pass
+
+    def _stop(self, by: str, time_s: float) -> None:
+        with self._lock:
+            if not (self._was_stopped and by == THE_PERSON):
+                self._seen.append(SteppedIn(STOP, by, time_s))
+            self._was_stopped = False
+
+    def beside(self, event: Intervened) -> None:
+        """An experimenter does this; a mission that runs hears of it. From any thread."""
+        with self._lock:
+            self._unheard.append((datetime.now(UTC).isoformat(timespec="milliseconds"), event))
+
+    def _hear(self, event: Intervened, time_s: float) -> None:
+        with self._lock:
+            self._unheard = [one for one in self._unheard if one[1] is not event]
+            self._was_stopped = event.deed == Deed.STOP
+            if event.was != AS_BEFORE:
+                self._seen.append(_stepped_in(event, time_s))
 
     def flush(self) -> None:
         """Nothing to bring to disk."""
@@ -47,7 +71,17 @@ class Watch:
         """The mission is over; the next one goes on here."""
 
     def take_all(self) -> list[SteppedIn]:
-        """What was seen since the last time."""
+        """What the last mission heard of."""
         with self._lock:
             seen, self._seen = self._seen, []
         return seen
+
+    def take_unheard(self) -> list[tuple[str, SteppedIn]]:
+        """What no mission heard of, and when it was done (wall time): for when none runs."""
+        with self._lock:
+            unheard, self._unheard = self._unheard, []
+        return [(at, _stepped_in(event, 0.0)) for at, event in unheard]
+
+
+def _stepped_in(event: Intervened, time_s: float) -> SteppedIn:
+    return SteppedIn(event.deed, event.by, time_s, event.was, event.became)

@@ -2,6 +2,8 @@
 
 import argparse
 import logging
+import socket
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -73,3 +75,11 @@ def test_a_certificate_that_is_none_is_told(tmp_path: Path) -> None:
 def test_a_key_without_a_certificate_is_told(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="give --page-cert, too"):
         Address(0, key=tmp_path / "key.pem").checked()
+
+
+def test_what_is_answered_in_two_parts_does_not_wait_for_a_receipt() -> None:
+    server = Server(Address(port=0))
+    with closing(server), socket.create_connection(("127.0.0.1", server.port)):
+        accepted, _ = server._socket.accept()
+        with accepted:  # by this, asyncio sets TCP_NODELAY
+            assert accepted.proto == socket.IPPROTO_TCP

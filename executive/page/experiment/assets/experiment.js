@@ -97,12 +97,19 @@ function showLive(now) {
   }
 }
 
+/** There is no robot: only what was recorded is shown. */
+function showPast({ folder }) {
+  state.textContent = text("runs_of", { folder });
+  tabs[0].hidden = true;
+  if (!document.getElementById("live").hidden) view("past");
+}
+
 for (const tab of tabs) tab.addEventListener("click", () => view(tab.dataset.view));
 document.getElementById("replay").addEventListener("click", () => act("replay", "replaying"));
 document.getElementById("view").addEventListener("click", () => act("view", "opening"));
 
 const connection = { open: "", lost: "disconnected", refused: "refused" };
-const show = { fresh() {}, live: showLive, ...wizard };
+const show = { fresh() {}, live: showLive, past: showPast, ...wizard };
 follow(Object.keys(show), (name, value) => show[name](value), (how) => {
   trouble.hidden = !connection[how];
   trouble.textContent = connection[how] ? textOr(connection[how], "") : "";

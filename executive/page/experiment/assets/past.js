@@ -39,6 +39,10 @@ async function list(open) {
   status.replaceChildren(element("option", { value: "" }, text("any_status")),
     ...told.statuses.map((one) => element("option", { value: one }, textOr(`ended.${one}`, one))));
   status.value = chosen;
+  if (!told.runs.length) {
+    table.replaceChildren(element("caption", {}, text(told.all ? "none_found" : "no_runs")));
+    return;
+  }
   const heads = ["pick", "when", "command", "status", "reason", "seconds", "asked"];
   table.replaceChildren(
     element("thead", {}, element("tr", {}, ...heads.map((head) => element("th", { scope: "col" }, text(`heads.${head}`))))),

@@ -93,7 +93,10 @@ export class Tree {
       this.box.replaceChildren(...rows);
       if (had) this.rows.get(this.focused)?.focus({ preventScroll: true });
     }
-    rows.forEach((row, at) => { row.tabIndex = seen[at] === this.focused ? 0 : -1; });
+    rows.forEach((row, at) => {
+      const index = seen[at] === this.focused ? 0 : -1;
+      if (row.tabIndex !== index || !row.hasAttribute("tabindex")) row.tabIndex = index;
+    });
   }
 
   #row(place) {
@@ -119,10 +122,12 @@ export class Tree {
   #fill(row, place) {
     const [status, message] = this.states[place];
     const [, sign, said, , told] = row.children;
-    row.dataset.status = status;
-    sign.textContent = SIGNS[status] ?? "?";
-    said.textContent = `${text(`statuses.${status}`)}: `;
-    told.textContent = message;
+    if (row.dataset.status !== status) {
+      row.dataset.status = status;
+      sign.textContent = SIGNS[status] ?? "?";
+      said.textContent = `${text(`statuses.${status}`)}: `;
+    }
+    if (told.textContent !== message) told.textContent = message;
   }
 
   #clicked(event, place) {

@@ -18,6 +18,10 @@ export function stepIn(box) {
   const hold = element("input", { type: "checkbox" });
   const held = element("ol", { hidden: true });
   const places = element("select", { "aria-label": text("send_to") });
+  const elsewhere = element("div", {}, places, button(text("send_there"), () => act("place", { place: places.value })));
+  const holdPlaces = element("input", { type: "checkbox" });
+  const choice = element("div", { class: "choice", role: "group", hidden: true });
+  const labels = new Map();
 
   async function act(deed, values = {}) {
     try {
@@ -29,11 +33,12 @@ export function stepIn(box) {
   }
 
   hold.addEventListener("change", () => act("hold", { on: hold.checked }));
+  holdPlaces.addEventListener("change", () => act("hold_place", { on: holdPlaces.checked }));
   box.replaceChildren(
     element("h3", {}, text("step_in")), name, question,
     element("label", {}, hold, text("hold_words")),
-    element("div", {}, places, button(text("send_there"), () => act("place", { place: places.value }))),
-    button(text("stop"), () => act("stop"), { class: "stop" }), said, held);
+    element("label", {}, holdPlaces, text("hold_places")), elsewhere,
+    button(text("stop"), () => act("stop"), { class: "stop" }), said, choice, held);
 
   function ask(asked) {
     if (!asked) return question.replaceChildren(element("span", {}, text("asks_nothing")));
@@ -56,8 +61,28 @@ export function stepIn(box) {
       button(text("drop_it"), () => act("words", { number, words: "" })));
   }
 
+  /** A place that the robot has chosen waits: let it go there, or elsewhere. */
+  function choose(waiting) {
+    elsewhere.hidden = Boolean(waiting);
+    choice.hidden = !waiting;
+    if (!waiting) return choice.replaceChildren();
+    const { to, place, among } = waiting;
+    const others = (among.length ? among : [...labels.keys()]).filter((one) => one !== place);
+    const sentence = text(`held_${to}`, { place: labels.get(place) ?? spoken(place) });
+    const instead = element("select", { "aria-label": text("instead") },
+      ...others.map((one) => element("option", { value: one }, labels.get(one) ?? spoken(one))));
+    choice.setAttribute("aria-label", sentence);
+    choice.replaceChildren(element("strong", {}, sentence),
+      button(text("as_chosen"), () => act("place", { place })),
+      instead, button(text("go_there_instead"), () => act("place", { place: instead.value })));
+  }
+
   return {
     question: ask,
+    choice({ holds, held: waiting }) {
+      holdPlaces.checked = holds;
+      choose(waiting);
+    },
     words({ holds, held: waiting }) {
       hold.checked = holds;
       held.hidden = !waiting.length;
@@ -67,6 +92,7 @@ export function stepIn(box) {
       held.append(...waiting.filter((one) => !shown.includes(String(one.number))).map(row));
     },
     places(known) {
+      known.forEach((one) => labels.set(one.name, one.label));
       places.replaceChildren(...known.map((one) => element("option", { value: one.name }, one.label)));
     },
   };

@@ -169,5 +169,23 @@ def test_an_experimenter_steps_in(browser: Browser, tmp_path: Path) -> None:
         panel.get_by_role("button", name="Send", exact=True).click()
         made.ended(1)
         expect(tab.locator("#live .lines .of-intervened").last).to_contain_text(
-            "Anna: answer: Where is the peach? → on the high table"
+            "Anna: answered 'Where is the peach?': on the high table"
+        )
+
+
+def test_an_experimenter_holds_where_it_goes(browser: Browser, tmp_path: Path) -> None:
+    with robot(tmp_path, recorded=True, experimenter=True) as made, desk(browser, made) as tab:
+        heard(made.page, "doing", state="ready")
+        panel = tab.locator("#wizard")
+        panel.get_by_label("Your name").fill("Anna")
+        panel.get_by_label("Hold where it goes next").check()
+        made.page.says("Find the peach at the sofa")
+        expect(panel.locator(".choice")).to_contain_text("It would look next: sofa.")
+        assert not faults(tab)
+        panel.get_by_label("Instead").select_option("high table")
+        panel.get_by_role("button", name="Send there instead").click()
+        assert made.ended(1).visited == ("high_table",)
+        expect(panel.locator(".choice")).to_be_hidden()
+        expect(tab.locator("#live .lines .of-intervened").last).to_contain_text(
+            "Anna: to high_table, not sofa"
         )

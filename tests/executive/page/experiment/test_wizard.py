@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from typing import Any
-from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from paging import Robot, ask, heard, robot, told
+from paging import Robot, heard, notice, robot, step_in, their_token, told
 
 from executive.events import Intervened
+from executive.page.experiment.wizard import AS_BEFORE
 from executive.page.page import Page
 from executive.records import Intervention
 from executive.replay import replay
@@ -27,24 +27,9 @@ def stepped(tmp_path: Path) -> Iterator[Robot]:
         yield made
 
 
-def step_in(page: Page, deed: str, *, status: int = 200, **values: Any) -> Any:
-    token = parse_qs(urlsplit(page.experimenter_url).query)["token"][0]
-    body = json.dumps({"deed": deed, "by": ANNA, **values}).encode()
-    answer = ask(page, "/experiment/intervene", method="POST", body=body, token=token)
-    assert answer.status == status, answer.body
-    return json.loads(answer.body)
-
-
-def notice(page: Page, name: str, **values: Any) -> Any:
-    """What the experimenter's page is told."""
-    token = parse_qs(urlsplit(page.experimenter_url).query)["token"][0]
-    return heard(page, name, token=token, path="/experiment/events", **values)
-
-
 def next_held(page: Page) -> int:
     """The number of the words that are held next."""
-    token = parse_qs(urlsplit(page.experimenter_url).query)["token"][0]
-    with closing(told(page, token=token, path="/experiment/events")) as reading:
+    with closing(told(page, token=their_token(page), path="/experiment/events")) as reading:
         for one in reading:
             if one.name == "words" and one.value["held"]:
                 return int(one.value["held"][0]["number"])
@@ -101,11 +86,12 @@ def test_words_that_are_held_are_said_otherwise_or_never(stepped: Robot) -> None
     step_in(page, "hold", on=False)
     outcome = stepped.ended(1)
     deeds = [(deed, was, became) for _, deed, was, became in interventions(outcome)]
-    assert deeds[0] == ("words", "Where is the peach?", "Where did you put it?")
-    assert deeds[1][0] == "words"
-    assert deeds[1][2] == ""
+    assert deeds[0] == ("hold", AS_BEFORE, "on")
+    assert deeds[1] == ("words", "Where is the peach?", "Where did you put it?")
+    assert deeds[2][0] == "words"
+    assert deeds[2][2] == ""
     said = [json.loads(c.json)["text"] for c in page.board.since(0) if c.name == "said"]
-    assert deeds[1][1] not in said
+    assert deeds[2][1] not in said
 
 
 def test_what_was_held_is_said_in_order_when_nothing_is_held_any_more(stepped: Robot) -> None:
@@ -146,6 +132,80 @@ def test_the_robot_is_sent_elsewhere_on_its_way(stepped: Robot) -> None:
 def test_a_robot_that_does_not_search_is_sent_nowhere(stepped: Robot) -> None:
     assert "over" in step_in(stepped.page, "place", status=404, place="sofa")["error"]
     assert "no such place" in step_in(stepped.page, "place", status=404, place="moon")["error"]
+
+
+def test_where_it_would_look_waits_and_another_place_takes_its_place(stepped: Robot) -> None:
+    page = stepped.page
+    step_in(page, "hold_place", on=True)
+    page.says("Find the peach at the sofa")
+    held = {"to": "look", "place": "sofa", "among": []}
+    notice(page, "choice", holds=True, held=held)
+    assert heard(page, "doing", activity="thinking")
+    assert "no such place" in step_in(page, "place", status=404, place="moon")["error"]
+    step_in(page, "place", place="high_table")
+    outcome = stepped.ended(1)
+    assert (outcome.status, outcome.visited) == ("done", ("high_table",))
+    assert interventions(outcome) == [
+        (ANNA, "hold_place", AS_BEFORE, "on"),
+        (ANNA, "place", "sofa", "high_table"),
+    ]
+
+
+def test_where_it_would_look_is_let_go_with_all_that_come(stepped: Robot) -> None:
+    page = stepped.page
+    step_in(page, "hold_place", on=True)
+    page.says("Find the peach at the sofa")
+    notice(page, "choice", held={"to": "look", "place": "sofa", "among": []})
+    step_in(page, "hold_place", on=False)
+    heard(page, "question", kind="where_is")
+    page.says("high_table")
+    outcome = stepped.ended(1)
+    assert outcome.visited == ("sofa", "high_table")
+    assert [deed for _, deed, _, _ in interventions(outcome)] == ["hold_place", "hold_place"]
+
+
+def test_a_place_that_the_person_does_not_want_is_refused(stepped: Robot) -> None:
+    page = stepped.page
+    page.says("Take the peach at the high_table")
+    stepped.ended(1)
+    step_in(page, "hold_place", on=True)
+    page.says("Put it on the sofa or the desk")
+    notice(page, "choice", held={"to": "put", "place": "desk", "among": ["desk", "sofa"]})
+    told = step_in(page, "place", status=404, place="bed")["error"]
+    assert "desk or sofa" in told
+    step_in(page, "place", place="sofa")
+    outcome = stepped.ended(2)
+    assert (outcome.status, outcome.tasks[0].put_at) == ("done", "sofa")
+    interventions(outcome)
+
+
+def test_a_stop_is_done_while_a_choice_waits_and_the_next_mission_waits_too(
+    stepped: Robot,
+) -> None:
+    page = stepped.page
+    step_in(page, "hold_place", on=True)
+    for count in (1, 2):
+        page.says("Find the peach at the sofa")
+        notice(page, "choice", held={"to": "look", "place": "sofa", "among": []})
+        page.stops()
+        outcome = stepped.ended(count)
+        assert (outcome.status, outcome.visited) == ("stopped", ())
+        assert interventions(outcome) == [(ANNA, "hold_place", AS_BEFORE, "on")]
+        notice(page, "choice", holds=True, held=None)
+
+
+def test_what_nobody_is_there_to_let_go_is_let_go(
+    stepped: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("executive.page.experiment.wizard.LEFT_S", 0.0)
+    page = stepped.page
+    step_in(page, "hold_place", on=True)
+    page.says("Find the peach at the sofa")
+    notice(page, "choice", held={"to": "look", "place": "sofa", "among": []})  # and is closed
+    heard(page, "question", kind="where_is")
+    page.stops()
+    (_, let_go) = interventions(stepped.ended(1))
+    assert let_go == (ANNA, "hold_place", "no page of an experimenter is open any more", "off")
 
 
 @pytest.mark.parametrize(

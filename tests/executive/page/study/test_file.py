@@ -65,6 +65,10 @@ def test_each_condition_has_its_own_settings_over_those_of_all(tmp_path: Path) -
     assert (a.world, a.search, b.world, b.search) == ("fake", "paper", "physics", "plan")
 
 
+QUESTIONS = {"title": "Q", "items": [{"name": "a", "text": "A?"}]}
+UNSURE = {"name": "a", "text": "A?", "needed": 0}
+
+
 @pytest.mark.parametrize(
     ("changed", "said"),
     [
@@ -75,6 +79,14 @@ def test_each_condition_has_its_own_settings_over_those_of_all(tmp_path: Path) -
         ({"conditions": [{"name": "../a"}]}, "conditions.0.name is '../a'; use up to 40 letters"),
         ({"tasks": [{"name": "t"}]}, "tasks.0.text is missing"),
         ({"tasks": [{"name": "t", "text": "Do.", "limit_s": 0}]}, "tasks.0.limit_s is '0'"),
+        ({"tasks": [{"name": "t", "text": "Do.", "limit_s": True}]}, ".limit_s is true; should be"),
+        ({"tasks": [{"name": "t", "text": "Do.", "limit_s": "5"}]}, "is '5'; should be a number"),
+        ({"questionnaires": {"q": {**QUESTIONS, "points": True}}}, "questionnaires.q.points is"),
+        (
+            {"questionnaires": {"q": {**QUESTIONS, "items": [UNSURE]}}},
+            "items.0.needed is 0; should",
+        ),
+        ({"settings": {"seed": True}}, "setting 'seed': is true; should be a number"),
         ({"order": "random"}, "order is 'random'; input should be 'balanced' or 'as written'"),
         ({"after_each": ["suz"]}, "has no questionnaire 'suz': there are sus, nasa_tlx, godspeed"),
         ({"settings": {"serach": "plan"}}, "setting 'serach': is no setting; known are home"),

@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from paging import TOKEN, ask, heard, post, told
+from paging import TOKEN, ask, heard, notice, post, step_in, told
 from studying import COMMAND, Led, begun, data_in, led, study_of, written
 
 from executive.page.study.data import StudyData
 from executive.page.study.tables import read_rows, tables
+from executive.page.study.withdrawal import withdraw
 
 
 def can_do(led: Any, step: str, token: str = TOKEN) -> None:
@@ -59,6 +60,50 @@ def test_to_quit_is_to_give_up_the_task_and_not_the_study(tmp_path: Path) -> Non
         heard(one.page, "study", step="task/1/t1")
         does(one.page, "task/1/t1", "finished")
     assert [row.ended for row in tables(data).results] == ["gave_up", "finished"]
+
+
+def test_what_an_experimenter_does_is_kept_with_the_task_and_erased_with_the_participant(
+    tmp_path: Path,
+) -> None:
+    data = data_in(tmp_path, study_of(1, tasks=2, after_each=[]))
+    with led(data, "P01", experimenter=True) as one:
+        up_to_the_task(one)
+        does(one.page, "task/1/t0", "finished")
+        heard(one.page, "study", step="task/1/t1")
+        step_in(one.page, "hold_place", on=True)
+        post(one.page, "/say", {"words": "Find the peach at the sofa"})
+        notice(one.page, "choice", held={"to": "look", "place": "sofa", "among": []})
+        step_in(one.page, "place", place="high_table")
+        heard(one.page, "outcome", status="done")
+        heard(one.page, "doing", state="ready")
+        step_in(one.page, "hold", on=True)
+        does(one.page, "task/1/t1", "finished")
+    made = tables(data)
+    assert [row.interventions for row in made.results] == [0, 3]
+    where = {(r.participant, r.condition, r.position, r.task, r.by) for r in made.interventions}
+    assert where == {("P01", "a", 1, "t1", "Anna")}
+    deeds = [(r.what, r.was, r.became, bool(r.recording)) for r in made.interventions]
+    assert sorted(deeds) == [
+        ("hold", "", "on", False),
+        ("hold_place", "", "on", False),
+        ("place", "sofa", "high_table", True),
+    ]
+    assert not withdraw(data, "P01").found
+    assert not any(b"Anna" in file.read_bytes() for file in tmp_path.rglob("*") if file.is_file())
+
+
+def test_a_stop_of_an_experimenter_is_none_of_the_participant(tmp_path: Path) -> None:
+    data = data_in(tmp_path, study_of(1, after_each=[]))
+    with led(data, "P01", experimenter=True) as one:
+        up_to_the_task(one)
+        post(one.page, "/say", {"words": "Find a fruit"})
+        notice(one.page, "question", kind="which_object")
+        step_in(one.page, "stop")
+        heard(one.page, "outcome", status="stopped")
+        heard(one.page, "doing", state="ready")
+        does(one.page, "task/1/t0", "finished")
+    [row] = tables(data).results
+    assert (row.stops, row.interventions) == (0, 1)
 
 
 def test_conditions_have_conversations_of_their_own(tmp_path: Path) -> None:
