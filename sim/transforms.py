@@ -1,5 +1,6 @@
 """Where every frame of the simulated world is, and which of them moved."""
 
+import math
 from collections.abc import Iterator, Mapping
 
 from executive.records import Transform
@@ -10,6 +11,9 @@ from sim.engine import BulletClient
 
 _MOVED = 1e-4
 """Smaller changes (metres, parts of the quaternion) do not count."""
+_TURNED = 0.9 * _MOVED
+"""Nor does a link whose joints moved by less than this (metres, radians): its pose changes by no
+more than they do."""
 
 
 class FrameTree:
@@ -21,12 +25,15 @@ class FrameTree:
         self._hardware = hardware
         self._things = things
         self._last: dict[str, Pose] = {}
+        self._joints = [math.inf] * len(hardware.moved_by)
+        """Where each joint was when the pose of what it moves was last returned."""
         self._bodies: dict[int, tuple[Vector3, Quaternion]] = {}
         """Where each thing's body was last, to the bit: most are asleep."""
 
     def all(self) -> tuple[Transform, ...]:
         """Every transform, as of now."""
         self._last.clear()
+        self._joints = [math.inf] * len(self._joints)
         self._bodies.clear()
         return self.moved()
 
@@ -35,11 +42,20 @@ class FrameTree:
         return (*self._moved_links(), *self._moved_things())
 
     def _moved_links(self) -> Iterator[Transform]:
-        poses = self._hardware.link_poses()
-        for child, parent in self._hardware.parents.items():
-            pose = poses[child] if parent == MAP else self._seen_from(poses[parent], poses[child])
-            if self._differs(child, pose):
-                yield Transform(parent, child, pose)
+        hardware, now = self._hardware, self._hardware.all_positions()
+        pairs = zip(hardware.moved_by, now, self._joints, strict=True)
+        turned = list(dict.fromkeys(link for link, a, b in pairs if abs(a - b) > _TURNED))
+        links = {*turned, *(hardware.parents[link] for link in turned)} - {MAP}
+        poses = hardware.link_poses(links)
+        for link in turned:
+            parent = hardware.parents[link]
+            pose = poses[link] if parent == MAP else self._seen_from(poses[parent], poses[link])
+            if self._differs(link, pose):
+                self._joints = [
+                    a if moved == link else b
+                    for moved, a, b in zip(hardware.moved_by, now, self._joints, strict=True)
+                ]
+                yield Transform(parent, link, pose)
 
     def _moved_things(self) -> Iterator[Transform]:
         for body, name in self._things.items():

@@ -239,6 +239,9 @@ class PhysicsWorld:
         except NoRoomError:
             return False
         put_at(self._client, body, pose)
+        for fixture, piece in self._fixtures.items():
+            if piece == furniture:
+                self._activate(fixture, pybullet.ACTIVATION_STATE_WAKE_UP)
         settle(self._client)
         return True
 
@@ -331,13 +334,18 @@ class PhysicsWorld:
             )
 
     def _let_sleep(self) -> None:
-        """Things at rest cost nothing until something touches them."""
+        """Things at rest cost nothing until something touches them.
+
+        Contacts are looked for wherever one of two bodies is awake. So what never moves sleeps,
+        too: by itself, two seconds on, by when the contacts of what stands on it are found.
+        """
+        for body in (*self._things, *self._fixtures):
+            self._activate(body, pybullet.ACTIVATION_STATE_ENABLE_SLEEPING)
         for body in self._things:
-            for state in (
-                pybullet.ACTIVATION_STATE_ENABLE_SLEEPING,
-                pybullet.ACTIVATION_STATE_SLEEP,
-            ):
-                self._client.changeDynamics(body, -1, activationState=state)
+            self._activate(body, pybullet.ACTIVATION_STATE_SLEEP)
+
+    def _activate(self, body: int, state: int) -> None:
+        self._client.changeDynamics(body, -1, activationState=state)
 
     def _body(self, name: str) -> int | None:
         return next((body for body, thing in self._things.items() if thing == name), None)

@@ -66,7 +66,7 @@ def drive(
     path: Sequence[tuple[float, float]],
     yaw: float,
     limits: Limits = FREE,
-    blocked: Callable[[Floats], bool] = lambda way: False,
+    blocked: Callable[[Callable[[], Floats]], bool] = lambda ahead: False,
 ) -> Skill:
     """Follow way-points (metres, in `map`) and park at the last one, facing `yaw`.
 
@@ -75,23 +75,24 @@ def drive(
         path: the way-points.
         yaw: to face at the end (radians, in `map`).
         limits: of speed and acceleration.
-        blocked: asked once per control period whether the points (n, 2) ahead are; the robot then
-            brakes.
+        blocked: asked once per control period whether the way is, of which its argument returns the
+            points (n, 2) that are ahead; the robot then brakes.
 
     Raises:
         BlockedError: if it does not get ahead, or the way is blocked.
     """
     follower = _Follower(np.array([hardware.base_pose[:2], *path]), yaw, limits)
-    progress = _Progress()
-    while not follower.arrived(*(state := hardware.base_state)):
+    progress, state = _Progress(), hardware.base_state
+    while not follower.arrived(*state):
         velocity = follower.velocity(state[0])
         hardware.command_base(velocity)
         yield
-        if blocked(follower.ahead()):
+        if blocked(follower.ahead):
             yield from brake(hardware)
             raise BlockedError
-        if progress.stuck(*follower.left(hardware.base_pose)):
-            bump = _rim(hardware.base_pose, velocity)
+        state = hardware.base_state
+        if progress.stuck(*follower.left(state[0])):
+            bump = _rim(state[0], velocity)
             yield from brake(hardware)
             raise BlockedError(bump)
     hardware.park()

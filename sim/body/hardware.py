@@ -5,6 +5,7 @@ world's physics decides what comes of a command.
 """
 
 import tempfile
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +49,8 @@ class Hardware:
         self._joints: dict[str, int] = {}
         self.links: dict[str, int] = {"map": -1}
         self.parents: dict[str, str] = {}
+        self.moved_by: list[str] = []
+        """The link that each joint moves, by the joints' indices in PyBullet."""
         self._force: dict[str, float] = {}
         self._speed: dict[str, float] = {}
         self._read_joints()
@@ -67,6 +70,7 @@ class Hardware:
             self._joints[name], self.links[link], carriers[index] = index, index, link
             self._force[name], self._speed[name] = info[10], info[11]
             self.parents[link] = carriers[info[16]]
+            self.moved_by.append("base_link" if link in _DRIVE_LINKS else link)
         for inner in _DRIVE_LINKS:
             del self.parents[inner]
         self.parents["base_link"] = "map"
@@ -159,23 +163,24 @@ class Hardware:
         state = self._client.getLinkState(self.body, self.links[link], computeForwardKinematics=1)
         return Pose(tuple(state[4]), tuple(state[5]))
 
-    def link_poses(self) -> dict[str, Pose]:
-        """Where every link's frame is in `map`."""
-        names = list(self.links)[1:]
+    def link_poses(self, links: Collection[str]) -> dict[str, Pose]:
+        """Where the frames of these links are in `map`."""
         states = self._client.getLinkStates(
-            self.body, [self.links[name] for name in names], computeForwardKinematics=1
+            self.body, [self.links[name] for name in links], computeForwardKinematics=1
         )
-        poses = {n: Pose(tuple(s[4]), tuple(s[5])) for n, s in zip(names, states, strict=True)}
-        return {"map": Pose(), **poses}
+        return {n: Pose(tuple(s[4]), tuple(s[5])) for n, s in zip(links, states, strict=True)}
+
+    def all_positions(self) -> list[float]:
+        """Where all joints are, by their indices in PyBullet (metres, radians)."""
+        joints = range(len(self.moved_by))
+        return [state[0] for state in self._client.getJointStates(self.body, joints)]
 
     # --- touch ---
 
     def touched(self) -> set[int]:
         """The bodies that both fingers touch."""
-        left, right = (
-            {c[2] for c in self._client.getContactPoints(bodyA=self.body, linkIndexA=finger)}
-            for finger in self._fingers
-        )
+        contacts = self._client.getContactPoints(bodyA=self.body)
+        left, right = ({c[2] for c in contacts if c[3] == finger} for finger in self._fingers)
         return (left & right) - {self.body}
 
     @property

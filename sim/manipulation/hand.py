@@ -85,7 +85,7 @@ class Hand:
     @property
     def holding(self) -> bool:
         """Whether both fingers touch a thing; they may miss it for moments."""
-        return self.touches or self._unfelt_s <= _UNFELT_S
+        return self._unfelt_s <= _UNFELT_S or self.touches
 
     @property
     def grips(self) -> bool:

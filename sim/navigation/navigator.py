@@ -76,13 +76,13 @@ class Navigator:
         here = self._here
         return (yield from self._thinker.compute(lambda: plan(self._costmap.grid(), here, goal)))
 
-    def _blocked(self, way: Floats) -> bool:
+    def _blocked(self, ahead: Callable[[], Floats]) -> bool:
         """Look now and then whether something is in the way."""
         self._periods += 1
         if self._periods % SCAN_EVERY:
             return False
         self._look()
-        return self._costmap.blocks(way, self._hardware.base_pose[:2])
+        return self._costmap.blocks(ahead(), self._hardware.base_pose[:2])
 
     def _look(self) -> None:
         self._costmap.take(self._laser.scan(), self._now())
