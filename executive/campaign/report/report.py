@@ -83,6 +83,8 @@ def report(
     parts += plots.get("distributions", ())
     if any(row.search_s for row in ran):  # results of earlier days do not tell
         parts += [Heading("What the search cost"), Text(SEARCHING), tables.searching(found)]
+        if len(found) > 1:
+            parts += [Text(DIFFERENCES), tables.cost_differences(found)]
     if any(row.sure for row in ran):
         parts += [Heading("Whether the belief could be trusted"), Text(TRUST), tables.trust(found)]
     parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
@@ -108,7 +110,13 @@ def not_counted(rows: Sequence[Row]) -> str:
 SEARCHING = (
     "Search: the seconds of going to places and looking there. Cost: the same, and for each "
     "question to the person its price, the setting question_s. Stars: the cost differs from that "
-    "of the first variant in the same condition, by command, Holm-corrected over the variants."
+    "of the first variant in the same condition and home, by command, Holm-corrected over all "
+    "variants of the condition."
+)
+
+DIFFERENCES = (
+    "By how much the cost differs, command by command, each the mean of its seeds: the mean, its "
+    "interval, and p as for the stars. An interval without 0 and a p below 0.05 are beyond chance."
 )
 
 TRUST = (
@@ -118,10 +126,10 @@ TRUST = (
 )
 
 COMPARED = (
-    "Stars: the difference from the first variant in the same condition, by command, Holm-"
-    "corrected over the variants. Failed visits: places that the robot set out for and could not "
-    "get to. Invented names: of those that the model wrote, how many no room and no furniture "
-    "goes by."
+    "Stars: the difference from the first variant in the same condition and home, by command, "
+    "Holm-corrected over all variants of the condition. Failed visits: places that the robot set "
+    "out for and could not get to. Invented names: of those that the model wrote, how many no room "
+    "and no furniture goes by."
 )
 
 
