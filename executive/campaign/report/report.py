@@ -73,7 +73,8 @@ def report(
     parts += [Heading("Overview"), tables.overview(found)]
     parts += [Heading("Task completion rate"), tables.completion(all_found)]
     parts += [Heading("Mission time of completed missions [s]"), tables.times(found)]
-    parts += [Heading("What the time goes into"), tables.time_split(found), *plots.get("time", ())]
+    parts += [Heading("What the time goes into"), Text(TIME), tables.time_split(found)]
+    parts += plots.get("time", ())
     for title, heading in (
         ("inquiries", "Inquiries to the person"),
         ("visits", "Pieces of furniture visited"),
@@ -106,6 +107,11 @@ def not_counted(rows: Sequence[Row]) -> str:
         f"{'is' if len(rows) == 1 else 'are'} not counted; run again to try them."
     )
 
+
+TIME = (
+    "Thinking: the seconds in which the robot only waited for the language model; what it thought "
+    "while it drove or looked is not in it. The last column: how much longer that made the mission."
+)
 
 SEARCHING = (
     "Search: the seconds of going to places and looking there. Cost: the same, and for each "

@@ -151,19 +151,28 @@ def times(found: Sequence[Variant]) -> Table:
 
 
 def time_split(found: Sequence[Variant]) -> Table:
-    """What the time of a mission went into, by condition."""
+    """What the time of a mission went into, by condition, and how much longer thinking made it."""
 
     def lines(variant: Variant) -> Lines:
         return [
             [
                 name(condition),
                 *(f"{fmean(map(column, mine)):.1f}" for column in ACTIVITIES.values()),
+                _lengthened(mine),
             ]
             for condition in paper.CONDITIONS
             if (mine := select(variant.own, condition))
         ]
 
-    return _each(found, ["condition", *(f"{activity} [s]" for activity in ACTIVITIES)], lines)
+    heads = [f"{activity} [s]" for activity in ACTIVITIES]
+    return _each(found, ["condition", *heads, "with thinking / without"], lines)
+
+
+def _lengthened(rows: Sequence[Row]) -> str:
+    """By which factor the missions are longer than if nothing had waited for the model."""
+    whole_s = sum(row.mission_time_s for row in rows)
+    without_s = whole_s - sum(map(_only_thinking_s, rows))
+    return f"{whole_s / without_s:.3f}" if without_s > 0 else "-"
 
 
 def measure(found: Sequence[Variant], title: str) -> Table:

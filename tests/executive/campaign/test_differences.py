@@ -1,4 +1,6 @@
-"""What a report says of how much the cost of policies differs."""
+"""What a report says of how much policies differ in cost, and what thinking adds."""
+
+from dataclasses import replace
 
 from executive.campaign.journal import Row
 from executive.campaign.report import tables
@@ -25,6 +27,17 @@ def test_each_policy_is_held_against_the_first_in_its_home() -> None:
         ["plan, small", "paper, small", "-10.0", "-10.0 to -10.0"],
         ["plan, large", "paper, large", "-20.0", "-20.0 to -20.0"],
     ]
+
+
+def test_only_the_thinking_that_was_waited_for_makes_a_mission_longer() -> None:
+    waited, moving = (
+        Row("plan", home, "m", "okb+llm", True, 0, "Find it", 0, mission_time_s=21.0)
+        for home in ("waits", "moves")
+    )
+    thinks = [replace(waited, thinking_time_s=1.0)]
+    thinks.append(replace(moving, thinking_time_s=1.0, thought_moving_s=1.0))
+    told = {line[0]: line[-1] for line in tables.time_split(variants(thinks, ())).rows}
+    assert sorted(told.values()) == ["1.000", "1.050"]
 
 
 def test_stars_are_not_against_a_policy_in_another_home() -> None:
