@@ -6,48 +6,25 @@ the thing since then counts, whatever was looked for.
 """
 
 import math
-from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from executive.belief import MISSED, Belief, Statement, believe
-from executive.geometry import Floats
 from executive.types import Source
+from kb.between import HOUR_S, HOURS, LONGEST_S, destinations, goes
 from kb.facts import FactStore
-from kb.rates import HOUR_S, HOURS, LONGEST_S, Rates, learned
-from kb.sightings import Interval, Known, Sightings
+from kb.rates import Rates, Taken, learned
+from kb.sightings import Known, Sightings
 
-MOST_LEARNED = 20_000
-"""So many of the last facts are learned from."""
+MOST_LEARNED = 5_000
+"""So many of the last facts are learned from: half a second, some three months of ten commands."""
 MOST_TRUSTED = 0.98
 """No source is believed more than this: something else may always be."""
 SAID_TRUST = 0.95
 """That a thing is where the person said."""
-NEW_PLACE = 0.3
-"""As if so often a thing had been taken to a place where it was never seen.
-
-Of 0.2, 0.6 and 1.5 the least had the best log score in simulated households of the seeds 100 and
-101.
-"""
-OTHER_ORIGIN = 0.2
-"""How much a move from another place counts, beside one from the same (an estimate)."""
-ANY_HOUR = 0.05
-"""How much a move at another hour of the day counts, beside one at the same (an estimate)."""
-NEAR = (0.15, 0.5, 1.0, 0.5, 0.15)
-"""How much a move counts that was from two hours before to two hours later (an estimate)."""
 AFRESH = 0.05
 """It is learned anew when there are so many more facts than the last time, as a share."""
-
-
-@dataclass(frozen=True, slots=True)
-class Arrival:
-    """A thing was taken from a place to another one, at about these hours: (24,), sum 1."""
-
-    origin: str
-    place: str
-    hours: Floats
 
 
 class Experience:
@@ -69,21 +46,15 @@ class Experience:
         self._seen = Sightings()
         self._last = 0
         self._count = self._learned_of = 0
-        self._rates = learned((), classes)
-        self._arrivals: dict[str, list[Arrival]] = {}
+        self._rates, self._taken = learned((), classes)
 
     def learn(self) -> None:
         """Take in what was seen since, and learn from all of it if that is much."""
         self._catch_up()
         if self._count <= self._learned_of * (1 + AFRESH):
             return
-        intervals = list(self._seen.intervals())
-        self._rates = learned(intervals, self._classes)
-        arrivals: dict[str, list[Arrival]] = defaultdict(list)
-        for interval in intervals:
-            if interval.at not in ("", interval.place):
-                arrivals[interval.thing].append(self._arrival(interval))
-        self._arrivals, self._learned_of = arrivals, self._count
+        self._rates, self._taken = learned(list(self._seen.intervals()), self._classes)
+        self._learned_of = self._count
 
     def recalled(self, name: str) -> tuple[Statement, ...]:
         """What memory and habits say of where a thing is now; nothing if it was never seen."""
@@ -134,7 +105,7 @@ class Experience:
             return None
         last, now = known[-1], self._now()
         places = [last.place, *self._places_of(name, last.place)]
-        chain = _Chain(places, self._rates, name, self._arrivals.get(name, ()))
+        chain = _Chain(places, self._rates, name, self._taken.get(name, Taken()))
         chain.begin(_share(last), _said_before(known))
         chain.at_s = since_s = max(last.time_s, now - LONGEST_S)
         for time_s, place in self._seen.absences(name, last.time_s):
@@ -146,22 +117,8 @@ class Experience:
 
     def _places_of(self, name: str, place: str) -> list[str]:
         others = {known.place: None for known in self._seen.known[name]}
-        others |= {arrival.place: None for arrival in self._arrivals.get(name, ())}
+        others |= dict.fromkeys(self._taken[name].places if name in self._taken else ())
         return [other for other in others if other != place]
-
-    def _arrival(self, interval: Interval) -> Arrival:
-        """At which hours it was likely taken where it was found: the last of its moves counts."""
-        rate = self._rates.of(interval.thing, interval.place)
-        end = interval.until_s / HOUR_S
-        length = min((interval.until_s - interval.since_s) / HOUR_S, 2.0 * HOURS)
-        steps = np.arange(max(1, math.ceil(length)))
-        spent = np.minimum(length - steps, 1.0)
-        hour = (np.floor(end - steps - spent / 2) % HOURS).astype(int)
-        passed = rate[hour] * spent
-        later = np.concatenate([[0.0], np.cumsum(passed)[:-1]])
-        likely = -np.expm1(-passed) * np.exp(-later)
-        hours = np.bincount(hour, weights=likely, minlength=HOURS)
-        return Arrival(interval.place, interval.at, hours / max(hours.sum(), 1e-12))
 
 
 def _share(last: Known) -> float:
@@ -183,15 +140,13 @@ def _said_before(known: Sequence[Known]) -> dict[str, float]:
 class _Chain:
     """How likely a thing is at each place, from hour to hour; the first is where it was last."""
 
-    def __init__(
-        self, places: Sequence[str], rates: Rates, thing: str, arrivals: Sequence[Arrival]
-    ) -> None:
+    def __init__(self, places: Sequence[str], rates: Rates, thing: str, taken: Taken) -> None:
         self._places = list(places)
         self._number = {place: number for number, place in enumerate(places)}
         self._rate = np.array([rates.of(thing, place) for place in places])
         unknown = rates.of_thing.get(thing, rates.of_all)
         self._rate = np.vstack([self._rate, unknown])
-        self._to = _destinations(self._number, arrivals)
+        self._to = destinations(taken.among(self._number))
         self.stayed = 0.0
         """How likely it is where it was, and was never taken away."""
         self._moved = np.zeros(len(places) + 1)
@@ -214,11 +169,11 @@ class _Chain:
             self.at_s += step_s
 
     def _move(self, hour: int, length: float) -> None:
-        goes = -np.expm1(-self._rate[:, hour] * length)
-        leaves = self._moved * goes
-        leaves[0] += self.stayed * goes[0]
-        self._moved = self._moved * (1 - goes) + leaves @ self._to[hour]
-        self.stayed *= 1 - goes[0]
+        gone = goes(self._rate[:, hour], np.asarray(length))
+        leaves = self._moved * gone
+        leaves[0] += self.stayed * gone[0]
+        self._moved = self._moved * (1 - gone) + leaves @ self._to[hour]
+        self.stayed *= 1 - gone[0]
 
     def not_at(self, place: str) -> None:
         """It was not seen there."""
@@ -235,24 +190,3 @@ class _Chain:
         """Where it may have been taken, and how likely."""
         named = zip(self._places, self._moved[:-1].tolist(), strict=True)
         return {place: share for place, share in named if share > 0}
-
-
-def _destinations(number: Mapping[str, int], arrivals: Sequence[Arrival]) -> Floats:
-    """(24, n + 1, n + 1) from each place at each hour to each place; the last is an unknown one."""
-    n = len(number) + 1
-    count = np.zeros((HOURS, n, n))
-    for arrival in arrivals:
-        at = sum(
-            weight * np.roll(arrival.hours, shift)
-            for weight, shift in zip(NEAR, range(-2, 3), strict=True)
-        )
-        at = np.asarray(at) + ANY_HOUR
-        to = number[arrival.place]
-        count[:, :, to] += at[:, None] * OTHER_ORIGIN
-        if arrival.origin in number:
-            count[:, number[arrival.origin], to] += at * (1 - OTHER_ORIGIN)
-    count[:, :, -1] += NEW_PLACE
-    for place in range(n - 1):
-        count[:, place, place] = 0.0
-    shares: Floats = count / count.sum(axis=2, keepdims=True)
-    return shares

@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 
 from executive.geometry import Floats
+from kb.between import HOURS
 from kb.experience import Experience
-from kb.rates import HOURS
 
 WORTH_TELLING = 0.01
 BUSY = 2.0

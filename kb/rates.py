@@ -2,38 +2,37 @@
 
 A thing is taken elsewhere by chance, at a rate that depends on the hour of the day, on the thing,
 on its class and on where it is. Most of what happens nobody sees: between two sightings it may have
-been moved at any hour. So the rates are estimated by expectation and maximisation (Dempster, Laird
-and Rubin, "Maximum likelihood from incomplete data via the EM algorithm", 1977), each drawn to that
-of its class, of the place and of all things as long as little was seen.
+been moved at any hour, and back. So the rates, and where things are taken, are estimated by
+expectation (`kb.between`) and maximisation (Dempster, Laird and Rubin, "Maximum likelihood from
+incomplete data via the EM algorithm", 1977), each rate drawn to that of its class, of the place and
+of all things as long as little was seen.
 """
 
-from collections import Counter, defaultdict
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from executive.geometry import Floats
+from kb.between import HOURS, Between, Moves, destinations
 from kb.sightings import Interval
 
-HOURS = 24
-HOUR_S = 3600.0
-DAY_S = 86400.0
 UNSEEN_PER_DAY = 0.4
 """How often a thing is moved a day, as long as nothing was seen of any (an estimate)."""
 DRAWN_DAYS = 1.0
 """So many days of watching weigh as much as what is known of others alike.
 
 Of 0.5, 1, 1.5, 4 and 8 it had the best log score in simulated households of the seeds 100 to 102;
-the numbers here and in `kb.experience` that are called estimates hardly mattered there.
+the numbers here and in `kb.between` that are called estimates hardly mattered there.
 """
-ROUNDS = 8
-"""Of the estimation."""
-LONGEST_S = 14 * DAY_S
-"""What was last seen earlier is as if it had been then."""
+ROUNDS = 12
+"""Of the estimation. With these and AHEAD it comes as far as with twice as many without."""
+AHEAD = 1.0
+"""Each round goes on by so much more of its step: as long as most is unseen, steps are short."""
+MOST_AHEAD = 3.0
+"""No round goes further than by this factor."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,70 +69,78 @@ class Rates:
         return blend
 
 
-def exposure(since_s: float, until_s: float) -> Floats:
-    """(24,) how many hours of each hour of the day there are between two times (UTC, s)."""
-    since_s = max(since_s, until_s - LONGEST_S)
-    days, rest = divmod(until_s - since_s, DAY_S)
-    begin = since_s % DAY_S / HOUR_S
-    edges = np.arange(2 * HOURS + 1)
-    inside = np.minimum(edges[1:], begin + rest / HOUR_S) - np.maximum(edges[:-1], begin)
-    hours: Floats = days + np.clip(inside, 0.0, None).reshape(2, HOURS).sum(axis=0)
-    return hours
+@dataclass(frozen=True, slots=True, eq=False)
+class Taken:
+    """What was likely taken where: how often, by hour of the day.
+
+    Attributes:
+        places: the numbers of a thing's places.
+        often: (24, n, n) from each place to each other; the last is any where it was never seen.
+    """
+
+    places: Mapping[str, int] = field(default_factory=dict)
+    often: Floats = field(default_factory=lambda: np.zeros((HOURS, 1, 1)))
+
+    def among(self, numbers: Mapping[str, int]) -> Floats:
+        """The same with other numbers for the places, among which are all of these."""
+        where = [*(numbers[place] for place in self.places), len(numbers)]
+        found = np.zeros((HOURS, len(numbers) + 1, len(numbers) + 1))
+        kept = [*self.places.values(), -1]
+        found[np.ix_(range(HOURS), where, where)] = self.often[np.ix_(range(HOURS), kept, kept)]
+        return found
 
 
-def learned(intervals: Sequence[Interval], classes: Callable[[str], str]) -> Rates:
-    """The rates that explain best what was seen."""
+def learned(
+    intervals: Sequence[Interval], classes: Callable[[str], str]
+) -> tuple[Rates, dict[str, Taken]]:
+    """The rates, and what was taken where, that explain best what was seen."""
     flat = np.full(HOURS, UNSEEN_PER_DAY / HOURS)
     if not intervals:
-        return Rates(flat, {}, {}, {}, {}, {}, classes)
-    levels = _Levels(intervals, classes)
-    spent = np.array([exposure(i.since_s, i.until_s) for i in intervals])
-    moved = np.array([i.at != i.place for i in intervals])
-    back = _returned(intervals)
-    now = np.tile(flat, (len(intervals), 1))
+        return Rates(flat, {}, {}, {}, {}, {}, classes), {}
+    between = Between.of(intervals)
+    levels = _Levels(between.places, classes)
+    moves = between.first_guess()
+    rate = np.full(moves.spent.shape, UNSEEN_PER_DAY / HOURS)
     for _ in range(ROUNDS):
-        rates, now = levels.rates(_moves(now * spent, moved, back), spent, flat)
-    return rates
+        moves = between.moves(rate, destinations(_to_known(moves.taken)))
+        rates, found = levels.rates(moves, flat)
+        rate = found * np.clip(found / rate, 1 / MOST_AHEAD, MOST_AHEAD) ** AHEAD
+    taken = _to_known(moves.taken)
+    return rates, {
+        thing: Taken(places, taken[number])
+        for number, (thing, places) in enumerate(between.places.items())
+    }
 
 
-def _returned(intervals: Sequence[Interval]) -> Floats:
-    """(n,) how likely each thing is taken to where it was, when it is taken somewhere."""
-    seen: dict[str, Counter[str]] = defaultdict(Counter)
-    for i in intervals:
-        if i.at:
-            seen[i.thing][i.at] += 1
-    shares = ((seen[i.thing][i.place] + 0.1) / (seen[i.thing].total() + 1.0) for i in intervals)
-    return np.fromiter(shares, dtype=float)
-
-
-def _moves(expected: Floats, moved: NDArray[np.bool_], back: Floats) -> Floats:
-    """(n, 24) how often each thing was moved in each hour of the day, by what was seen.
-
-    What was seen at the same place again may have been taken away and back.
-    """
-    total = np.maximum(expected.sum(axis=1), 1e-12)
-    stayed = np.exp(-total)
-    away = 0.5 * (1 - stayed) ** 2 * back
-    was_moved = np.where(moved, 1.0, away / (stayed + away + 1e-12))
-    moves: Floats = expected * (was_moved / -np.expm1(-total))[:, None]
-    return moves
+def _to_known(taken: Floats) -> Floats:
+    """Without what was taken to where it was never seen: that is thought of apart."""
+    known = taken.copy()
+    known[..., -1] = 0.0
+    return known
 
 
 class _Levels:
-    """What the intervals have in common: the same thing, class, place, or two of these."""
+    """What things at places have in common: the thing, class, place, or two of these."""
 
-    def __init__(self, intervals: Sequence[Interval], classes: Callable[[str], str]) -> None:
+    def __init__(
+        self, places: Mapping[str, Mapping[str, int]], classes: Callable[[str], str]
+    ) -> None:
         self._classes = classes
-        things = [i.thing for i in intervals]
-        places = [i.place for i in intervals]
-        kinds = [classes(thing) for thing in things]
-        self._thing, self._place = _Level(things), _Level(places)
+        pairs = [(thing, place) for thing, known in places.items() for place in known]
+        kinds = [classes(thing) for thing, _ in pairs]
+        self._thing = _Level([thing for thing, _ in pairs])
+        self._place = _Level([place for _, place in pairs])
         self._kind = _Level(kinds)
-        self._kind_at = _Level(list(zip(kinds, places, strict=True)))
-        self._thing_at = _Level(list(zip(things, places, strict=True)))
+        self._kind_at = _Level([(k, place) for k, (_, place) in zip(kinds, pairs, strict=True)])
+        self._thing_at = _Level(pairs)
+        number = {thing: index for index, thing in enumerate(places)}
+        self._row = np.array([number[thing] for thing, _ in pairs])
+        self._column = np.array([places[thing][place] for thing, place in pairs])
 
-    def rates(self, moves: Floats, spent: Floats, flat: Floats) -> tuple[Rates, Floats]:
-        """Moves over hours, each level drawn to those above it; and (n, 24) of each interval."""
+    def rates(self, all_moves: Moves, flat: Floats) -> tuple[Rates, Floats]:
+        """Moves over hours, each level drawn to those above it; and (things, 24, n) of them."""
+        moves = all_moves.taken.sum(axis=-1)[self._row, :, self._column]
+        spent = all_moves.spent[self._row, :, self._column]
         of_all = (moves.sum(axis=0) + DRAWN_DAYS * flat) / (spent.sum(axis=0) + DRAWN_DAYS)
         every = np.broadcast_to(of_all, moves.shape)
         kind = self._kind.drawn(moves, spent, every)
@@ -141,6 +148,9 @@ class _Levels:
         thing = self._thing.drawn(moves, spent, kind)
         kind_at = self._kind_at.drawn(moves, spent, np.sqrt(thing * place))
         thing_at = self._thing_at.drawn(moves, spent, kind_at)
+        rate = np.zeros(all_moves.spent.shape)
+        rate[self._row] = thing[:, :, None]
+        rate[self._row, :, self._column] = thing_at
         rates = Rates(
             of_all,
             self._kind.named(kind),
@@ -150,11 +160,11 @@ class _Levels:
             self._thing_at.named(thing_at),
             self._classes,
         )
-        return rates, thing_at
+        return rates, rate
 
 
 class _Level:
-    """Intervals grouped by something that they have in common."""
+    """Things at places, grouped by something that they have in common."""
 
     def __init__(self, keys: Sequence[Hashable]) -> None:
         self._first: dict[Hashable, int] = {}
@@ -167,7 +177,7 @@ class _Level:
         self._groups = csr_array((np.ones(len(keys)), (self._of, rows)))
 
     def drawn(self, moves: Floats, spent: Floats, above: Floats) -> Floats:
-        """(n, 24) the rate of each interval's group, drawn to (n, 24) of the level above."""
+        """(n, 24) the rate of each one's group, drawn to (n, 24) of the level above."""
         moved, passed, drawn_to = map(self._summed, (moves, spent, above))
         members = np.bincount(self._of, minlength=self._count)[:, None]
         rate: Floats = (moved + DRAWN_DAYS * drawn_to / members) / (passed + DRAWN_DAYS)

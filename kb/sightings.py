@@ -21,6 +21,10 @@ def _time(look: tuple[float, frozenset[str]]) -> float:
     return look[0]
 
 
+def _when(absence: tuple[float, str]) -> float:
+    return absence[0]
+
+
 @dataclass(frozen=True, slots=True)
 class Known:
     """The thing was at a place.
@@ -40,14 +44,15 @@ class Known:
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """From one time at which it was known where a thing is to the next evidence of it.
+    """From one time at which it was known where a thing is to the next one.
 
     Attributes:
         thing: which.
         since_s: when it was at `place` for sure.
-        until_s: when it was seen again, or was seen to be gone.
+        until_s: when it was seen again.
         place: where it was.
-        at: where it was then; empty if it was only gone.
+        at: where it was then.
+        absences: when and where it was not in between, in order.
     """
 
     thing: str
@@ -55,6 +60,7 @@ class Interval:
     until_s: float
     place: str
     at: str
+    absences: tuple[tuple[float, str], ...] = ()
 
 
 @dataclass
@@ -93,27 +99,17 @@ class Sightings:
             else:
                 looks.append(look)
 
-    def gone(self, thing: str, place: str, since_s: float, until_s: float) -> float | None:
-        """When a thing that had been at a place was first seen to be gone from there, if it was."""
-        looks = self.looks.get(place, [])
-        for time_s, seen in looks[bisect_right(looks, since_s, key=_time) :]:
-            if time_s > until_s:
-                return None
-            if thing not in seen:
-                return time_s
-        return None
-
     def intervals(self) -> Iterator[Interval]:
-        """What can be learned from: the times between two evidences of a thing."""
+        """What can be learned from: the times between two sightings of a thing."""
         for thing, known in self.known.items():
+            absences = self.absences(thing, known[0].time_s)
             for one, after in zip(known, known[1:], strict=False):
                 if one.taken or after.time_s <= one.time_s:
                     continue
-                gone_s = self.gone(thing, one.place, one.time_s, after.time_s - LOOK_S)
-                if gone_s is None or after.place == one.place:
-                    yield Interval(thing, one.time_s, after.time_s, one.place, after.place)
-                else:
-                    yield Interval(thing, one.time_s, gone_s, one.place, "")
+                first = bisect_right(absences, one.time_s, key=_when)
+                last = bisect_right(absences, after.time_s - LOOK_S, key=_when)
+                between = tuple(absences[first:last])
+                yield Interval(thing, one.time_s, after.time_s, one.place, after.place, between)
 
     def absences(self, thing: str, since_s: float) -> list[tuple[float, str]]:
         """When and where a thing was not, after a time; in order."""

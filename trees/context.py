@@ -42,6 +42,8 @@ class Parameters:
         question_s: what a question to the person costs, and
         visit_s: what a visit costs beside its time, both in seconds of searching.
         look_s: how long a look at one view of a place takes (s).
+        planned: among so many places it is planned, the likeliest; the others come in when those
+            are done.
     """
 
     elicit: str = "rank"
@@ -56,6 +58,7 @@ class Parameters:
     question_s: float = 60.0
     visit_s: float = 0.0
     look_s: float = 0.5
+    planned: int = 60
 
 
 class NoFacts:

@@ -19,8 +19,8 @@ from trees.person import AskWhere, who_says
 from trees.robot import EXPERIMENTER, Visit
 from trees.telling import tell
 
-MOST_PLANNED = 60
-"""Among so many places it is planned, the likeliest; the others come in when those are done."""
+MOST_RECORDED = 60
+"""The belief is recorded of so many places, the likeliest."""
 WORTH_TELLING = 0.01
 """What is less likely is no candidate, unless it is next."""
 MOST_TOLD = 3
@@ -131,7 +131,7 @@ class PlanNext(Step):
         search, parameters = self.situation.search, self.context.parameters
         whereabouts, looks = search.whereabouts, search.looks
         worth = [o for o in belief.places if whereabouts.may_look_at(o.place, looks)]
-        likely = worth[:MOST_PLANNED]
+        likely = worth[: parameters.planned]
         places = [one.place for one in likely]
         helps = not (self.situation.dialogue.no_help or whereabouts.answered)
         return best_plan(
@@ -213,7 +213,7 @@ def decision(plan: Plan, belief: Belief) -> str:
 def planned(thing: str, plan: Plan, belief: Belief) -> Planned:
     """The record of a decision."""
     expected, asking, looking = plan.expected, plan.asking, plan.looking
-    likely: tuple[Likely, ...] = belief.places[:MOST_PLANNED]
+    likely: tuple[Likely, ...] = belief.places[:MOST_RECORDED]
     doing = "give up" if plan.is_over else "ask" if plan.asks else "look"
     return Planned(
         thing=thing,

@@ -11,7 +11,7 @@ import io
 import random
 from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from functools import partial
+from functools import cached_property, partial
 from math import dist
 from pathlib import Path
 from typing import Any
@@ -31,7 +31,7 @@ from executive.events import Inbox
 from executive.interfaces import SimulatedHome
 from executive.types import ChatRequest, Message, Outcome
 from kb.llm.open import model_for_missions
-from sim.home.home import load_home
+from sim.home.home import Home, load_home
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,8 +154,12 @@ class _Rest:
         if not self._draws:
             return self._settings
         thing = key.command.rpartition(" ")[2]
-        place = drawn(load_home(self._settings.home), thing, key.seed)
+        place = drawn(self._home, thing, key.seed)
         return self._settings.model_copy(update={"place": {**self._settings.place, **place}})
+
+    @cached_property
+    def _home(self) -> Home:
+        return load_home(self._settings.home)
 
     def _choose(self, parts: Parts) -> Parts:
         """As the policy does; its advice is told the dialogue so far.

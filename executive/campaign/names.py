@@ -8,6 +8,8 @@ DESCRIPTIONS: Mapping[str, str] = MappingProxyType(
         "ours": "the executive as the settings make it, by the paper's stages",
         "paper": "the same, by its own name",
         "plan": "one belief, and a plan that weighs looking on against asking",
+        "plan-exact": "the best of all plans among the 12 likeliest places; the others count as "
+        "elsewhere until those are done",
         "ask-first": "the plan if questions cost nothing: the person is asked at once",
         "rank": "the model scores the places that exist",
         "generate": "the model writes a list, which is verified: the paper's way",

@@ -20,6 +20,7 @@ from executive.campaign.routes import routes_of
 from executive.config import KnowledgeSystem
 from executive.events import Inbox
 from executive.interfaces import Advice, LanguageModel
+from executive.plan import EXACT
 from executive.types import (
     Candidate,
     ChatRequest,
@@ -134,7 +135,7 @@ def nearest(parts: Parts) -> Order:
     def order(name: str, places: Sequence[str]) -> list[str]:
         here, left, tour = parts.home.robot_start[:2], list(places), list[str]()
         while left:
-            tour.append(min(left, key=lambda place: routes.length(here, routes.stand(place))))
+            tour.append(routes.nearest(here, left))
             left.remove(tour[-1])
             here = routes.stand(tour[-1])
         return tour
@@ -219,6 +220,11 @@ def too_sure(parts: Parts) -> Parts:
         return parts
     ranker = TooSure(parts.knowledge, prompts=parts.prompts, facts=parts.facts)
     return replace(parts, advice=replace(parts.advice, ranker=ranker))
+
+
+def exactly(parts: Parts) -> Parts:
+    """Planned among so many places, the likeliest, that the best of all plans is found."""
+    return replace(parts, parameters=replace(parts.parameters, planned=EXACT))
 
 
 PAPER = {"search": "paper"}
@@ -328,6 +334,7 @@ _WAYS: Mapping[str, tuple[Mapping[str, Any], Change]] = {
     "ours": (PAPER, as_they_are),
     "paper": (PAPER, as_they_are),
     "plan": (PLAN, as_they_are),
+    "plan-exact": (PLAN, exactly),
     "ask-first": ({**PLAN, "question_s": 0.0}, as_they_are),
     "rank": ({**PAPER, "elicit": "rank"}, as_they_are),
     "generate": (WRITES, as_they_are),

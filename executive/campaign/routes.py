@@ -1,5 +1,6 @@
 """How far it is from here to there for the robot, by the map of one home."""
 
+from collections.abc import Iterable
 from functools import cache, cached_property
 from itertools import pairwise
 from math import dist, inf
@@ -8,7 +9,7 @@ import numpy as np
 
 from executive.geometry import Floats
 from sim.home.home import Home, load_home
-from sim.navigation.grid import OccupancyGrid, Point, Unreachable, plan
+from sim.navigation.grid import OccupancyGrid, Point, Reach, Unreachable
 
 
 class Lengths(OccupancyGrid):
@@ -28,6 +29,7 @@ class Routes:
         self._home = home
         self._grid = Lengths.from_home(home)
         self._known: dict[tuple[Point, Point], float] = {}
+        self._reach: tuple[Point, Reach | None] | None = None
 
     def stand(self, place: str) -> Point:
         """Where the robot stands to use a piece of furniture, or to talk to the `person`."""
@@ -40,16 +42,38 @@ class Routes:
             self._known[start, goal] = self._measure(start, goal)
         return self._known[start, goal]
 
+    def nearest(self, start: Point, places: Iterable[str]) -> str:
+        """The furniture with the shortest way from here; of equals the first.
+
+        No way is shorter than the straight line: what is farther off than that is not measured.
+        """
+        by_line = sorted(
+            (dist(start, self.stand(place)), number, place) for number, place in enumerate(places)
+        )
+        best = inf, inf, by_line[0][2]
+        for line, number, place in by_line:
+            if line > best[0]:
+                break
+            best = min(best, (self.length(start, self.stand(place)), number, place))
+        return best[2]
+
     def tour(self, points: tuple[Point, ...]) -> float:
         """Length of the shortest way through these points, in this order (metres)."""
         return sum(self.length(a, b) for a, b in pairwise(points))
 
     def _measure(self, start: Point, goal: Point) -> float:
-        try:
-            way = plan(self._grid, start, goal)
-        except Unreachable:
-            return inf
-        return sum(dist(a, b) for a, b in pairwise(way))
+        reach = self._reach_from(start)
+        way = reach.way(goal) if reach else None
+        return sum(dist(a, b) for a, b in pairwise(way)) if way else inf
+
+    def _reach_from(self, start: Point) -> Reach | None:
+        """All that can be reached from here; only the last is kept, for each is large."""
+        if self._reach is None or self._reach[0] != start:
+            try:
+                self._reach = start, Reach.of(self._grid, start)
+            except Unreachable:
+                self._reach = start, None
+        return self._reach[1]
 
 
 @cache

@@ -5,7 +5,7 @@ A home is a TOML file; `homes/four_rooms.toml` shows every key. Its frame is `ma
 
 import math
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import islice
 from pathlib import Path
@@ -228,18 +228,24 @@ def load_home(name_or_path: str) -> Home:
     Raises:
         InputError: if there is no such home or something in it is wrong, naming file and key.
     """
-    return (_packaged if name_or_path in packaged_homes() else _loaded)(name_or_path)
+    if name_or_path in packaged_homes():
+        return _packaged(name_or_path)
+    return _sound(*_read(name_or_path))
 
 
-def _loaded(name_or_path: str) -> Home:
-    home, faults = inspect_home(name_or_path)
+@cache
+def _packaged(name: str) -> Home:
+    """What comes with the project stays as it is."""
+    return _sound(*_read(name))
+
+
+@lru_cache(maxsize=8)
+def _sound(content: bytes, where: str) -> Home:
+    """The home of a file; one that has not changed is the same home."""
+    home, faults = _inspect(content, where, Path(where).parent)
     if home is None or faults:
         raise faults[0]
     return home
-
-
-_packaged = cache(_loaded)
-"""What comes with the project stays as it is."""
 
 
 def inspect_home(name_or_path: str) -> tuple[Home | None, tuple[InputError, ...]]:

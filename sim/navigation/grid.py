@@ -172,9 +172,10 @@ def plan(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
     """
     if not grid.is_free(grid.cell(goal)):
         raise Unreachable("there is no room to stand at the {place}")
-    if grid.is_free(grid.cell(start)):
-        return _way(grid, start, goal)
-    return start, *_way(grid, _nearest_free(grid, start), goal)
+    way = Reach.of(grid, start).way(goal)
+    if way is None:
+        raise Unreachable("the way to the {place} is blocked")
+    return way
 
 
 def ways(
@@ -185,12 +186,10 @@ def ways(
     They are straightened in longer steps than those that are driven, which is quicker.
     """
     try:
-        here = start if grid.is_free(grid.cell(start)) else _nearest_free(grid, start)
+        reach = Reach.of(grid, start)
     except Unreachable:
         return [None] * len(goals)
-    reach = _Reach.of(grid, here)
-    head = () if here == start else (start,)
-    return [(*head, *way) if (way := reach.way(goal, THINNED)) else None for goal in goals]
+    return [reach.way(goal, THINNED) for goal in goals]
 
 
 def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
@@ -205,30 +204,34 @@ def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
     return np.asarray(parts == parts[grid.cell(start)])
 
 
-def _way(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
-    """The cheapest way between two free points."""
-    way = _Reach.of(grid, start).way(goal)
-    if way is None:
-        raise Unreachable("the way to the {place} is blocked")
-    return way
-
-
 @dataclass(frozen=True, eq=False)
-class _Reach:
-    """All that can be reached from a free point, and what it costs (both by cell, row-major)."""
+class Reach:
+    """All that can be reached from a point, and what it costs (both by cell, row-major).
+
+    Attributes:
+        start: where the way begins that keeps the footprint free.
+        head: where the robot is, if it has to get to `start` first.
+    """
 
     grid: OccupancyGrid
     start: Point
+    head: tuple[Point, ...]
     costs: Floats
     previous: NDArray[np.int32]
 
     @classmethod
-    def of(cls, grid: OccupancyGrid, start: Point) -> "_Reach":
-        first = int(np.ravel_multi_index(grid.cell(start), grid.clearance.shape))
+    def of(cls, grid: OccupancyGrid, start: Point) -> "Reach":
+        """All from here; a start that is too close to something leads to the nearest free cell.
+
+        Raises:
+            Unreachable: if the robot is stuck there.
+        """
+        here = start if grid.is_free(grid.cell(start)) else _nearest_free(grid, start)
+        first = int(np.ravel_multi_index(grid.cell(here), grid.clearance.shape))
         costs, previous = dijkstra(
             grid.graph, directed=False, indices=[first], return_predecessors=True
         )
-        return cls(grid, start, costs[0], previous[0])
+        return cls(grid, here, () if here == start else (start,), costs[0], previous[0])
 
     def way(self, goal: Point, every: int = 1) -> tuple[Point, ...] | None:
         """The cheapest way there, made of every so many-th cell of it; None if there is none."""
@@ -245,7 +248,7 @@ class _Reach:
         numbers = [first, *reversed(numbers[:-1:every])]
         cells = [divmod(number, shape[1]) for number in numbers]
         points = [self.start, *(grid.point(cell) for cell in cells[1:-1]), goal]
-        return _straightened(grid, points, self.costs[numbers])
+        return *self.head, *_straightened(grid, points, self.costs[numbers])
 
 
 def _straightened(grid: OccupancyGrid, points: list[Point], costs: Floats) -> tuple[Point, ...]:

@@ -85,6 +85,43 @@ def test_habits_say_where_it_was_taken_at_that_hour() -> None:
     assert said_by(at_eleven, "mug")["habits"].trust > 0.5
 
 
+def test_what_is_taken_away_and_brought_back_is_learned_from_the_few_times_it_was_seen() -> None:
+    facts = [
+        fact
+        for day in range(21)
+        for fact in (
+            (SEEN, "mug", "shelf", day * 24 + 8.0),
+            *([(SEEN, "mug", "sofa", day * 24 + 16.0)] if day % 5 == 0 else []),
+            (SEEN, "mug", "shelf", day * 24 + 20.0),
+        )
+    ]
+    evening = learned(facts, now_h=20 * 24 + 21)
+    next_day = learned([*facts, (SEEN, "mug", "shelf", 21 * 24 + 8.0)], now_h=21 * 24 + 16)
+    assert shares(evening, "mug")["shelf"] > 0.8
+    assert shares(next_day, "mug")["sofa"] > 0.6
+
+
+def test_where_it_was_not_while_nobody_saw_it_tells_when_it_was_taken() -> None:
+    facts = [
+        fact
+        for day in range(21)
+        for fact in (
+            (SEEN, "mug", "shelf", day * 24 + 8.0),
+            (MISSED, "mug", "shelf", day * 24 + 10.0),
+            (SEEN, "mug", "sofa", day * 24 + 20.0),
+            (SEEN, "mug", "shelf", day * 24 + 23.9),
+        )
+    ]
+    rate = learned(facts, now_h=21 * 24).rates().of("mug", "shelf")
+    assert rate[8:10].sum() > 10 * rate[10:20].sum()
+
+
+def test_a_thing_that_was_at_very_many_places_is_followed_all_the_same() -> None:
+    facts = [(SEEN, "mug", f"place {hour % 40}", float(hour)) for hour in range(200)]
+    said = said_by(learned(facts, now_h=201), "mug")
+    assert said["memory"].weights == (("place 39", 1.0),)
+
+
 def test_a_look_for_something_else_tells_that_it_is_gone() -> None:
     seen = (SEEN, "mug", "desk", 9.0)
     looks = [(SEEN, "hammer", "desk", 10.0), (MISSED, "spatula", "desk", 10.0)]

@@ -139,6 +139,19 @@ def test_the_answer_is_believed_even_of_a_place_that_was_looked_at() -> None:
     assert run.outcome.source == "user"
 
 
+def test_among_the_likeliest_it_is_planned_and_the_others_come_in_when_those_are_done() -> None:
+    run = run_mission(
+        "Find the mug",
+        llm=False,
+        defaults=False,
+        place={"mug": "delivery"},
+        answers=["I don't know"],
+        parameters={"planned": 3, "question_s": 1e9},
+    )
+    assert max(len(one.order) for one in plans(run)) == 3
+    assert set(HOME) <= set(run.outcome.visited)
+
+
 def test_every_probability_keeps_who_gave_how_much() -> None:
     run = run_mission("Find the mug", replies=[scores(desk=0.0)], place={"mug": "coffee_table"})
     belief = run.ticks[-1].situation["belief"]

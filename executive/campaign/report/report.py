@@ -73,7 +73,8 @@ def report(
     parts += [Heading("Overview"), tables.overview(found)]
     parts += [Heading("Task completion rate"), tables.completion(all_found)]
     parts += [Heading("Mission time of completed missions [s]"), tables.times(found)]
-    parts += [Heading("What the time goes into"), tables.time_split(found), *plots.get("time", ())]
+    parts += [Heading("What the time goes into"), Text(TIME), tables.time_split(found)]
+    parts += plots.get("time", ())
     for title, heading in (
         ("inquiries", "Inquiries to the person"),
         ("visits", "Pieces of furniture visited"),
@@ -83,6 +84,8 @@ def report(
     parts += plots.get("distributions", ())
     if any(row.search_s for row in ran):  # results of earlier days do not tell
         parts += [Heading("What the search cost"), Text(SEARCHING), tables.searching(found)]
+        if len(found) > 1:
+            parts += [Text(DIFFERENCES), tables.cost_differences(found)]
     if any(row.sure for row in ran):
         parts += [Heading("Whether the belief could be trusted"), Text(TRUST), tables.trust(found)]
     parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
@@ -105,10 +108,21 @@ def not_counted(rows: Sequence[Row]) -> str:
     )
 
 
+TIME = (
+    "Thinking: the seconds in which the robot only waited for the language model; what it thought "
+    "while it drove or looked is not in it. The last column: how much longer that made the mission."
+)
+
 SEARCHING = (
     "Search: the seconds of going to places and looking there. Cost: the same, and for each "
     "question to the person its price, the setting question_s. Stars: the cost differs from that "
-    "of the first variant in the same condition, by command, Holm-corrected over the variants."
+    "of the first variant in the same condition and home, by command, Holm-corrected over all "
+    "variants of the condition."
+)
+
+DIFFERENCES = (
+    "By how much the cost differs, command by command, each the mean of its seeds: the mean, its "
+    "interval, and p as for the stars. An interval without 0 and a p below 0.05 are beyond chance."
 )
 
 TRUST = (
@@ -118,10 +132,10 @@ TRUST = (
 )
 
 COMPARED = (
-    "Stars: the difference from the first variant in the same condition, by command, Holm-"
-    "corrected over the variants. Failed visits: places that the robot set out for and could not "
-    "get to. Invented names: of those that the model wrote, how many no room and no furniture "
-    "goes by."
+    "Stars: the difference from the first variant in the same condition and home, by command, "
+    "Holm-corrected over all variants of the condition. Failed visits: places that the robot set "
+    "out for and could not get to. Invented names: of those that the model wrote, how many no room "
+    "and no furniture goes by."
 )
 
 

@@ -4,12 +4,20 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from os.path import relpath
 from pathlib import Path
 from statistics import fmean
+from typing import Any
 
 from executive.campaign.journal import Row
 from executive.campaign.report import paper
 from executive.campaign.report.document import Cell, Link, Table
 from executive.campaign.report.paper import Condition
-from executive.campaign.report.statistics import Comparison, Summary, compare, pairwise, stars
+from executive.campaign.report.statistics import (
+    Comparison,
+    Summary,
+    compare,
+    pairwise,
+    stars,
+    summarize,
+)
 from executive.campaign.report.variants import (
     Column,
     Variant,
@@ -143,19 +151,28 @@ def times(found: Sequence[Variant]) -> Table:
 
 
 def time_split(found: Sequence[Variant]) -> Table:
-    """What the time of a mission went into, by condition."""
+    """What the time of a mission went into, by condition, and how much longer thinking made it."""
 
     def lines(variant: Variant) -> Lines:
         return [
             [
                 name(condition),
                 *(f"{fmean(map(column, mine)):.1f}" for column in ACTIVITIES.values()),
+                _lengthened(mine),
             ]
             for condition in paper.CONDITIONS
             if (mine := select(variant.own, condition))
         ]
 
-    return _each(found, ["condition", *(f"{activity} [s]" for activity in ACTIVITIES)], lines)
+    heads = [f"{activity} [s]" for activity in ACTIVITIES]
+    return _each(found, ["condition", *heads, "with thinking / without"], lines)
+
+
+def _lengthened(rows: Sequence[Row]) -> str:
+    """By which factor the missions are longer than if nothing had waited for the model."""
+    whole_s = sum(row.mission_time_s for row in rows)
+    without_s = whole_s - sum(map(_only_thinking_s, rows))
+    return f"{whole_s / without_s:.3f}" if without_s > 0 else "-"
 
 
 def measure(found: Sequence[Variant], title: str) -> Table:
@@ -221,7 +238,7 @@ def system_tests(rows: Iterable[Row], column: Column, defaults: bool) -> tuple[T
 
 
 def policies(found: Sequence[Variant]) -> Table:
-    """Every variant beside the first, in each condition with a language model."""
+    """Every variant beside the first in its home, in each condition with a language model."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
         mine = {v.name: one for v in found if (one := select(v.own, condition))}
@@ -311,6 +328,30 @@ def searching(found: Sequence[Variant]) -> Table:
                 )
     heads = ["condition", "variant", "search [s]", "95 %", "inquiries", "cost [s]", "95 %", "n"]
     return Table(heads, lines)
+
+
+def cost_differences(found: Sequence[Variant]) -> Table:
+    """By how much the cost of a search differs from that of the first variant in its home."""
+    lines: Lines = []
+    for condition in paper.CONDITIONS:
+        mine = {v.name: one for v in found if (one := select(v.own, condition))}
+        for test in _beside_first(mine, lambda row: row.cost_s):
+            theirs, ours = (
+                by_command(mine[one], lambda row: row.cost_s) for one in (test.a, test.b)
+            )
+            each = {str(unit): [ours[unit] - theirs[unit]] for unit in ours if unit in theirs}
+            if less := summarize(each):
+                lines.append(
+                    [
+                        name(condition),
+                        test.b,
+                        test.a,
+                        f"{less.mean:+.1f}",
+                        interval(less, 1),
+                        _p(test),
+                    ]
+                )
+    return Table(["condition", "variant", "beside", "cost [s]", "95 %", "p"], lines)
 
 
 def cost(found: Sequence[Variant]) -> Table:
@@ -403,11 +444,18 @@ def _beside(variant: Variant, figure: str) -> str:
 
 
 def _against_first(rows: Mapping[str, Sequence[Row]], column: Column) -> dict[str, str]:
-    """The stars of each variant's difference from the first, by command."""
+    """The stars of each variant's difference from the first in its home, by command."""
+    return {test.b: f" {stars(test.p)}".rstrip() for test in _beside_first(rows, column)}
+
+
+def _beside_first(rows: Mapping[str, Sequence[Row]], column: Column) -> list[Comparison[str]]:
+    """The first variant of each home beside all others of that home."""
     columns = {variant: by_command(mine, column) for variant, mine in rows.items()}
-    first, *others = columns
-    tests = compare(columns, [(first, other) for other in others])
-    return {str(test.b): f" {stars(test.p)}".rstrip() for test in tests}
+    first: dict[str, str] = {}
+    for variant, mine in rows.items():
+        first.setdefault(mine[0].home, variant)
+    pairs = [(first[mine[0].home], variant) for variant, mine in rows.items()]
+    return compare(columns, [(one, other) for one, other in pairs if one != other])
 
 
 def _reason(row: Row) -> str:
@@ -416,6 +464,6 @@ def _reason(row: Row) -> str:
     return f"said to be done, but the {row.object} is truly {row.truth or 'on no furniture'}"
 
 
-def _p(comparison: Comparison[KnowledgeSystem]) -> str:
+def _p(comparison: Comparison[Any]) -> str:
     p = "< 0.001" if comparison.p < 0.001 else f"{comparison.p:.3f}"
     return f"{p} {stars(comparison.p)} (n = {comparison.pairs})".replace("  ", " ")

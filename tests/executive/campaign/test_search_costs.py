@@ -2,7 +2,7 @@
 
 import pytest
 
-from executive.campaign import blocks
+from executive.campaign import blocks, policies
 from executive.campaign.__main__ import parser
 from executive.campaign.campaign import Campaign
 from executive.campaign.draws import commands, drawn
@@ -36,6 +36,17 @@ def test_the_plan_looks_where_the_papers_stages_ask() -> None:
     by_plan, by_stages = (mission(p, "Find the mug", defaults=False) for p in ("plan", "paper"))
     assert (by_plan.inquiries, by_stages.inquiries) == (0, 1)
     assert by_plan.cost_s < by_stages.cost_s
+
+
+def test_where_all_places_may_be_planned_exactly_the_best_plan_is_the_plan() -> None:
+    exact, plan = (mission(p, "Find the mug", defaults=False) for p in ("plan-exact", "plan"))
+    assert (exact.visited, exact.cost_s) == (plan.visited, plan.cost_s)
+
+
+def test_the_best_plan_is_one_among_the_places_that_allow_it(monkeypatch) -> None:
+    monkeypatch.setattr(policies, "EXACT", 2)
+    exact, plan = (mission(p, "Find the mug", defaults=False) for p in ("plan-exact", "plan"))
+    assert exact.visited != plan.visited
 
 
 def test_every_thing_is_drawn_to_where_the_survey_has_it() -> None:

@@ -55,6 +55,14 @@ def test_a_robot_that_says_that_it_failed_has_completed_nothing(kind: type) -> N
     assert not completed(run.outcome, lambda name: "delivery")
 
 
+def test_the_nearest_is_that_with_the_shortest_way_wherever_the_robot_is() -> None:
+    routes, names = Routes(four_rooms()), [place.name for place in four_rooms().places()]
+    for start in map(routes.stand, ("person", *names)):
+        others = [name for name in names if routes.stand(name) != start]
+        shortest = min(others, key=lambda name: routes.length(start, routes.stand(name)))
+        assert routes.nearest(start, others) == shortest
+
+
 def test_the_shortest_way_leads_through_doors_and_is_the_same_back() -> None:
     routes = Routes(four_rooms())
     bed, wagon = routes.stand("bed"), routes.stand("counter_wagon")
