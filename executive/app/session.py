@@ -17,9 +17,19 @@ from executive.app.parts import OURS, Build, Change, as_they_are, build_mission,
 from executive.app.recording import Recording, body_used, files_used
 from executive.app.run_folder import new_folder, to_json, write
 from executive.app.sources import checked
+from executive.app.speaking import speak_aloud
 from executive.config import Settings
 from executive.errors import ExecutiveError
-from executive.events import THE_PERSON, Broke, Ended, Heard, Inbox, Started, StopRequested
+from executive.events import (
+    THE_PERSON,
+    Broke,
+    Ended,
+    Heard,
+    Inbox,
+    Listened,
+    Started,
+    StopRequested,
+)
 from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
@@ -96,6 +106,7 @@ class Session:
             self.parts = change(replace(parts, sources=given))
             """Whom missions are run with."""
             checked(self.parts.sources)
+            speak_aloud(self.parts, opened)
             self._recording = None
             if recorded:
                 used |= body_used(self.parts)
@@ -107,6 +118,8 @@ class Session:
         self._spoken = NOTHING
         self._last: Outcome | None = None
         self._restless = False
+        self._listened: list[Listened] = []
+        """What ears have understood since the last mission, for the recording of the next."""
         self._closed = False
         self.heard: deque[str] = deque()
         """What the person has said too late for the mission in which it was said, oldest first."""
@@ -277,6 +290,9 @@ class Session:
         """Have the tree decide, from the words on."""
         executive = build_mission(self.parts, situation, self._build)
         self.inbox.post(Started(situation.request.words))
+        for event in self._listened:
+            self.inbox.post(event)
+        self._listened.clear()
         if control(situation.request.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             user = GuardedUser(self.parts.user, self.inbox, self.recorder)
@@ -341,6 +357,8 @@ class Session:
                     self.heard.clear()
                 elif isinstance(event, Heard):  # between two missions
                     self.heard.append(event.words)
+                elif isinstance(event, Listened):
+                    self._listened.append(event)
                 elif isinstance(event, Ended) and event.request == request:
                     if not isinstance(event.result, Answered):
                         return None

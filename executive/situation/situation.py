@@ -14,6 +14,7 @@ from executive.events import (
     HandFelt,
     Heard,
     Intervened,
+    Listened,
     Started,
     StopRequested,
 )
@@ -92,7 +93,7 @@ class Situation:
                 self.hand.feel(holding)
             case Intervened(deed=Deed.PLACE, became=place) if self.search.goes_on:
                 self.search.sent_to = place
-            case Ended() | DeadlinePassed() | Intervened():
+            case Ended() | DeadlinePassed() | Intervened() | Listened():
                 pass
 
     def begin(self, command: Command) -> None:
