@@ -110,7 +110,7 @@ class Settings(BaseSettings):
     user: Annotated[Literal["console", "oracle", "none"], Option()] = Field(
         "console", description="who answers: you, the paper's simulated user, or nobody"
     )
-    ears: Annotated[str | None, Option("pocketsphinx or http://host:port/v1")] = Field(
+    ears: Annotated[Literal["pocketsphinx"] | None, Option()] = Field(
         None, description="who hears what you say aloud (docs/speech.md)"
     )
     microphone: Annotated[
@@ -227,15 +227,6 @@ class Settings(BaseSettings):
         if value is not None and not (value.strip() and value.isprintable() and len(value) <= 200):
             raise ValueError("should be a name of one line")
         return value
-
-    @field_validator("ears")
-    @classmethod
-    def _known_ears(cls, value: str | None) -> str | None:
-        if value in (None, "pocketsphinx"):
-            return value
-        if value.startswith(("http://", "https://")):
-            return _address(value, "EXECUTIVE_EARS_API_KEY")
-        raise ValueError("should be pocketsphinx or http://host:port/v1")
 
     @field_validator("world")
     @classmethod

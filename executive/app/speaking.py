@@ -41,27 +41,16 @@ def listen(parts: Parts, person: Console, voice: Voice | None, opened: ExitStack
     Raises:
         InputError: if ears or microphone cannot be had.
     """
+    from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
     from executive.speech.spotting import StopSpotter
 
     blocks = microphone(parts.settings.microphone)
-    ears = ears_of(parts)
+    ears: Ears = PocketsphinxEars(vocabulary(parts.knowledge))
     opened.callback(ears.close)
     doubt = Doubt(person, parts.interpreter, parts.inbox)
     listening = Listening(blocks, ears, doubt, person, spotter=StopSpotter(), voice=voice)
     opened.callback(listening.close)
     listening.start()
-
-
-def ears_of(parts: Parts) -> Ears:
-    """The ears that the settings name.
-
-    Raises:
-        InputError: if they cannot be had.
-    """
-    assert parts.settings.ears
-    from executive.speech.sphinx import PocketsphinxEars
-
-    return PocketsphinxEars(vocabulary(parts.knowledge))
 
 
 def vocabulary(knowledge: Ontology) -> Vocabulary:

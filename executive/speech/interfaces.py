@@ -22,7 +22,7 @@ class Reading:
         by: the ears' name.
         text: the words; empty if they could not make any of it.
         confidence: between 0 and 1; 0 if the ears cannot tell.
-        sure: whether the words may be acted upon without asking.
+        sure: whether the words may be acted upon without asking; ours are only of a yes or a no.
     """
 
     by: str

@@ -2,8 +2,9 @@
 
 A grammar forces every sound into one of its sentences, also what was never said. So an utterance is
 heard three times: with the grammar; with the same grammar and many words more, which this home has
-no use for; and with no words at all. What the first two do not agree upon is asked back, and so is
-what has a word in it that explains its sounds much worse than phones without words do.
+no use for; and with no words at all. Where the first two do not agree, or a word explains its
+sounds much worse than phones without words do, it is not certain. Even what is certain by that was
+wrong once in twelve times when it was tried, so that only a yes or a no is ever `sure`.
 """
 
 import logging
@@ -30,7 +31,8 @@ WORST = -10.0
 SLACK = 3.0
 """Little words are short, and spoken carelessly: they may be so much worse."""
 SURE = 0.6
-"""Confidence from which words are acted upon (tests/benchmarks/bench_speech.py --part dev)."""
+"""Confidence from which a yes or a no is certain (tests/benchmarks/bench_speech.py --part dev)."""
+YES_OR_NO = frozenset(("yes", "yes please", "no", "okay"))
 LEAST = 0.3
 """Below this, what was heard is not even worth a question about it."""
 MOST_SWALLOWED = 6
@@ -102,9 +104,9 @@ class PocketsphinxEars:
             return Reading(self.name, "")
         confidence = round(certainty(own, phones, sound), 3)
         agreed = telling(own) == telling(wide)
-        sure = agreed and confidence >= SURE
-        clear = confidence >= LEAST
-        return Reading(self.name, words_of(own) if clear else "", confidence, sure=sure)
+        text = words_of(own) if confidence >= LEAST else ""
+        sure = agreed and confidence >= SURE and text in YES_OR_NO
+        return Reading(self.name, text, confidence, sure=sure)
 
     def close(self) -> None:
         """Nothing stays open."""

@@ -1,4 +1,4 @@
-"""What pocketsphinx makes of commands that espeak-ng speaks: done right, asked back, or done wrong.
+"""What pocketsphinx makes of commands that espeak-ng speaks: what is asked back, and how rightly.
 
 python tests/benchmarks/bench_speech.py                    # 200 commands in three voices
 python tests/benchmarks/bench_speech.py --part dev         # those that SURE was chosen by
@@ -110,6 +110,7 @@ TEST = [
     "please find the {t}",
     "stop",
 ]
+ANSWERS = ("yes", "no", "yes please", "okay")
 STOPS = [
     "stop",
     "stop it",
@@ -148,7 +149,7 @@ def judge(part: str, number: int, voices: Sequence[str]) -> Counter[str]:
             reading = ears.hear(say(words, voice))
             meant, heard = deed(interpreter, words), deed(interpreter, reading.text)
             if reading.sure:
-                verdict = "done right" if heard == meant else "DONE WRONG" if heard else "no deed"
+                verdict = "DONE UNASKED" if heard else "TAKEN FOR AN ANSWER"
             elif not reading.text:
                 verdict = "asked to repeat"
             else:
@@ -158,6 +159,19 @@ def judge(part: str, number: int, voices: Sequence[str]) -> Counter[str]:
                 f"{verdict:18} {reading.confidence:.3f} {voice:9} {words} | {reading.text}",
                 flush=True,
             )
+    return counts
+
+
+def answers() -> Counter[str]:
+    """How often a yes or a no is certain, and how often one is taken for the other."""
+    ears, interpreter, counts = PocketsphinxEars(four_rooms()), EnglishInterpreter(), Counter()
+    for words in ANSWERS:
+        for voice in VOICES:
+            reading = ears.hear(say(words, voice))
+            same = interpreter.agrees(reading.text) == interpreter.agrees(words)
+            verdict = "not certain" if not reading.sure else "certain" if same else "WRONG"
+            counts[verdict] += 1
+            print(f"{verdict:12} {reading.confidence:.3f} {voice:9} {words} | {reading.text}")
     return counts
 
 
@@ -176,17 +190,19 @@ def stops() -> Counter[str]:
 def main() -> None:
     """Print the counts."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--part", choices=("test", "dev", "stops"), default="test")
+    parser.add_argument("--part", choices=("test", "dev", "answers", "stops"), default="test")
     parser.add_argument("--number", type=int, default=200)
     parser.add_argument(
         "--voice", action="append", help="of espeak-ng; repeatable (default: three)"
     )
     options = parser.parse_args()
-    counts = (
-        stops()
-        if options.part == "stops"
-        else judge(options.part, options.number, options.voice or VOICES)
-    )
+    match options.part:
+        case "stops":
+            counts = stops()
+        case "answers":
+            counts = answers()
+        case part:
+            counts = judge(part, options.number, options.voice or VOICES)
     for verdict, count in sorted(counts.items()):
         print(f"{count:5} {count / counts.total():6.1%}  {verdict}")
 

@@ -18,11 +18,13 @@ FAKE = {"world": "fake", "llm": "none"}
 
 
 @needs_espeak
-def test_what_a_file_says_is_the_next_command_and_stands_in_the_recording(tmp_path: Path) -> None:
+def test_what_files_say_and_confirm_is_the_next_command_and_is_recorded(tmp_path: Path) -> None:
     pytest.importorskip("pocketsphinx", reason="needs the extra speech")
-    file = tmp_path / "said.wav"
-    file.write_bytes(to_wav(say("what is on the bed")))
-    settings = load_settings(ears="pocketsphinx", microphone=str(file), runs=tmp_path, **FAKE)
+    said = tmp_path / "said"
+    said.mkdir()
+    for number, words in enumerate(("what is on the bed", "yes")):
+        (said / f"{number}.wav").write_bytes(to_wav(say(words)))
+    settings = load_settings(ears="pocketsphinx", microphone=str(said), runs=tmp_path, **FAKE)
     console = Console(inbox := Inbox(), io.StringIO(), io.StringIO())
     with Session(settings, inbox=inbox, user=console) as session:
         words = session.next_command(console)
@@ -32,9 +34,12 @@ def test_what_a_file_says_is_the_next_command_and_stands_in_the_recording(tmp_pa
         mission = session.folder
     assert mission
     events = (at.value for at in Run(mission).events())
-    (heard,) = (event for event in events if isinstance(event, Listened))
-    assert (heard.by, heard.text, heard.became) == ("pocketsphinx", words, "certain")
-    assert heard.confidence > 0.6
+    heard = [event for event in events if isinstance(event, Listened)]
+    assert [(one.text, one.became) for one in heard] == [
+        (words, "asked back"),
+        ("yes", "an answer"),
+    ]
+    assert all(one.by == "pocketsphinx" and one.confidence > 0.6 for one in heard)
     assert replay(mission / "mission.mcap").parting is None
 
 
@@ -69,7 +74,6 @@ def test_a_file_that_is_no_sound_ends_the_session_before_it_begins(tmp_path: Pat
         Session(settings)
 
 
-@pytest.mark.parametrize("ears", ["loud", "http://", "http://me:secret@host/v1"])
-def test_ears_that_do_not_exist_are_refused(ears: str) -> None:
-    with pytest.raises(InputError, match="setting 'ears': should be"):
-        load_settings(ears=ears)
+def test_ears_that_do_not_exist_are_refused() -> None:
+    with pytest.raises(InputError, match="setting 'ears'.*'pocketsphinx'"):
+        load_settings(ears="loud")
