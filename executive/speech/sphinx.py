@@ -4,7 +4,7 @@ A grammar forces every sound into one of its sentences, also what was never said
 heard three times: with the grammar; with the same grammar and many words more, which this home has
 no use for; and with no words at all. Where the first two do not agree, or a word explains its
 sounds much worse than phones without words do, it is not certain. Even what is certain by that was
-wrong once in twelve times when it was tried, so that only a yes or a no is ever `sure`.
+wrong once in fourteen times when it was tried, so that only a yes or a no is ever `sure`.
 """
 
 import logging

@@ -1,7 +1,8 @@
 """What pocketsphinx makes of commands that espeak-ng speaks: what is asked back, and how rightly.
 
-python tests/benchmarks/bench_speech.py                    # 200 commands in three voices
+python tests/benchmarks/bench_speech.py                    # 70 commands in three voices
 python tests/benchmarks/bench_speech.py --part dev         # those that SURE was chosen by
+python tests/benchmarks/bench_speech.py --part answers     # how certain a yes or a no is
 python tests/benchmarks/bench_speech.py --part stops       # how well a stop is spotted
 """
 
@@ -191,7 +192,7 @@ def main() -> None:
     """Print the counts."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--part", choices=("test", "dev", "answers", "stops"), default="test")
-    parser.add_argument("--number", type=int, default=200)
+    parser.add_argument("--number", type=int, default=70)
     parser.add_argument(
         "--voice", action="append", help="of espeak-ng; repeatable (default: three)"
     )
