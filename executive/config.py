@@ -119,6 +119,15 @@ class Settings(BaseModel):
     user: Annotated[Literal["console", "oracle", "none"], Option()] = Field(
         "console", description="who answers: you, the paper's simulated user, or nobody"
     )
+    ears: Annotated[Literal["pocketsphinx"] | None, Option()] = Field(
+        None, description="who hears what you say aloud (docs/speech.md)"
+    )
+    microphone: Annotated[
+        str, Option("arecord, FILE.wav, DIR or -", "where the ears hear it (default: arecord)")
+    ] = Field("arecord", description="program that records, WAV file, folder of them, or a pipe")
+    voice: Annotated[Literal["espeak-ng"] | None, Option()] = Field(
+        None, description="who says aloud what the robot says"
+    )
     place: Annotated[
         dict[str, str],
         Option(

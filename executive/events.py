@@ -111,7 +111,34 @@ class Intervened:
     became: str
 
 
-Event = Started | Ended | DeadlinePassed | StopRequested | Heard | HandFelt | Broke | Intervened
+@dataclass(frozen=True, slots=True)
+class Listened:
+    """Ears understood something; what comes of it is an event of its own.
+
+    Attributes:
+        by: which ears.
+        text: the words; empty if there were none.
+        confidence: between 0 and 1; 0 if the ears cannot tell.
+        became: what was made of it: "certain", "asked back", ...
+    """
+
+    by: str
+    text: str
+    confidence: float
+    became: str
+
+
+Event = (
+    Started
+    | Ended
+    | DeadlinePassed
+    | StopRequested
+    | Heard
+    | HandFelt
+    | Broke
+    | Intervened
+    | Listened
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -18,6 +18,7 @@ from executive.text import LONGEST, one_line, printable, too_long, writable
 from executive.types import Answered, Failed, Question, QuestionKind
 
 STOPPING = "Stopping."
+INPUT_ENDED = "the input has ended"
 FORGOTTEN = "What you said before is forgotten."
 
 CYAN = 36
@@ -44,12 +45,18 @@ class Console:
         """Read from `source` (default: standard input), write to `out` (standard error)."""
         self._inbox = inbox
         self._out = out or sys.stderr
+        self.aloud: Callable[[str], None] = lambda text: None
+        """Is told what the robot says, to say it aloud."""
+        self.first: Callable[[str], bool] = lambda line: False
+        """Is told each line before it counts, and may take it."""
         self._lock = threading.Lock()
         self._lines: deque[str] = deque()
         self._request: int | None = None
         self._prompting = False
         self._begun = False
         """Whether anything was asked or told so far."""
+        self._kept_open = False
+        self._typing_is_over = source is None and sys.stdin is None
         self._ended = ""
         """Why no more lines come; empty if they do."""
         source = source or sys.stdin
@@ -85,14 +92,40 @@ class Console:
         self._begun = True
         self._say(text)
 
+    def says(self, words: str) -> None:
+        """They say this otherwise than at the terminal; any thread may call it."""
+        self._hear(words, typed=True)
+
+    def mention(self, text: str) -> None:
+        """Say something beside any mission, at once; any thread may call it."""
+        self._say(text)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether there may be something to stop: no command is waited for."""
+        return not self._is_idle
+
+    def keep_open(self, kept: bool) -> None:
+        """They are heard elsewhere, too: meanwhile, the end of the input ends nothing."""
+        with self._lock:
+            self._kept_open = kept
+            if self._typing_is_over:
+                self._ended = "" if kept else INPUT_ENDED
+            self._serve()
+
     def _say(self, text: str) -> None:
         """Print it; a person who cannot be told is no reason to end anything."""
+        self._speak(text)
         with suppress(OSError, ValueError):
             if isinstance(self._out, Terminal):
                 self._out.write_line(text, CYAN)
                 self._out.flush()
             elif self._out is not None:
                 print(printable(text), file=self._out, flush=True)
+
+    def _speak(self, text: str) -> None:
+        """Say it aloud, too."""
+        self.aloud(text)
 
     def _prompt(self, request: int) -> int:
         """Show a prompt, unless a line waited already."""
@@ -124,24 +157,34 @@ class Console:
                 time.sleep(POLL_S)
             if self._hear(writable(line).strip()) is Control.QUIT:
                 return
-        self._end("the input has ended")
+        self._typing_ends()
 
-    def _hear(self, line: str) -> Control | None:
+    def _typing_ends(self) -> None:
+        with self._lock:
+            self._typing_is_over = True
+            kept = self._kept_open
+        if not kept:
+            self._end(INPUT_ENDED)
+
+    def _hear(self, line: str, *, typed: bool = False) -> Control | None:
+        """Do with a line what is to be done; `typed` if it was not kept for later in a script."""
         words, said = one_line(line), control(line)
+        if self.first(words):
+            return None
         if said is Control.QUIT:
             self._quit()
         elif said is Control.STOP:
             self._stop()
         elif why := too_long(line):
             self._say(f"Sorry: {why}.")
-        elif words and not self._keep(words):
+        elif words and not self._keep(words, typed or self._typed):
             self._inbox.hear(words)
         return said
 
-    def _keep(self, words: str) -> bool:
+    def _keep(self, words: str, typed: bool) -> bool:
         """Give a line to who asks, or keep it until somebody does; whether it was taken."""
         with self._lock:
-            taken = self._request is not None or not (self._typed and self._begun)
+            taken = self._request is not None or not (typed and self._begun)
             if taken:
                 self._lines.append(words)
                 self._serve()

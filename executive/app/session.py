@@ -17,9 +17,20 @@ from executive.app.parts import OURS, Build, Change, as_they_are, build_mission,
 from executive.app.recording import Recording, body_used, files_used
 from executive.app.run_folder import new_folder, to_json, write
 from executive.app.sources import checked
+from executive.app.speaking import speak_aloud
 from executive.config import Settings
 from executive.errors import ExecutiveError
-from executive.events import THE_PERSON, Broke, Ended, Event, Heard, Inbox, Started, StopRequested
+from executive.events import (
+    THE_PERSON,
+    Broke,
+    Ended,
+    Event,
+    Heard,
+    Inbox,
+    Listened,
+    Started,
+    StopRequested,
+)
 from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
@@ -96,6 +107,7 @@ class Session:
             self.parts = change(replace(parts, sources=given))
             """Whom missions are run with."""
             checked(self.parts.sources)
+            speak_aloud(self.parts, opened)
             self._recording = None
             if recorded:
                 used |= body_used(self.parts)
@@ -107,6 +119,8 @@ class Session:
         self._spoken = NOTHING
         self._last: Outcome | None = None
         self._restless = False
+        self._listened: list[Listened] = []
+        """What ears have understood since the last mission, for the recording of the next."""
         self._closed = False
         self.standing: Callable[[], Iterable[Event]] = tuple
         """Tells what each mission begins with, beside its words: what an experimenter has ordered
@@ -279,8 +293,10 @@ class Session:
     def _carry_out(self, situation: Situation) -> None:
         """Have the tree decide, from the words on."""
         executive = build_mission(self.parts, situation, self._build)
-        for event in (Started(situation.request.words), *self.standing()):
+        begun = Started(situation.request.words)
+        for event in (begun, *self._listened, *self.standing()):
             self.inbox.post(event)
+        self._listened.clear()
         if control(situation.request.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             user = GuardedUser(self.parts.user, self.inbox, self.recorder)
@@ -345,6 +361,8 @@ class Session:
                     self.heard.clear()
                 elif isinstance(event, Heard):  # between two missions
                     self.heard.append(event.words)
+                elif isinstance(event, Listened):
+                    self._listened.append(event)
                 elif isinstance(event, Ended) and event.request == request:
                     if not isinstance(event.result, Answered):
                         return None

@@ -35,7 +35,7 @@ class PagePerson(Console):
         self._session: Session | None = None
         self._before: Path | None = None
         """The last mission that was over when a command was listened for."""
-        self.gate = Gate(board.say)
+        self.gate = Gate(self._let_through)
         """What the mission says goes through it."""
         self.asking: Callable[[dict[str, Any] | None], None] = lambda question: None
         """Is told which question waits for an answer, whether the person was asked it or not."""
@@ -129,7 +129,15 @@ class PagePerson(Console):
         if threading.get_ident() == self._ticking:
             self.gate.say({**entry, **self._moment()})
         else:
-            self._board.say(entry)
+            self._let_through(entry)
+
+    def _let_through(self, entry: dict[str, Any]) -> None:
+        """Show it, and say it aloud if there is a voice."""
+        self._board.say(entry)
+        self.aloud(entry["text"])
+
+    def _speak(self, text: str) -> None:
+        """What may be held is said aloud when it is shown."""
 
     def _moment(self) -> dict[str, Any]:
         """In which mission, if it is recorded, and when in it (mission time, s)."""

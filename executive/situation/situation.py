@@ -15,6 +15,7 @@ from executive.events import (
     HandFelt,
     Heard,
     Intervened,
+    Listened,
     Started,
     StopRequested,
 )
@@ -99,7 +100,7 @@ class Situation:
                 self.steering.instead = place
             case Intervened(deed=Deed.PLACE, became=place) if self.search.goes_on:
                 self.search.sent_to = place
-            case Ended() | DeadlinePassed() | Intervened():
+            case Ended() | DeadlinePassed() | Intervened() | Listened():
                 pass
 
     def begin(self, command: Command) -> None:

@@ -14,6 +14,7 @@ from executive.events import (
     HandFelt,
     Heard,
     Intervened,
+    Listened,
     Started,
     StopRequested,
 )
@@ -54,6 +55,8 @@ def _beside_its_gist(event: Event) -> dict[str, Any]:
             return {"request": request, "result": type(result).__name__, **_result_fields(result)}
         case Intervened(by, deed, was):
             return {"by": by, "deed": deed, "was": was}
+        case Listened(by, _, confidence, became):
+            return {"by": by, "deed": became, "confidence": confidence}
         case Started() | StopRequested() | Heard() | Broke():
             return {}
         case _:
@@ -83,6 +86,7 @@ _EVENTS: dict[type, Callable[[Any], Event]] = {
     HandFelt: lambda message: HandFelt(None if message.numb else message.holding),
     Broke: lambda message: Broke(message.text),
     Intervened: lambda m: Intervened(m.by, m.deed, m.was, m.text),
+    Listened: lambda m: Listened(m.by, m.text, finite(m.confidence), m.deed),
 }
 _RESULTS: dict[type, Callable[[Any], Result]] = {
     Succeeded: lambda _: Succeeded(),
@@ -154,6 +158,8 @@ def in_words(event: Event) -> str:
     result = type(event.result).__name__ if isinstance(event, Ended) else ""
     if isinstance(event, Intervened):
         result = f"{event.by}: {event.deed}:"
+    if isinstance(event, Listened):
+        result = f"{event.by} ({event.confidence:.2f}, {event.became}):"
     return " ".join(filter(None, (type(event).__name__, result, gist(event))))
 
 
@@ -174,6 +180,8 @@ def gist(event: Event) -> str:
             return reason
         case Intervened(became=became):
             return became
+        case Listened(text=text):
+            return text
 
 
 def _gist_of_result(result: Result) -> str:

@@ -126,6 +126,7 @@ EVENT: Definitions = {
         "by": "string",
         "deed": "string",
         "was": "string",
+        "confidence": "double",
     },
 }
 

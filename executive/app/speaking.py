@@ -1,0 +1,66 @@
+"""Gives a person ears that hear them, and a voice, as the settings say."""
+
+from contextlib import ExitStack
+
+from executive.app.parts import Parts
+from executive.errors import InputError
+from executive.language.phrases import spoken
+from executive.speech.doubt import Doubt
+from executive.speech.espeak import EspeakVoice
+from executive.speech.interfaces import Ears, Vocabulary, Voice
+from executive.speech.listening import Listening
+from executive.speech.microphone import microphone
+from executive.user import Console
+from kb.ontology.ontology import Ontology
+
+
+def speak_aloud(parts: Parts, opened: ExitStack) -> None:
+    """Begin to speak and to listen, if that is wanted; it ends with `opened`.
+
+    Raises:
+        InputError: if something that it takes is not there, or nobody is there to be heard.
+    """
+    settings = parts.settings
+    if settings.ears is None and settings.voice is None:
+        return
+    if not isinstance(parts.user, Console):
+        option = "--ears" if settings.ears else "--voice"
+        raise InputError(option, "there is no person to talk with", "use --user console")
+    voice = None
+    if settings.voice:
+        voice = EspeakVoice()
+        opened.callback(voice.close)
+        parts.user.aloud = voice.say
+    if settings.ears:
+        listen(parts, parts.user, voice, opened)
+
+
+def listen(parts: Parts, person: Console, voice: Voice | None, opened: ExitStack) -> None:
+    """Hear the person from now on.
+
+    Raises:
+        InputError: if ears or microphone cannot be had.
+    """
+    from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
+    from executive.speech.spotting import StopSpotter
+
+    blocks = microphone(parts.settings.microphone)
+    ears: Ears = PocketsphinxEars(vocabulary(parts.knowledge))
+    opened.callback(ears.close)
+    doubt = Doubt(person, parts.interpreter, parts.inbox)
+    listening = Listening(blocks, ears, doubt, person, spotter=StopSpotter(), voice=voice)
+    opened.callback(listening.close)
+    listening.start()
+
+
+def vocabulary(knowledge: Ontology) -> Vocabulary:
+    """What is spoken of in this home, by the names that lead to its things and places."""
+    names = dict.fromkeys(spoken(name) for name in knowledge.names())
+    things = [name for name in names if knowledge.objects_named(name)]
+    places = [name for name in names if knowledge.places_named(name)]
+    return Vocabulary(tuple(filter(_is_plain, things)), tuple(filter(_is_plain, places)))
+
+
+def _is_plain(name: str) -> bool:
+    """Whether it is of words alone: signs and digits mean something else in a grammar of speech."""
+    return name.isascii() and name.replace(" ", "").isalpha()

@@ -1,0 +1,119 @@
+"""What was heard and is not certain is asked back, and done only when the person says yes to it."""
+
+import threading
+import time
+from collections.abc import Callable
+
+from executive.events import Inbox, Listened
+from executive.interfaces import Interpreter
+from executive.language.control import control
+from executive.speech.interfaces import Reading
+from executive.user import Console
+
+PATIENCE_S = 20.0
+"""How long what was asked back waits for its yes."""
+UNCLEAR = "I did not understand you. Please say it again."
+YES_OR_NO = "Please say yes or no"
+DROPPED = "Then I will not."
+SPOTTER = "spotter"
+"""Who hears a stop, in logs."""
+
+
+class Doubt:
+    """Between the ears and the person: lets through what is certain, and asks about the rest.
+
+    What is typed meanwhile answers it, too. Any thread may call it.
+    """
+
+    def __init__(
+        self,
+        person: Console,
+        interpreter: Interpreter,
+        inbox: Inbox,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Speak for this person."""
+        self._person = person
+        self._interpreter = interpreter
+        self._inbox = inbox
+        self._now = now
+        self._lock = threading.Lock()
+        self._asked = ""
+        self._until = 0.0
+        person.first = self.takes
+
+    def hear(self, reading: Reading) -> None:
+        """The ears understood this."""
+        text, asked = reading.text, self._waiting()
+        if text and control(text):
+            self._log(reading, "a stop")
+            self._person.says(text)
+        elif not text:
+            self._log(reading, "not understood")
+            self._person.mention(self._question(asked) if asked else UNCLEAR)
+        elif asked and self._interpreter.agrees(text) is not None:
+            self._answer(reading, asked)
+        elif reading.sure:
+            self._take()
+            self._log(reading, "certain")
+            self._person.says(text)
+        else:
+            self._log(reading, "asked back")
+            self._ask(text)
+
+    def stop(self) -> None:
+        """The spotter heard a stop."""
+        self._log(Reading(SPOTTER, "stop"), "a stop")
+        self._person.says("stop")
+
+    def takes(self, line: str) -> bool:
+        """Whether a line that was typed, or said with certainty, answers what was asked back.
+
+        Whatever else it is, it takes the place of that.
+        """
+        asked = self._take()
+        agrees = self._interpreter.agrees(line) if asked else None
+        if agrees is None or control(line):
+            return False
+        if agrees:
+            self._person.says(asked)
+        else:
+            self._person.mention(DROPPED)
+        return True
+
+    def _answer(self, reading: Reading, asked: str) -> None:
+        """A yes has to be certain; a no need not be."""
+        agrees = self._interpreter.agrees(reading.text)
+        if agrees and not reading.sure:
+            self._log(reading, "asked back")
+            self._person.mention(self._question(asked))
+            return
+        self._log(reading, "an answer")
+        self._take()
+        if agrees:
+            self._person.says(asked)
+        else:
+            self._person.mention(DROPPED)
+
+    def _ask(self, text: str) -> None:
+        with self._lock:
+            self._asked, self._until = text, self._now() + PATIENCE_S
+        self._person.mention(f"Did you say: {text}?")
+
+    def _question(self, asked: str) -> str:
+        return f"{YES_OR_NO}: {asked}?"
+
+    def _waiting(self) -> str:
+        """What was asked back and may still be answered; empty if there is nothing."""
+        with self._lock:
+            return self._asked if self._now() < self._until else ""
+
+    def _take(self) -> str:
+        """The same, and ask it no longer."""
+        asked = self._waiting()
+        with self._lock:
+            self._asked = ""
+        return asked
+
+    def _log(self, reading: Reading, became: str) -> None:
+        self._inbox.post(Listened(reading.by, reading.text, reading.confidence, became))

@@ -1,0 +1,96 @@
+"""Sound as the ears get it: 16,000 samples a second of 16 bits, one channel; and files of it."""
+
+import io
+import wave
+from math import gcd
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from executive.errors import InputError
+
+Sound = NDArray[np.int16]
+"""Samples at `RATE_HZ`, one channel."""
+
+RATE_HZ = 16_000
+LONGEST_S = 60.0
+"""Nobody speaks longer without a break; a file that does is no command."""
+RIGHT = "record WAV, 16 bits, 16 kHz, one channel: arecord -f S16_LE -r 16000 -c 1 FILE.wav"
+SLOWEST_HZ, FASTEST_HZ = 8_000, 192_000
+FLOOR = 3.0
+"""Standard deviation of a noise that nobody hears."""
+QUIET = 100
+"""A peak below this (of 32,767) is silence: microphones' own noise has less."""
+
+
+def read_wav(path: Path) -> Sound:
+    """What is in a WAV file.
+
+    Other rates than 16 kHz are resampled, and of several channels the mean is taken.
+
+    Raises:
+        InputError: if it cannot be read, is no WAV of 16 bits, or is longer than a minute.
+    """
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(str(path), error.strerror or "cannot be read", RIGHT) from None
+    return from_wav(content, str(path))
+
+
+def from_wav(content: bytes, where: str) -> Sound:
+    """The same of bytes.
+
+    A program that writes into a pipe does not know how long it will be, and says too much in the
+    header: what is there counts.
+
+    Raises:
+        InputError: as `read_wav` does.
+    """
+    try:
+        with wave.open(io.BytesIO(content)) as file:
+            width, channels, rate = file.getsampwidth(), file.getnchannels(), file.getframerate()
+            if width != 2:
+                raise InputError(where, f"has samples of {8 * width} bits", RIGHT)
+            if not SLOWEST_HZ <= rate <= FASTEST_HZ:
+                raise InputError(where, f"has {rate:,} samples a second", RIGHT)
+            frames = file.readframes(int(rate * LONGEST_S) + 1)
+    except (wave.Error, EOFError):
+        raise InputError(where, "is no WAV file", RIGHT) from None
+    samples = np.frombuffer(frames[: len(frames) // (2 * channels) * 2 * channels], "<i2")
+    if len(samples) / channels > rate * LONGEST_S:
+        raise InputError(where, f"is longer than {LONGEST_S:.0f} s", "give one command a file")
+    return resampled(samples.reshape(-1, channels).mean(axis=1), rate)
+
+
+def resampled(samples: NDArray[np.floating], rate_hz: int) -> Sound:
+    """At 16 kHz."""
+    if rate_hz != RATE_HZ and len(samples):
+        from scipy.signal import resample_poly  # loads slowly
+
+        common = gcd(rate_hz, RATE_HZ)
+        samples = resample_poly(samples, RATE_HZ // common, rate_hz // common)
+    return np.clip(np.round(samples), -32768, 32767).astype(np.int16)
+
+
+def to_wav(sound: Sound) -> bytes:
+    """As the bytes of a WAV file."""
+    content = io.BytesIO()
+    with wave.open(content, "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(RATE_HZ)
+        file.writeframes(sound.astype("<i2").tobytes())
+    return content.getvalue()
+
+
+def with_floor(sound: Sound) -> Sound:
+    """With a noise that nobody hears: recognisers stumble over perfect silence."""
+    noise = np.random.default_rng(0).normal(0, FLOOR, len(sound))
+    return np.clip(np.round(sound + noise), -32768, 32767).astype(np.int16)
+
+
+def is_silent(sound: Sound) -> bool:
+    """Whether nothing can be heard in it."""
+    return not len(sound) or int(np.abs(sound.astype(np.int32)).max()) < QUIET

@@ -1,0 +1,66 @@
+"""Where an utterance begins and ends in a stream of sound, by how loud it is."""
+
+from collections import deque
+
+import numpy as np
+
+from executive.speech.sound import RATE_HZ, Sound
+
+OVER_NOISE = 4.0
+"""Speech is so much louder than what is heard between utterances."""
+LEAST = 150.0
+"""Root mean square below which nothing is speech, however quiet it is otherwise."""
+BEFORE_S, PAUSE_S = 0.3, 0.7
+"""What is kept from before it was loud; after so much quiet, an utterance is over."""
+SHORTEST_S = 0.15
+"""What is loud for less is a click."""
+MOST_S = 15.0
+"""Longer ones are no command, but noise: they are dropped."""
+
+
+class Utterances:
+    """Cuts blocks of sound into utterances."""
+
+    def __init__(self) -> None:
+        """Nothing was heard yet."""
+        self._noise = LEAST / OVER_NOISE
+        self._level = 0.0
+        self._before: deque[Sound] = deque()
+        self._spoken: list[Sound] = []
+        self._loud_s = self._quiet_s = 0.0
+
+    def add(self, block: Sound) -> Sound | None:
+        """An utterance that ended with this block; None if none did."""
+        level = float(np.sqrt(np.mean(block.astype(np.float64) ** 2))) if len(block) else 0.0
+        self._level = level
+        seconds = len(block) / RATE_HZ
+        loud = level > max(LEAST, OVER_NOISE * self._noise)
+        if not self._spoken and not loud:
+            self._noise += 0.1 * (level - self._noise)
+            self._before.append(block)
+            while sum(map(len, self._before)) > BEFORE_S * RATE_HZ:
+                self._before.popleft()
+            return None
+        if not self._spoken:
+            self._spoken, self._before = list(self._before), deque()
+        self._spoken.append(block)
+        self._loud_s += seconds * loud
+        self._quiet_s = 0.0 if loud else self._quiet_s + seconds
+        return self.end() if self._quiet_s >= PAUSE_S or self._length_s > MOST_S else None
+
+    def end(self) -> Sound | None:
+        """What was said last, if it is an utterance."""
+        whole, said = self._spoken, self._loud_s >= SHORTEST_S and self._length_s <= MOST_S
+        if self._length_s > MOST_S:
+            self._noise = self._level  # what is as loud all the time is noise, from now on
+        self._spoken, self._loud_s, self._quiet_s = [], 0.0, 0.0
+        return np.concatenate(whole) if said and whole else None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether an utterance has begun."""
+        return bool(self._spoken)
+
+    @property
+    def _length_s(self) -> float:
+        return sum(map(len, self._spoken)) / RATE_HZ

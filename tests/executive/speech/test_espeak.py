@@ -1,0 +1,61 @@
+"""A voice that is a program: espeak-ng, or one that stands in for it."""
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from executive.errors import InputError
+from executive.speech.espeak import MOST_WAITING, EspeakVoice
+
+
+def program(folder: Path, does: str) -> str:
+    path = folder / "speaks"
+    path.write_text(f"#!/bin/sh\n{does}\n")
+    path.chmod(0o755)
+    return str(path)
+
+
+def wait_for(condition: Callable[[], bool]) -> None:
+    for _ in range(1000):
+        if condition():
+            return
+        threading.Event().wait(0.01)
+    raise AssertionError("it never came so far")
+
+
+def test_sentences_are_said_in_their_order_whatever_is_in_them(tmp_path: Path) -> None:
+    said = tmp_path / "said"
+    voice = EspeakVoice(program(tmp_path, f"cat >> '{said}'; echo >> '{said}'"))
+    for text in ("Hello.", "-w $(rm -rf /)\nnext", "", "Good bye."):
+        voice.say(text)
+    wait_for(lambda: not voice.speaks)
+    assert said.read_text().splitlines() == ["Hello.", "-w $(rm -rf /) next", "Good bye."]
+    voice.close()
+
+
+def test_hushed_it_is_silent_at_once(tmp_path: Path) -> None:
+    voice = EspeakVoice(program(tmp_path, "exec sleep 1000"))
+    voice.say("A long story")
+    voice.say("and another one")
+    wait_for(lambda: voice._speaking is not None)
+    assert voice.speaks
+    voice.hush()
+    wait_for(lambda: not voice.speaks)
+    voice.close()
+
+
+def test_who_talks_too_much_is_cut_short(tmp_path: Path) -> None:
+    voice = EspeakVoice(program(tmp_path, "exec sleep 1000"))
+    for _ in range(1000):
+        voice.say("and so on")
+    assert voice._left == MOST_WAITING
+    voice.close()
+
+
+def test_a_program_that_is_not_there_is_told_with_what_would_be_right() -> None:
+    with pytest.raises(
+        InputError, match="--voice espeak-ng: there is no such program; apt install"
+    ):
+        EspeakVoice("no-such-program")
