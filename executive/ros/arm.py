@@ -134,7 +134,7 @@ class Arm:
         ways = await self._ways(detection)
         if why := await self._grip(self._gripper.open):
             return Failed(f"my hand does not open: {why}")
-        self._held, why = None, ""
+        self._held, why = None, "I know no way from here"
         for hold in ways[:MOST_TRIES]:
             why = await self._reach(hold)
             if not why:
