@@ -95,8 +95,6 @@ class HoldWhereToLook(HoldChoice):
     Reads and writes search.candidate and search.candidates.
     """
 
-    source = EXPERIMENTER
-
     def choice(self) -> Choice:
         """The candidate at hand."""
         assert self.situation.search.candidate
