@@ -229,7 +229,8 @@ async def news(board: Board, known: int) -> AsyncIterator[str]:
             if over:
                 return
             try:
-                await asyncio.wait_for(changed.wait(), HEARTBEAT_S)
+                async with asyncio.timeout(HEARTBEAT_S):
+                    await changed.wait()
             except TimeoutError:
                 yield ": \n\n"
     finally:

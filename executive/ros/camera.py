@@ -95,7 +95,8 @@ class WireCamera:
             self._link.subscribe(topics.depth, image, collector.take_depth),
         ]
         try:
-            return await asyncio.wait_for(collector.pair, topics.late_s)
+            async with asyncio.timeout(topics.late_s):
+                return await collector.pair
         except TimeoutError:
             missing = collector.missing(topics.color, topics.depth, topics.info)
             raise LinkError(f"no picture came in {topics.late_s:g} s: {missing}") from None

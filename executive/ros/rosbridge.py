@@ -52,7 +52,8 @@ class RosbridgeLink:
     async def ready(self, within_s: float) -> None:
         """Wait for both sockets, and until the robot is greeted."""
         try:
-            await asyncio.wait_for(self._ready.wait(), within_s)
+            async with asyncio.timeout(within_s):
+                await self._ready.wait()
         except TimeoutError:
             why = self.loss or "it does not answer"
             raise LinkError(f"there is no link to the robot: {why}") from None
@@ -91,7 +92,8 @@ class RosbridgeLink:
         peer = self._stop if urgent else self._work
         asked = CallService(service, request, peer.number(), kind)
         try:
-            answer = await asyncio.wait_for(peer.ask(asked), within_s)
+            async with asyncio.timeout(within_s):
+                answer = await peer.ask(asked)
         except TimeoutError:
             raise LinkError(f"{service} does not answer") from None
         if not isinstance(answer, ServiceResponse) or not answer.result:

@@ -72,7 +72,8 @@ class Senses:
         self._felt.clear()
         self._subscribe_hand()
         with suppress(TimeoutError):
-            await asyncio.wait_for(self._felt.wait(), FEELING_S)
+            async with asyncio.timeout(FEELING_S):
+                await self._felt.wait()
 
     def _subscribe_hand(self) -> None:
         before, hand = self._hand, self._profile.hand
