@@ -102,10 +102,7 @@ class HoldWhereToLook(HoldChoice):
 
     def adopt(self, place: str) -> None:
         """Look there first."""
-        search = self.situation.search
-        search.candidate = Candidate(place, EXPERIMENTER)
-        others = (other for other in search.candidates if other.place != place)
-        search.candidates = (search.candidate, *others)
+        self.situation.search.look_first(Candidate(place, EXPERIMENTER))
 
 
 class HoldGoal(HoldChoice):

@@ -76,6 +76,11 @@ class Search:
         """Whether the thing was found at the delivery place."""
         return self.found is not None and self.found.place == DELIVERY
 
+    def look_first(self, candidate: Candidate) -> None:
+        """Look there next, and then where it was to be looked anyway."""
+        others = (other for other in self.candidates if other.place != candidate.place)
+        self.candidate, self.candidates = candidate, (candidate, *others)
+
     def not_visited(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
         """The candidates less the places where the robot has looked already."""
         return tuple(c for c in candidates if c.place not in self.looks.visited)
