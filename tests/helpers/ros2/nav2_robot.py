@@ -4,6 +4,7 @@ import math
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -45,7 +46,14 @@ class Nav2Robot:
         )
         self._out = self._publishers()
         self.node.create_timer(PERIOD_S, self._tell)
-        threading.Thread(target=self.executor.spin, daemon=True).start()
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def _run(self) -> None:
+        """A client that goes away in the wrong moment ends what rclpy of Kilted is at: go on."""
+        while True:
+            with suppress(SystemError):
+                self.executor.spin()
+                return
 
     def close(self) -> None:
         self.executor.shutdown(timeout_sec=1.0)
