@@ -81,6 +81,11 @@ def matrix_of(orientation: Quaternion) -> Floats:
     )
 
 
+def heading(yaw: float) -> Quaternion:
+    """The quaternion of a turn to the left, seen from above (radians)."""
+    return 0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)
+
+
 def orientation_of(angles: Sequence[float]) -> Quaternion:
     """The quaternion of turns (radians) about x, then y, then z, axes that do not turn along."""
     orientation = _about(0, angles[0])

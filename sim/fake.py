@@ -13,6 +13,7 @@ from itertools import count
 import numpy as np
 
 from executive.events import Inbox
+from executive.geometry import heading
 from executive.interfaces import Recorder
 from executive.perception.tags import spot, spots, tag, whole
 from executive.records import Transform, Transforms
@@ -166,7 +167,7 @@ class FakeWorld:
     def describe(self) -> None:
         """Record where the robot is."""
         x, y, yaw = self.pose
-        orientation = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+        orientation = heading(yaw)
         base = Transform("map", "base_link", Pose((x, y, 0.0), orientation))
         self.recorder.record(Transforms((base,)))
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from executive.geometry import heading
 from executive.ros.packets import PacketError
 from executive.ros.protocol import Message
 from executive.types import Pose, Quaternion, Vector3
@@ -79,7 +80,7 @@ def point_stamped(point: Vector3, frame: str) -> Message:
 
 def planar_pose(x: float, y: float, yaw: float, frame: str) -> Message:
     """A `geometry_msgs/PoseStamped` on the floor."""
-    turn = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+    turn = heading(yaw)
     return pose_stamped((x, y, 0.0), turn, frame)
 
 

@@ -10,7 +10,7 @@ from executive.events import Inbox
 from executive.geometry import Floats
 from executive.guards import in_words
 from executive.ros.actions import Actions
-from executive.ros.arm import Arm, Hands
+from executive.ros.arm import Arm, Hands, Planar
 from executive.ros.link import GoalEnd, Link, LinkError
 from executive.ros.looking import Looking
 from executive.ros.messages import (
@@ -52,7 +52,7 @@ STOPPING_S = 3.0
 class Places(Protocol):
     """The home, as far as a robot has to know it."""
 
-    def stand(self, place: str) -> tuple[float, float, float]:
+    def stand(self, place: str) -> Planar:
         """Where to stand to use a place: x and y in `map` (metres), yaw (radians)."""
         ...
 
@@ -254,13 +254,13 @@ class WireRobot:
         self._at = place
         return Succeeded()
 
-    async def _go(self, pose: tuple[float, float, float]) -> str:
+    async def _go(self, pose: Planar) -> str:
         """Drive there, near where the robot is; why that failed, or nothing."""
         where = planar_pose(*pose, self._profile.frames.map)
         end = await self._act("drive", {"pose": where, "place": self._at or ""})
         return "" if end.succeeded else self._actions.failure(end, "I cannot drive there").reason
 
-    def _stand(self, place: str) -> tuple[float, float, float] | None:
+    def _stand(self, place: str) -> Planar | None:
         try:
             return self._places.stand(place)
         except InputError:

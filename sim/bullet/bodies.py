@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import carried_by
 from executive.records import Entity, Shape
 from executive.types import Color, Pose, Vector3
 from sim.engine import BulletClient
@@ -186,8 +187,4 @@ def _fixtures(home: Home) -> Iterator[tuple[str, tuple[Shape, ...], Pose]]:
 
 def _moved(shapes: Sequence[Shape], pose: Pose) -> tuple[Shape, ...]:
     """Shapes of a frame that is at `pose`, seen from the parent frame."""
-    turn = Rotation.from_quat(pose.orientation)
-    positions = turn.apply([shape.pose.position for shape in shapes]) + pose.position
-    turned = turn * Rotation.from_quat([shape.pose.orientation for shape in shapes])
-    poses = map(Pose, map(tuple, positions.tolist()), map(tuple, turned.as_quat().tolist()))
-    return tuple(replace(shape, pose=at) for shape, at in zip(shapes, poses, strict=True))
+    return tuple(replace(shape, pose=carried_by(pose, shape.pose)) for shape in shapes)

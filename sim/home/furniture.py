@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from executive.geometry import heading
 from executive.records import Shape
 from executive.types import Color, Pose, Vector3
 from sim.home.floorplan import Coordinate, Length
@@ -149,7 +150,7 @@ class Furniture(BaseModel):
     def frame(self) -> Pose:
         """Its frame in `map`."""
         x, y, yaw = self.pose
-        return Pose((x, y, 0.0), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+        return Pose((x, y, 0.0), heading(yaw))
 
     def corners(self) -> tuple[tuple[float, float], ...]:
         """Corners of its outline on the floor, around it, in `map` (metres)."""

@@ -16,6 +16,7 @@ from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.files import decoded, read_bytes
+from executive.geometry import heading
 from executive.toml_file import MOST_BYTES, packaged, parse_toml
 from executive.types import DELIVERY, PERSON, Place, Pose, Thing, Vector3
 from sim.home.arrangement import Spot, Standing, arrange
@@ -175,7 +176,7 @@ class Home(BaseModel):
         piece = self.furniture_named(self.objects[name].furniture)
         yaw = piece.pose[2] + standing.yaw
         position = piece.to_map((standing.x, standing.y, standing.z))
-        return Pose(position, (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+        return Pose(position, heading(yaw))
 
     def view_targets(self, place: str) -> tuple[Vector3, ...]:
         """Points to look at, from where the robot stands, to see all that stands on a place.

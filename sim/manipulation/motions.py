@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats, carried_by
+from executive.geometry import Floats, carried_by, heading
 from executive.types import Pose
 from sim.body.arm import follow
 from sim.body.hardware import ARM, Hardware
@@ -48,7 +48,7 @@ class Motions:
             CannotError: if there is no way, or something is in it.
         """
         x, y, yaw = self._hardware.base_pose
-        base = Pose((x, y, 0.0), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
+        base = Pose((x, y, 0.0), heading(yaw))
         there = carried_by(base, goal.pose)
         target = HandPose(np.array(there.position), Rotation.from_quat(there.orientation))
         yield from self._go(partial(self._way_to, target, goal.straight), goal)

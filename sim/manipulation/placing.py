@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats
+from executive.geometry import Floats, heading
 from executive.types import Pose
 from sim.home.furniture import OPEN, Surface
 from sim.home.home import Furniture
@@ -148,4 +148,4 @@ def _fits(surface: Surface, right: float, left: float) -> bool:
 
 def _pose(piece: Furniture, point: tuple[float, float, float], turn: float) -> Pose:
     yaw = piece.pose[2] + turn
-    return Pose(piece.to_map(point), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
+    return Pose(piece.to_map(point), heading(yaw))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from executive.geometry import Floats
+from executive.geometry import Floats, heading
 from executive.types import Pose
 from sim.manipulation.fitting import least_squares
 from sim.objects.distance import distance_to
@@ -94,7 +94,7 @@ class _Fit:
     def pose(self) -> Pose:
         """In `map`."""
         x, y, z, yaw = (float(value) for value in self.guess)
-        return Pose((x, y, z), (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2))))
+        return Pose((x, y, z), heading(yaw))
 
     def doubt(self, support: float) -> float:
         """How far its surface is off the points, and its base off what it is on (metres)."""

@@ -3,6 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Protocol
 
+from executive.geometry import heading
 from executive.interfaces import Camera, SimulatedHome
 from executive.records import Transform
 from executive.types import FLOOR, PERSON, DriveTo, Goal, LookAt, Pose, Vector3
@@ -202,7 +203,7 @@ class FakeBody:
     def frames(self) -> tuple[Transform, ...]:
         """The camera looks down from above the base."""
         x, y, yaw = self.pose
-        turn = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+        turn = heading(yaw)
         eye = Pose((0.0, 0.0, EYE_HEIGHT_M), (math.cos(yaw / 2), -math.sin(yaw / 2), 0.0, 0.0))
         return (
             Transform("map", "base_link", Pose((x, y, 0.0), turn)),

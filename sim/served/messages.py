@@ -3,13 +3,13 @@
 Stamps are of the robot's own clock (nanoseconds); frames and units are those of REP-103 and 105.
 """
 
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from executive.geometry import heading
 from executive.records import Transform
 from executive.ros.protocol import Message
 from executive.types import Frame, Intrinsics, Pose, Quaternion, Vector3
@@ -44,7 +44,7 @@ def touch(holding: bool) -> Message:
 def planar_pose(pose: Planar) -> Message:
     """`geometry_msgs/msg/Pose` on the floor."""
     x, y, yaw = pose
-    turn = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+    turn = heading(yaw)
     return {"position": _vector((x, y, 0.0)), "orientation": _quaternion(turn)}
 
 
