@@ -188,6 +188,7 @@ def test_messages_go_both_ways(wire: tuple[WireThread, RclpyLink], node: Node) -
 
 def test_what_the_robot_offers_is_told_with_types(wire: tuple[WireThread, RclpyLink]) -> None:
     thread, link = wire
+    until(lambda: "/out" in thread.run(link.offers()).topics)  # a busy machine discovers late
     offers = thread.run(link.offers())
     assert offers.actions[ACTION] == KIND
     assert offers.topics["/out"] == "std_msgs/msg/String"
