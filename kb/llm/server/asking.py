@@ -14,14 +14,14 @@ from typing import Any
 
 import httpx2
 
+from executive.servers.address import bases_of, is_this_machine, without_secrets
+from executive.servers.key import LLM_KEY, Key
+from executive.servers.refusal import MOST_BYTES, MOST_CHARACTERS, Refused, refusal
 from executive.text import printable, writable
 from executive.types import ChatRequest, Failed
-from kb.llm.key import VARIABLE, Key
-from kb.llm.server.address import bases_of, is_this_machine, without_secrets
 from kb.llm.server.dialect import Dialect
 from kb.llm.server.listing import chat_models, is_about_the_model
 from kb.llm.server.packed import NotUnpacked, unpacked
-from kb.llm.server.refusal import MOST_BYTES, MOST_CHARACTERS, Refused, refusal
 from kb.llm.server.wire import BrokenOff, NotJson, Written, objects
 
 PAUSE_S = 0.5
@@ -245,7 +245,7 @@ class Asking:
 
     def _advice(self, refused: Refused) -> str:
         if refused.status in DENIED:
-            return f"; check {VARIABLE}" if self._key else f"; set {VARIABLE}"
+            return f"; check {LLM_KEY}" if self._key else f"; set {LLM_KEY}"
         if self._named and self._listed and is_about_the_model(refused):
             return f"; the server has {self._shortly(', '.join(self._listed))}"
         return ""
