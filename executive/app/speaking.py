@@ -5,6 +5,8 @@ from contextlib import ExitStack
 from executive.app.parts import Parts
 from executive.errors import InputError
 from executive.language.phrases import spoken
+from executive.servers.key import EARS_KEY, Key
+from executive.speech.agreeing import Agreeing
 from executive.speech.doubt import Doubt
 from executive.speech.espeak import EspeakVoice
 from executive.speech.interfaces import Ears, Vocabulary, Voice
@@ -41,16 +43,41 @@ def listen(parts: Parts, person: Console, voice: Voice | None, opened: ExitStack
     Raises:
         InputError: if ears or microphone cannot be had.
     """
-    from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
-    from executive.speech.spotting import StopSpotter
+    from executive.speech.spotting import StopSpotter  # of the extra `speech`
 
-    blocks = microphone(parts.settings.microphone)
-    ears: Ears = PocketsphinxEars(vocabulary(parts.knowledge))
+    ears = ears_of(parts, person)
     opened.callback(ears.close)
+    spotter, blocks = StopSpotter(), microphone(parts.settings.microphone)
     doubt = Doubt(person, parts.interpreter, parts.inbox)
-    listening = Listening(blocks, ears, doubt, person, spotter=StopSpotter(), voice=voice)
+    listening = Listening(blocks, ears, doubt, person, spotter=spotter, voice=voice)
     opened.callback(listening.close)
     listening.start()
+
+
+def ears_of(parts: Parts, person: Console) -> Ears:
+    """The ears that the settings name; the person is told where sound goes.
+
+    Raises:
+        InputError: if they cannot be had.
+    """
+    from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
+
+    settings = parts.settings
+    local = PocketsphinxEars(vocabulary(parts.knowledge))
+    if settings.ears in (None, local.name):
+        return local
+    from executive.speech.server import ServerEars  # loads a client of HTTP
+
+    server = ServerEars(
+        settings.ears,
+        model=settings.ears_model,
+        language=settings.ears_language,
+        key=Key.from_environment(EARS_KEY),
+        timeout_s=settings.ears_timeout_s,
+    )
+    if server.note:
+        person.mention(server.note)
+    return Agreeing(server, local, parts.interpreter.agrees)
 
 
 def vocabulary(knowledge: Ontology) -> Vocabulary:

@@ -25,6 +25,8 @@ class Utterances:
         """Nothing was heard yet."""
         self._noise = LEAST / OVER_NOISE
         self._level = 0.0
+        self.is_loud = False
+        """Whether the last block was as loud as speech is."""
         self._before: deque[Sound] = deque()
         self._spoken: list[Sound] = []
         self._loud_s = self._quiet_s = 0.0
@@ -34,7 +36,7 @@ class Utterances:
         level = float(np.sqrt(np.mean(block.astype(np.float64) ** 2))) if len(block) else 0.0
         self._level = level
         seconds = len(block) / RATE_HZ
-        loud = level > max(LEAST, OVER_NOISE * self._noise)
+        self.is_loud = loud = level > max(LEAST, OVER_NOISE * self._noise)
         if not self._spoken and not loud:
             self._noise += 0.1 * (level - self._noise)
             self._before.append(block)
