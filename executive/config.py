@@ -119,7 +119,7 @@ class Settings(BaseModel):
     user: Annotated[Literal["console", "oracle", "none"], Option()] = Field(
         "console", description="who answers: you, the paper's simulated user, or nobody"
     )
-    ears: Annotated[str | None, Option("pocketsphinx or http://host:port/v1")] = Field(
+    ears: Annotated[str | None, Option("pocketsphinx, http://host:port/v1 or DIR/")] = Field(
         None, description="who hears what you say aloud (docs/speech.md)"
     )
     ears_model: str | None = Field(
@@ -234,11 +234,13 @@ class Settings(BaseModel):
     @field_validator("ears")
     @classmethod
     def _known_ears(cls, value: str | None) -> str | None:
-        if value in (None, "pocketsphinx"):
+        if value is None or value == "pocketsphinx" or value.startswith((".", "/", "~")):
             return value
         if value.startswith(("http://", "https://")):
             return _address(value, "EXECUTIVE_EARS_API_KEY")
-        raise ValueError("should be 'pocketsphinx' or http://host:port/v1")
+        raise ValueError(
+            "should be 'pocketsphinx', http://host:port/v1 or a folder such as ./models/whisper"
+        )
 
     @field_validator("llm_model", "ears_model")
     @classmethod

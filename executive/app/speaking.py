@@ -1,6 +1,7 @@
 """Gives a person ears that hear them, and a voice, as the settings say."""
 
 from contextlib import ExitStack
+from pathlib import Path
 
 from executive.app.parts import Parts
 from executive.errors import InputError
@@ -66,6 +67,12 @@ def ears_of(parts: Parts, person: Console) -> Ears:
     local = PocketsphinxEars(vocabulary(parts.knowledge))
     if settings.ears in (None, local.name):
         return local
+    if not settings.ears.startswith("http"):
+        from executive.speech.sherpa import SherpaEars  # of the extra `speech-onnx`
+
+        folder = Path(settings.ears).expanduser()
+        own = SherpaEars(folder, settings.ears_language)
+        return Agreeing(own, local, parts.interpreter.agrees)
     from executive.speech.server import ServerEars  # loads a client of HTTP
 
     server = ServerEars(

@@ -1,4 +1,4 @@
-"""What a server writes of what it heard: `POST /v1/audio/transcriptions`, as OpenAI has it."""
+"""What a model writes of what it heard, and a server's reply as OpenAI has it."""
 
 import json
 import math
@@ -52,11 +52,11 @@ def transcript(body: bytes) -> Transcript:
     if pieces and all(silent > NO_SPEECH and likely < HARDLY for likely, silent in pieces):
         return Transcript("")
     likely = min((likely for likely, _ in pieces), default=-math.inf)
-    return Transcript(_said(text), round(min(1.0, math.exp(min(likely, 0.0))), 3))
+    return Transcript(said(text), round(min(1.0, math.exp(min(likely, 0.0))), 3))
 
 
-def _said(text: str) -> str:
-    """The words, in a line; empty if there are none, or more than anybody says."""
+def said(text: str) -> str:
+    """The words in what a model wrote, in a line; empty if there are none, or too many."""
     words = one_line(_ASIDE.sub(" ", writable(text[: 4 * MOST_CHARACTERS])))
     spoken = any(map(str.isalnum, words)) and len(words) <= MOST_CHARACTERS
     return words if spoken else ""
