@@ -7,6 +7,7 @@ from executive.errors import ExecutiveError
 from executive.speech.doubt import Doubt
 from executive.speech.hearing import Hearing
 from executive.speech.interfaces import Ears, Voice
+from executive.speech.interrupting import Interrupting
 from executive.speech.overlap import Overlapping
 from executive.speech.sound import RATE_HZ, Sound
 from executive.speech.spotting import StopSpotter
@@ -43,6 +44,7 @@ class Listening:
         self._voice = voice
         self._closed = False
         self._hearing = Hearing(ears, doubt)
+        self._interrupting = Interrupting()
         self._dead_s = 0.0
         self._thread = threading.Thread(target=self._listen, name="ears", daemon=True)
 
@@ -76,8 +78,10 @@ class Listening:
                 cut, overlapping = Utterances(), Overlapping()
                 continue
             self._notice_a_dead_one(block)
-            said = cut.add(block)
-            overlapping.add(saying, len(block) / RATE_HZ, loud=cut.is_loud)
+            said, seconds = cut.add(block), len(block) / RATE_HZ
+            overlapping.add(saying, seconds, loud=cut.is_loud)
+            if self._interrupting.add(cut.level, seconds, speaking=bool(saying)):
+                self._give_way(overlapping)
             if said is not None:
                 self._hearing.add(said, overlapping.take())
             elif not cut.is_open:
@@ -95,6 +99,12 @@ class Listening:
             self._voice.hush()
         self._doubt.stop(busy=busy)
         return True
+
+    def _give_way(self, overlapping: Overlapping) -> None:
+        """Somebody speaks into the robot's words: it lets them."""
+        overlapping.interrupted()
+        if self._voice:
+            self._voice.hush()
 
     def _notice_a_dead_one(self, block: Sound) -> None:
         """Say once that the microphone seems to be switched off."""

@@ -14,7 +14,7 @@ class Overlap:
 
     Attributes:
         own: its words; empty if it was silent.
-        beside: whether somebody else spoke as well, before it began or after it had ended.
+        beside: whether somebody else spoke as well: before it began, after it had ended, or louder.
     """
 
     own: str = ""
@@ -30,6 +30,7 @@ class Overlapping:
     def __init__(self) -> None:
         """Nothing was heard yet."""
         self._said: list[str] = []
+        self._interrupted = False
         self._tail_s = 0.0
         self._beside_s = 0.0
 
@@ -44,8 +45,13 @@ class Overlapping:
         elif loud:
             self._beside_s += seconds
 
+    def interrupted(self) -> None:
+        """Somebody else spoke into the robot's words."""
+        self._interrupted = True
+
     def take(self) -> Overlap:
         """What it was of the utterance that has ended; the next one begins."""
-        found = Overlap(" ".join(self._said), bool(self._said) and self._beside_s >= LEAST_S)
-        self._said, self._beside_s = [], 0.0
+        beside = self._interrupted or self._beside_s >= LEAST_S
+        found = Overlap(" ".join(self._said), bool(self._said) and beside)
+        self._said, self._beside_s, self._interrupted = [], 0.0, False
         return found

@@ -24,7 +24,8 @@ class Utterances:
     def __init__(self) -> None:
         """Nothing was heard yet."""
         self._noise = LEAST / OVER_NOISE
-        self._level = 0.0
+        self.level = 0.0
+        """Root mean square of the last block."""
         self.is_loud = False
         """Whether the last block was as loud as speech is."""
         self._before: deque[Sound] = deque()
@@ -34,7 +35,7 @@ class Utterances:
     def add(self, block: Sound) -> Sound | None:
         """An utterance that ended with this block; None if none did."""
         level = float(np.sqrt(np.mean(block.astype(np.float64) ** 2))) if len(block) else 0.0
-        self._level = level
+        self.level = level
         seconds = len(block) / RATE_HZ
         self.is_loud = loud = level > max(LEAST, OVER_NOISE * self._noise)
         if not self._spoken and not loud:
@@ -54,7 +55,7 @@ class Utterances:
         """What was said last, if it is an utterance."""
         whole, said = self._spoken, self._loud_s >= SHORTEST_S and self._length_s <= MOST_S
         if self._length_s > MOST_S:
-            self._noise = self._level  # what is as loud all the time is noise, from now on
+            self._noise = self.level  # what is as loud all the time is noise, from now on
         self._spoken, self._loud_s, self._quiet_s = [], 0.0, 0.0
         return np.concatenate(whole) if said and whole else None
 

@@ -200,3 +200,28 @@ def test_a_microphone_that_breaks_off_is_told() -> None:
 def test_a_microphone_that_is_switched_off_is_told_once() -> None:
     told = Room().listens([(0 * QUIET, "")] * 250)
     assert told.count(DEAD) == 1
+
+
+STORY = "It is a long story."
+
+
+@pytest.mark.parametrize("own", [0, 3], ids=["by headphones", "by a loudspeaker"])
+def test_it_falls_silent_for_who_is_louder_and_tells_what_was_not_understood(own: int) -> None:
+    room, robot = Room("", ""), np.full(BLOCK, 1 + 1000 * own, dtype=np.int16)
+    told = room.listens(
+        [(robot, STORY)] * 30, silence(), speech(0.2, robot=STORY), speech(1), silence()
+    )
+    assert room.hushed == 1
+    assert OVERSPOKEN in told
+
+
+def test_it_goes_on_when_nobody_is_louder_than_itself() -> None:
+    room = Room("")
+    room.listens(speech(5, robot=STORY), silence())
+    assert room.hushed == 0
+
+
+def test_it_has_to_know_its_own_voice_before_it_gives_way() -> None:
+    room = Room("")
+    room.listens(silence(1, robot=STORY), speech(3, robot=STORY), silence())
+    assert room.hushed == 0
