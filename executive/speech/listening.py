@@ -19,6 +19,9 @@ DEAD_S = 10.0
 """A microphone that gives nothing but zeros for so long is switched off."""
 DEAD = "I hear nothing at all, not even noise. Is the microphone switched off?"
 
+TOO_LONG = "What I hear is too long for a command, or noise."
+NOBODY = "The sound has ended, and I have heard nobody speak."
+
 
 class Listening:
     """What the microphone hears goes to the ears, and what they make of it to the person's side.
@@ -46,6 +49,10 @@ class Listening:
         self._hearing = Hearing(ears, doubt)
         self._interrupting = Interrupting()
         self._dead_s = 0.0
+        self._understands = True
+        """Whether what was heard last could be a command: else it has been told already."""
+        self._heard = False
+        """Whether anybody has been heard."""
         self._thread = threading.Thread(target=self._listen, name="ears", daemon=True)
 
     def start(self) -> None:
@@ -61,6 +68,8 @@ class Listening:
     def _listen(self) -> None:
         try:
             self._listen_to_all()
+            if not (self._heard or self._closed):
+                self._person.mention(NOBODY)
         except (ExecutiveError, OSError, ValueError) as error:
             if not self._closed:
                 self._person.mention(f"I hear no more: {printable(error)}.")
@@ -83,11 +92,18 @@ class Listening:
             if self._interrupting.add(cut.level, seconds, speaking=bool(saying)):
                 self._give_way(overlapping)
             if said is not None:
-                self._hearing.add(said, overlapping.take())
+                self._add(said, overlapping)
             elif not cut.is_open:
                 overlapping.take()
+            if cut.too_long and self._understands:
+                self._understands = False
+                self._person.mention(TOO_LONG)
         if (said := cut.end()) is not None:
-            self._hearing.add(said, overlapping.take())
+            self._add(said, overlapping)
+
+    def _add(self, said: Sound, overlapping: Overlapping) -> None:
+        self._heard = self._understands = True
+        self._hearing.add(said, overlapping.take())
 
     def _hears_stop(self, block: Sound, saying: str) -> bool:
         """Whether it ends a spoken stop: what runs is stopped, and the voice is silent."""

@@ -12,7 +12,7 @@ from executive.events import Heard, Inbox, Listened, StopRequested
 from executive.language.grammar import EnglishInterpreter
 from executive.speech.doubt import OVERSPOKEN, TOO_MUCH, Doubt
 from executive.speech.interfaces import Reading
-from executive.speech.listening import DEAD, Listening
+from executive.speech.listening import DEAD, NOBODY, TOO_LONG, Listening
 from executive.speech.microphone import BLOCK
 from executive.speech.sound import Sound
 from executive.user import Console
@@ -200,6 +200,17 @@ def test_a_microphone_that_breaks_off_is_told() -> None:
 def test_a_microphone_that_is_switched_off_is_told_once() -> None:
     told = Room().listens([(0 * QUIET, "")] * 250)
     assert told.count(DEAD) == 1
+
+
+def test_noise_that_goes_on_is_told_once_until_somebody_speaks() -> None:
+    room = Room("bring the mug")
+    told = room.listens(speech(16), silence(2), speech(40), silence(20), speech(1), silence())
+    assert told.count(TOO_LONG) == 1
+    assert "Did you say: bring the mug?" in told
+
+
+def test_sound_in_which_nobody_speaks_is_told_when_it_ends() -> None:
+    assert NOBODY in Room().listens(silence(3))
 
 
 STORY = "It is a long story."
