@@ -102,5 +102,5 @@ function labelOf(name, things) {
 function pictureOf(name, things) {
   if (!things[name]?.picture) return null;
   const source = address(`/thing/${encodeURIComponent(name)}.png`);
-  return element("img", { src: source, alt: "", width: 160, height: 160, loading: "lazy" });
+  return element("img", { src: source, alt: "", width: 160, height: 160 });
 }

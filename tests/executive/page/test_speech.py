@@ -205,7 +205,7 @@ def test_what_the_robot_says_is_said_aloud_if_that_is_wanted(
         say(tab, "hello")
         expect(tab.locator("#said .robot")).to_have_count(1)
         assert not aloud(tab)
-        tab.get_by_role("switch", name="Read aloud what the robot says").check()
+        tab.get_by_role("switch", name="Read aloud").check()
         say(tab, "hello")
         assert aloud(tab, 1) == ["Hello!"]
         tab.reload()  # it is remembered, and nothing is said twice
