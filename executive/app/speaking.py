@@ -17,28 +17,35 @@ from executive.user import Console
 from kb.ontology.ontology import Ontology
 
 
-def speak_aloud(parts: Parts, opened: ExitStack) -> None:
+def speak_aloud(parts: Parts, opened: ExitStack) -> Doubt | None:
     """Begin to speak and to listen, if that is wanted; it ends with `opened`.
+
+    Returns:
+        Who takes in what ears hear, ours or a page's; None if there is no person to be heard.
 
     Raises:
         InputError: if something that it takes is not there, or nobody is there to be heard.
     """
     settings = parts.settings
-    if settings.ears is None and settings.voice is None:
-        return
     if not isinstance(parts.user, Console):
+        if settings.ears is None and settings.voice is None:
+            return None
         option = "--ears" if settings.ears else "--voice"
         raise InputError(option, "there is no person to talk with", "use --user console")
+    doubt = Doubt(parts.user, parts.interpreter, parts.inbox)
     voice = None
     if settings.voice:
         voice = EspeakVoice()
         opened.callback(voice.close)
         parts.user.aloud = voice.say
     if settings.ears:
-        listen(parts, parts.user, voice, opened)
+        listen(parts, parts.user, doubt, voice, opened)
+    return doubt
 
 
-def listen(parts: Parts, person: Console, voice: Voice | None, opened: ExitStack) -> None:
+def listen(
+    parts: Parts, person: Console, doubt: Doubt, voice: Voice | None, opened: ExitStack
+) -> None:
     """Hear the person from now on.
 
     Raises:
@@ -49,7 +56,6 @@ def listen(parts: Parts, person: Console, voice: Voice | None, opened: ExitStack
     ears = ears_of(parts, person)
     opened.callback(ears.close)
     spotter, blocks = StopSpotter(), microphone(parts.settings.microphone)
-    doubt = Doubt(person, parts.interpreter, parts.inbox)
     listening = Listening(blocks, ears, doubt, person, spotter=spotter, voice=voice)
     opened.callback(listening.close)
     listening.start()

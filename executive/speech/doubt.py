@@ -4,7 +4,7 @@ import re
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from executive.events import Inbox, Listened
 from executive.interfaces import Interpreter
@@ -30,6 +30,24 @@ SPOTTER = "spotter"
 """Who hears a stop, in logs."""
 
 
+@dataclass(frozen=True, slots=True)
+class AskedBack:
+    """Words that are done when the person says yes to them.
+
+    Attributes:
+        number: tells it from what is asked back before and after.
+        words: what was heard.
+    """
+
+    number: int
+    words: str
+
+    @property
+    def text(self) -> str:
+        """As the person is asked."""
+        return f"Did you say: {_bare(self.words)}?"
+
+
 class Doubt:
     """Between the ears and the person: lets through what is certain, and asks about the rest.
 
@@ -49,9 +67,17 @@ class Doubt:
         self._inbox = inbox
         self._now = now
         self._lock = threading.Lock()
-        self._asked = ""
+        self._number = 0
+        self._asked: AskedBack | None = None
         self._until = 0.0
+        self.changed: Callable[[], None] = lambda: None
+        """Is called when something is asked back, and when it is no longer."""
         person.first = self.takes
+
+    @property
+    def asked_back(self) -> AskedBack | None:
+        """What a button may still answer; None if there is nothing."""
+        return self._asked
 
     def hear(self, reading: Reading, overlap: Overlap = NONE) -> None:
         """The ears understood this, and the robot spoke meanwhile or not.
@@ -100,6 +126,24 @@ class Doubt:
         if busy:
             self._person.says("stop")
 
+    def settle(self, number: int, *, agrees: bool) -> bool:
+        """A button was pressed; False if this is not asked back any more.
+
+        It answers nothing else, however late it comes, so it has all the time that it takes.
+        """
+        with self._lock:
+            asked = self._asked
+            if asked is None or asked.number != number:
+                return False
+            self._asked = None
+        self.changed()
+        self._do(asked.words, agrees=agrees)
+        return True
+
+    def forget(self) -> None:
+        """Ask nothing back any more: the person has done something else."""
+        self._take()
+
     def takes(self, line: str) -> bool:
         """Whether a line that was typed, or said with certainty, answers what was asked back.
 
@@ -109,10 +153,7 @@ class Doubt:
         agrees = self._interpreter.agrees(line) if asked else None
         if agrees is None or control(line):
             return False
-        if agrees:
-            self._person.says(asked)
-        else:
-            self._person.mention(DROPPED)
+        self._do(asked, agrees=agrees)
         return True
 
     def _is_own(self, text: str, own: str) -> bool:
@@ -129,6 +170,9 @@ class Doubt:
             return
         self._log(reading, "an answer")
         self._take()
+        self._do(asked, agrees=bool(agrees))
+
+    def _do(self, asked: str, *, agrees: bool) -> None:
         if agrees:
             self._person.says(asked)
         else:
@@ -136,8 +180,11 @@ class Doubt:
 
     def _ask(self, text: str) -> None:
         with self._lock:
-            self._asked, self._until = text, self._now() + PATIENCE_S
-        self._person.mention(f"Did you say: {_bare(text)}?")
+            self._number += 1
+            self._asked = asked = AskedBack(self._number, text)
+            self._until = self._now() + PATIENCE_S
+        self._person.mention(asked.text)
+        self.changed()
 
     def _question(self, asked: str) -> str:
         return f"{YES_OR_NO}: {_bare(asked)}?"
@@ -145,14 +192,16 @@ class Doubt:
     def _waiting(self) -> str:
         """What was asked back and may still be answered; empty if there is nothing."""
         with self._lock:
-            return self._asked if self._now() < self._until else ""
+            return self._asked.words if self._asked and self._now() < self._until else ""
 
     def _take(self) -> str:
         """The same, and ask it no longer."""
-        asked = self._waiting()
+        words = self._waiting()
         with self._lock:
-            self._asked = ""
-        return asked
+            was, self._asked = self._asked, None
+        if was:
+            self.changed()
+        return words
 
     def _log(self, reading: Reading, became: str) -> None:
         self._inbox.post(Listened(reading.by, reading.text, reading.confidence, became))
