@@ -1,5 +1,6 @@
 """A voice: the program espeak-ng, which speaks by itself."""
 
+import logging
 import re
 import shutil
 import subprocess
@@ -8,7 +9,7 @@ from collections import deque
 from contextlib import suppress
 
 from executive.errors import InputError
-from executive.text import one_line
+from executive.text import one_line, printable
 
 PROGRAM = "espeak-ng"
 RIGHT = "apt install espeak-ng, or leave --voice out"
@@ -16,8 +17,10 @@ MOST_CHARACTERS = 500
 """Of what is said aloud at a time: nobody listens longer."""
 MOST_WAITING = 20
 """Sentences: what is said later than that is of no use any more."""
+FAULT = "error: "
 _STOP = re.compile(r"\bstop(ped|ping|s)?\b", re.IGNORECASE)
 _HALT = {"": "halt", "ped": "halted", "ping": "halting", "s": "halts"}
+log = logging.getLogger(__name__)
 
 
 class EspeakVoice:
@@ -40,7 +43,7 @@ class EspeakVoice:
         """What is being said, and after it what waits."""
         self._changed = threading.Condition()
         self._speaking: subprocess.Popen[bytes] | None = None
-        self._closed = False
+        self._closed = self._is_faulty = False
         threading.Thread(target=self._speak, name="voice", daemon=True).start()
 
     def say(self, text: str) -> None:
@@ -93,9 +96,17 @@ class EspeakVoice:
                 return
             words = self._texts[0]
             self._speaking = process = subprocess.Popen(
-                self._command, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet
+                self._command, stdin=subprocess.PIPE, stdout=quiet, stderr=subprocess.PIPE
             )
-        process.communicate(words.encode())
+        _, said = process.communicate(words.encode())
+        self._notice(said.decode(errors="replace"))
+
+    def _notice(self, said: str) -> None:
+        """Without a loudspeaker it says so, and ends well: that is told once."""
+        faults = [line for line in said.splitlines() if line.lower().startswith(FAULT)]
+        if faults and not self._is_faulty:
+            self._is_faulty = True
+            log.warning("%s cannot be heard: %s", PROGRAM, printable(faults[-1][len(FAULT) :]))
 
 
 def _halt(found: re.Match[str]) -> str:

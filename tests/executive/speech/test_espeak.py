@@ -57,3 +57,14 @@ def test_it_says_halt_for_stop_so_as_not_to_stop_itself(tmp_path: Path) -> None:
     voice.say("Stopping. I stopped; there is nothing to stop at the stopwatch.")
     assert voice.saying == "halting. I halted; there is nothing to halt at the stopwatch."
     voice.close()
+
+
+def test_where_there_is_no_loudspeaker_it_is_told_once(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    voice = EspeakVoice(program(tmp_path, "echo 'ALSA lib' >&2; echo 'error: No such file' >&2"))
+    for text in ("Hello.", "Good bye."):
+        voice.say(text)
+    until(lambda: not voice.saying)
+    voice.close()
+    assert caplog.messages == ["espeak-ng cannot be heard: No such file"]
