@@ -11,6 +11,7 @@ from executive.language.control import Control, control
 from executive.language.grammar import EnglishInterpreter
 from executive.speech.doubt import FRESH_S, PATIENCE_S, UNCLEAR, Doubt
 from executive.speech.interfaces import Reading
+from executive.speech.overlap import Overlap
 from executive.user import Console
 
 ENGLISH = EnglishInterpreter()
@@ -132,6 +133,13 @@ def test_what_was_said_before_something_was_asked_back_is_no_answer_to_it(
     assert talk.done == []
     talk.hears("yes", sure=True, began=11.0)
     assert talk.done == ["bring the mug"]
+
+
+def test_a_yes_that_was_heard_while_the_robot_spoke_is_not_certain(talk: Talk) -> None:
+    talk.hears("bring the mug")
+    talk.doubt.hear(Reading("ears", "yes", 0.9, sure=True), Overlap("I look on the desk."))
+    assert "Please say yes or no: bring the mug?" in talk.out.getvalue()
+    assert talk.done == []
 
 
 def test_a_certain_yes_that_was_said_long_ago_answers_nothing_unasked(talk: Talk) -> None:

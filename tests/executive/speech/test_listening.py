@@ -116,13 +116,6 @@ def test_what_still_sounds_in_the_room_is_nobody() -> None:
     assert told == "I begin.\n"
 
 
-def test_a_yes_that_was_heard_while_the_robot_spoke_is_not_certain() -> None:
-    room = Room("bring the mug", Reading("ears", "yes", 0.9, sure=True))
-    told = room.listens(speech(1), silence(), speech(1, robot="I look."), silence())
-    assert "Please say yes or no: bring the mug?" in told
-    assert room.events == []
-
-
 @pytest.mark.parametrize("busy", [True, False])
 def test_a_stop_is_heard_while_the_robot_speaks_and_silences_it(busy: bool) -> None:
     room = Room(busy=busy)
