@@ -16,6 +16,7 @@ LIMITS = {
     "executive.ros.rclpy_link": ("SERVER_S",),
     "executive.ros.stopping": ("CANCELLING_S",),
     "kb.llm.llama": ("CLOSING_S",),
+    "kb.llm.server.asking": ("LOOKING_S",),
     "kb.llm.server.server": ("CLOSING_S",),
     "logs.recorder": ("PATIENCE_S", "CLOSE_S"),
     "logs.viewer.program": ("START_S", "SETTLE_S"),

@@ -27,7 +27,7 @@ STOPPED_S, RECONNECTED_S = 0.5, 2.0
 """At rest so long after a stop, and after there is a link again (real time)."""
 SILENT_S = 1.5
 """So long one waits for what may never come."""
-NOISE_S = 1.0
+NOISE_S = 30.0
 """What a busy machine may add to either."""
 
 
