@@ -33,12 +33,15 @@ def chromium() -> Iterator[Browser]:
 
 
 @contextmanager
-def opened(browser: Browser, page: Page, url: str = "", **given: Any) -> Iterator[Tab]:
+def opened(
+    browser: Browser, page: Page, url: str = "", *, first: str = "", **given: Any
+) -> Iterator[Tab]:
     """A tab of its own with the page in it; whatever goes wrong in its scripts is an error.
 
-    Another page of the same robot is given by its address.
+    Another page of the same robot is given by its address; `first` runs before its scripts.
     """
     context = browser.new_context(**{"viewport": DESKTOP, **given})
+    context.add_init_script(first)
     context.set_default_timeout(PATIENCE_MS)
     tab = context.new_page()
     wrong: list[str] = []

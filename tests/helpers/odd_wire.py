@@ -35,6 +35,8 @@ class OddWire:
     mischief: Mischief = field(default_factory=Mischief)
     cuts: int = 0
     port: int = 0
+    passing: int = 0
+    """So many connections pass through now."""
 
     def __enter__(self) -> "OddWire":
         self._chance = random.Random(self.seed)
@@ -49,6 +51,11 @@ class OddWire:
     def __exit__(self, *_: object) -> None:
         self._loop.call_soon_threadsafe(self._over.set)
         self._thread.join(PATIENCE_S)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether a robot's link passes through, with both of its sockets."""
+        return self.passing >= 2
 
     @property
     def url(self) -> str:
@@ -68,11 +75,13 @@ class OddWire:
     async def _pass(self, here: ServerConnection) -> None:
         with suppress(OSError, ConnectionClosed):
             async with connect(self.to, compression=None, max_size=LARGEST, proxy=None) as there:
+                self.passing += 1
                 ways = [
                     asyncio.create_task(self._carry(here, there)),
                     asyncio.create_task(self._carry(there, here)),
                 ]
                 await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
+                self.passing -= 1
                 for way in ways:
                     way.cancel()
                 await asyncio.gather(*ways, return_exceptions=True)

@@ -76,7 +76,9 @@ def led(
     """Lead a participant, in a thread; what is raised there is raised here."""
     with (
         data.one(code) as journal,
-        StudyPage(Address(port=0, experimenter=experimenter), TOKEN) as page,
+        StudyPage(
+            Address(port=0, experimenter=experimenter), TOKEN, speech=data.study.speech
+        ) as page,
     ):
         made = Led(page, Leader(data, journal, page))
 

@@ -33,12 +33,12 @@ from patience import PATIENCE_S, until
 from executive.config import load_settings
 from executive.errors import InputError
 from executive.events import Inbox
+from executive.servers.address import bases_of
+from executive.servers.key import Key
+from executive.servers.refusal import Refused, refusal
 from executive.types import ChatRequest, Failed, Message, RankRequest
-from kb.llm.key import Key
 from kb.llm.server import asking, lines, wire
-from kb.llm.server.address import bases_of
 from kb.llm.server.dialect import Dialect
-from kb.llm.server.refusal import Refused, refusal
 from kb.llm.server.server import Server
 from kb.llm.thinking import answer_of
 
