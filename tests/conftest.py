@@ -22,7 +22,10 @@ LIMITS = {
 }
 """How long is waited for what comes at once on a machine with nothing else to do."""
 
-hypothesis.settings.register_profile("machines are noisy", deadline=None)
+SLOW = (hypothesis.HealthCheck.too_slow,)
+hypothesis.settings.register_profile(
+    "machines are noisy", deadline=None, suppress_health_check=SLOW
+)
 hypothesis.settings.load_profile("machines are noisy")
 
 

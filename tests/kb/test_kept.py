@@ -50,7 +50,9 @@ def test_what_is_damaged_is_not_found(cache: Path):
 
 
 @given(at=st.integers(0, 41), byte=st.integers(0, 255), length=st.integers(0, 60))
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], deadline=None
+)
 def test_whatever_is_changed_in_a_file_it_is_as_it_was_or_not_there(cache, at, byte, length):
     kept = Kept()
     kept.put(b"many bytes", "mug")
