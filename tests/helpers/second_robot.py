@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from patience import PATIENCE_S
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
@@ -90,12 +91,12 @@ class SecondRobot:
 
     def __enter__(self) -> "SecondRobot":
         self._thread.start()
-        assert self._started.wait(5)
+        assert self._started.wait(PATIENCE_S)
         return self
 
     def __exit__(self, *_: object) -> None:
         self._loop.call_soon_threadsafe(self._over.set)
-        self._thread.join(5)
+        self._thread.join(PATIENCE_S)
         self._loop.close()
 
     @property
@@ -114,7 +115,7 @@ class SecondRobot:
     def say(self, packet: str | bytes) -> None:
         """Send this to whoever listens, as it is."""
         for client in tuple(self._clients):
-            asyncio.run_coroutine_threadsafe(client.send(packet), self._loop).result(5)
+            asyncio.run_coroutine_threadsafe(client.send(packet), self._loop).result(PATIENCE_S)
 
     # --- the server ---
 
