@@ -122,7 +122,10 @@ class Senses:
         self._newest = stamp_of(message)
 
     def _take_joints(self, message: Message) -> None:
-        self._joints_move = any(abs(v) >= RESTING_RAD_S for v in numbers(message["velocity"]))
+        told = [v for v in numbers(message["velocity"]) if not math.isnan(v)]
+        if not told:
+            raise PacketError("joints without velocities, which may move or not")
+        self._joints_move = any(abs(v) >= RESTING_RAD_S for v in told)
 
     def _take_hand(self, message: Message) -> None:
         hand = self._profile.hand
