@@ -287,7 +287,7 @@ class WireRobot:
             return Failed(f"I am not at the {place}")
         if not 0 <= view < self.views(place):
             return Failed(f"there are only {self.views(place)} views of the {place}")
-        target = point or self._looking.targets(place)[view]
+        target = point or self._looking.target(place, view)
         if self._profile.look is not None:
             end = await self._act("look", self._looking.goal(place, target))
             if not end.succeeded:
