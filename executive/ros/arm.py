@@ -17,7 +17,7 @@ from executive.records import Shape
 from executive.ros.link import GoalEnd
 from executive.ros.moveit import Load, Obstacle, failure, scene, to_joints, to_pose
 from executive.ros.profile import ArmAction, GripperAction, Profile
-from executive.ros.protocol import Message
+from executive.ros.protocol import GoalStatus, Message
 from executive.ros.senses import Senses
 from executive.types import Detection, Failed, Pose, Succeeded, Vector3
 
@@ -175,13 +175,14 @@ class Arm:
         return ""
 
     async def _take(self, name: str, hold: Hold) -> Succeeded | Failed:
+        self._held = name, hold  # from now on: it may be stopped when the fingers have closed
         why = await self._grip(self._gripper.closed, hold.force)
         if why or not (self.holds or self._senses.holding):
+            self._held = None
             await self._grip(self._gripper.open)
             await self._move(_back(hold.hand), straight=True)
             await self.fold()
             return Failed(why or f"my hand closed without the {name}")
-        self._held = name, hold
         if why := await self._move(_shifted(hold.hand, (0.0, 0.0, UP_M)), straight=True):
             return Failed(f"I cannot lift the {name}: {why}")
         if why := await self.fold():
@@ -191,7 +192,7 @@ class Arm:
     async def put_down(self, place: str, seen: Floats) -> Succeeded | Failed:
         """Put down what is held on a place, of which these points (n, 3) in `map` are seen."""
         if self._held is None:
-            return Failed("I do not know how I hold it")
+            return Failed("I do not know how I hold it, it has to be taken out of my hand")
         name, hold = self._held
         spots = await asyncio.to_thread(self._hands.spots, place, name, seen)
         why = f"there is no room on the {place}"
@@ -242,6 +243,8 @@ class Arm:
         """What MoveIt is told of what is in the hand."""
         if self._held is None or touches or not self._gripper.links:
             return None
+        if self._senses.holding is False:
+            return None
         _, hold = self._held
         pose = seen_from(hold.hand, carried_by(hold.thing, hold.box.pose))
         return Load(hold.box.size, pose, self._arm.tip, self._gripper.links)
@@ -265,8 +268,9 @@ class Arm:
         self.holds = None
         end = await self._act("gripper", values)
         stalled, reached = end.values.get("stalled"), end.values.get("reached_goal")
-        if not end.succeeded and stalled is not True:
-            return end.reason or "it did not get there"
+        called_off = end.status == GoalStatus.CANCELED
+        if called_off or (not end.succeeded and stalled is not True):
+            return end.reason or ("it was called off" if called_off else "it did not get there")
         closing = position == gripper.closed
         self.holds = closing and stalled is True and reached is not True
         return ""

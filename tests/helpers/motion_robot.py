@@ -40,6 +40,8 @@ class MotionRobot(SecondRobot):
         self.turned = Rotation.identity()
         self.grasp: tuple[np.ndarray, Rotation] | None = None
         """Where it is in the hand, if it is there."""
+        self.squeezes_on = False
+        """Whether closing the fingers has no end."""
         self.motions: list[dict[str, Any]] = []
         """What it was asked for, each with the scene it was given."""
 
@@ -87,6 +89,8 @@ class MotionRobot(SecondRobot):
         elif not closes:
             self.grasp = None
         self.holds = "thing" if self.grasp is not None else ""
+        if closes and self.squeezes_on:
+            return
         said = {"position": position, "stalled": near, "reached_goal": not near}
         await self._end("/acme/gripper", GoalStatus.SUCCEEDED, **said)
 
