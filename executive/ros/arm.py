@@ -194,6 +194,8 @@ class Arm:
         if self._held is None:
             return Failed("I do not know how I hold it, it has to be taken out of my hand")
         name, hold = self._held
+        if self._has_lost_it:
+            return self._fell(name)
         spots = await asyncio.to_thread(self._hands.spots, place, name, seen)
         why = f"there is no room on the {place}"
         if spots and (away := await self._come_near(place, np.array(spots[0].position))):
@@ -202,10 +204,22 @@ class Arm:
             hand = _moved_with(hold, spot)
             above = _shifted(hand, (0.0, 0.0, ABOVE_M))
             why = await self._move(above) or await self._move(hand, straight=True)
+            if self._has_lost_it:
+                await self.fold()
+                return self._fell(name)
             if not why:
                 return await self._let_go(hand)
         await self.fold()
         return Failed(why)
+
+    @property
+    def _has_lost_it(self) -> bool:
+        """Whether what should be in the hand is not, as far as anybody tells."""
+        return self._senses.holding is False
+
+    def _fell(self, name: str) -> Failed:
+        self._held = None
+        return Failed(f"the {name} fell from my hand", lost=True)
 
     async def _let_go(self, hand: Pose) -> Succeeded | Failed:
         if why := await self._grip(self._gripper.open):
@@ -243,7 +257,7 @@ class Arm:
         """What MoveIt is told of what is in the hand."""
         if self._held is None or touches or not self._gripper.links:
             return None
-        if self._senses.holding is False:
+        if self._has_lost_it:
             return None
         _, hold = self._held
         pose = seen_from(hold.hand, carried_by(hold.thing, hold.box.pose))

@@ -97,8 +97,21 @@ async def _heard(profile: Profile, senses: Senses, where: str) -> list[InputErro
     return found
 
 
+def _unknown_joints(profile: Profile, senses: Senses, where: str) -> list[InputError]:
+    """Joints of the arm that are not among those that the robot tells of."""
+    if profile.arm is None or profile.joints is None or not senses.joints:
+        return []
+    told = ", ".join(sorted(senses.joints)[:20])
+    right = f"{profile.joints.topic} tells of {told}"
+    return [
+        InputError(where, f"arm.carry: the robot has no joint {name[:80]}", right)
+        for name in profile.arm.carry
+        if name not in senses.joints
+    ]
+
+
 def _unheard(profile: Profile, senses: Senses, where: str) -> list[InputError]:
-    found = []
+    found = _unknown_joints(profile, senses, where)
     if senses.unrest.startswith("nobody"):
         right = "name a topic on which something is published"
         found.append(InputError(where, f"odometry, joints: {senses.unrest}", right))

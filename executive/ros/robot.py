@@ -248,9 +248,11 @@ class WireRobot:
         pose = planar_pose(*stand, self._profile.frames.map)
         for leg in await self._actions.legs(pose):
             end = await self._act("drive", {"pose": leg, "place": place})
+            lost = bool(had) and self._senses.holding is False
             if not end.succeeded:
-                lost = bool(had) and self._senses.holding is False
                 return self._actions.failure(end, f"I did not get to the {place}", lost)
+            if lost:
+                return Failed(f"what I held fell on the way to the {place}", lost)
         self._at = place
         return Succeeded()
 
@@ -360,4 +362,7 @@ class WireRobot:
         looked = await self._look(place, 0, None)
         if isinstance(looked, Failed):
             return looked
-        return await arm.put_down(place, await self._see())
+        seen = await self._see()
+        if not len(seen):
+            return Failed(f"my camera shows nothing of the {place}")
+        return await arm.put_down(place, seen)

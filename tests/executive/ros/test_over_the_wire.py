@@ -152,7 +152,9 @@ def test_look_lists_what_the_robot_offers_and_proposes_a_profile(
     assert look(["look", there.url]) == 0
     said = capsys.readouterr().out
     assert "/acme/go  acme_msgs/action/Go" in said
-    assert 'topic = "/acme/odom"' in said
+    assert '\ntopic = "/acme/odom"' in said
+    assert "# [joints]  # if velocities are told there" in said
+    assert '# topic = "/acme/fingers"' in said
 
 
 def test_check_says_that_a_profile_fits(
