@@ -16,6 +16,8 @@ const trouble = document.getElementById("trouble");
 const form = document.getElementById("form");
 const words = document.getElementById("words");
 const stopButton = document.getElementById("stop");
+const views = document.querySelectorAll(".views button");
+const HOME = "#home";
 const troubles = new Map();
 const LONGEST = 1000;
 const TWO_TAPS_MS = 400;
@@ -206,15 +208,21 @@ document.addEventListener("keydown", (event) => {
     stop();
   }
 }, true);
-for (const button of document.querySelectorAll(".views button")) {
+/** On a small screen: what the address says is shown, so that one goes back with the browser's button. */
+function showView() {
+  const view = location.hash === HOME ? "home" : "talk";
+  document.body.dataset.view = view;
+  for (const button of views) button.setAttribute("aria-pressed", String(button.dataset.view === view));
+  conversation.toEnd();
+}
+
+for (const button of views) {
   button.addEventListener("click", () => {
-    document.body.dataset.view = button.dataset.view;
-    for (const other of document.querySelectorAll(".views button")) {
-      other.setAttribute("aria-pressed", String(other === button));
-    }
-    conversation.toEnd();
+    location.hash = button.dataset.view === "home" ? HOME : "";
   });
 }
+addEventListener("hashchange", showView);
+showView();
 
 const connection = {
   open: () => setTrouble("wire", ""),
