@@ -2,7 +2,7 @@
 
 import { element } from "./elements.js";
 import { why } from "./robot.js";
-import { text, textOr } from "./texts.js";
+import { spoken, text, textOr } from "./texts.js";
 
 const list = document.getElementById("said");
 const scroll = document.getElementById("scroll");
@@ -84,9 +84,9 @@ function reasons(decisions) {
 function reason(decision) {
   const source = decision.source && textOr(`said_by.${decision.source}`, decision.source);
   const others = decision.alternatives.map((other) =>
-    element("li", {}, text("why_not", { what: other.what, why_not: other.why_not })));
+    element("li", {}, text("why_not", { what: spoken(other.what), why_not: other.why_not })));
   return element("li", {},
-    element("strong", {}, `${decision.question}: `), decision.answer,
+    element("strong", {}, `${decision.question}: `), spoken(decision.answer),
     source ? element("em", {}, ` (${source})`) : null,
     others.length ? element("ul", {}, ...others) : null);
 }

@@ -146,7 +146,7 @@ function sign(state, turn) {
 
 function table({ thing, places }) {
   const chances = places.some((place) => place.chance !== null);
-  const heads = ["place", "state", ...(chances ? ["chance"] : []), "source"];
+  const heads = ["place", ...(chances ? ["chance"] : []), "source"];
   return element("table", {},
     element("caption", {}, text("where", { thing: spoken(thing) })),
     element("thead", {}, element("tr", {},
@@ -165,22 +165,23 @@ function plan({ places, ask_after: askAfter }) {
 
 function said(sources) {
   const named = Object.entries(sources).filter(([source]) => source);
-  return named.map(([source, share]) => {
+  return named.map(([source, share], at) => {
     const name = textOr(`sources.${source}`, source);
-    return share !== null && named.length > 1 ? `${name} ${percent(share)}` : name;
-  }).join(", ");
+    const one = share !== null && named.length > 1 ? `${name} ${percent(share)}` : name;
+    return at < named.length - 1 ? `${one}, ` : one;
+  });
 }
 
 function percent(share) {
-  return share > 0 && share < 0.01 ? "< 1 %" : `${Math.round(share * 100)} %`;
+  return share > 0 && share < 0.01 ? "<\u00a01\u00a0%" : `${Math.round(share * 100)}\u00a0%`;
 }
 
 function row({ place, state, chance, sources, why, turn }, chances) {
   const likely = chance === null ? "" : percent(chance);
   return element("tr", { class: state },
-    element("th", { scope: "row" }, `${sign(state, turn)} ${labelOf(place)}`),
-    element("td", {}, textOr(`states.${state}`, state), why ? element("small", {}, why) : null),
+    element("th", { scope: "row" }, `${sign(state, turn)} ${labelOf(place)}`,
+      element("small", {}, [textOr(`states.${state}`, state), why].filter(Boolean).join(": "))),
     chances ? element("td", {}, chance === null ? "" : element("meter", {
       value: chance, max: 1, "aria-label": likely }), ` ${likely}`) : null,
-    element("td", {}, said(sources)));
+    element("td", {}, ...said(sources).map((one) => element("span", { class: "source" }, one))));
 }

@@ -1,11 +1,13 @@
 // The person's page: shows the board of the robot, and sends what the person says.
 
-import { mayBe, showAnswers, showSuggestions } from "./answers.js";
+import { mayBe, showAnswers, showAskedBack, showSuggestions } from "./answers.js";
 import { showCamera } from "./camera.js";
 import * as conversation from "./conversation.js";
+import * as ears from "./ears.js";
 import { offerPlaces, showHome, showPlaces, showRobot, showWay } from "./home.js";
-import { OVER, answer, follow, say as send, stop as sendStop } from "./robot.js";
+import { OVER, answer, follow, say as send, settle, stop as sendStop } from "./robot.js";
 import { load, spoken, text, textOr } from "./texts.js";
+import * as voice from "./voice.js";
 
 const doing = document.getElementById("doing");
 const progress = document.getElementById("progress");
@@ -30,14 +32,24 @@ const show = {
     showPlaces(null);
     showCamera(null);
     showQuestion(null);
+    askBack(null);
+    voice.saysNews(false);
   },
+  caught_up: () => voice.saysNews(true),
   said(entry) {
     conversation.add(entry);
     suggest();
+    if (entry.who === "robot") voice.say(entry.text);
+    else voice.hush();
   },
   doing: showDoing,
   outcome: () => showDoing(board.doing),
   question: showQuestion,
+  asked_back: askBack,
+  speech(may) {
+    voice.offer(may);
+    ears.offer(may);
+  },
   home(plan) {
     showHome(plan);
     showRobot(board.robot);
@@ -53,7 +65,11 @@ const show = {
   path: showWay,
   places: showPlaces,
   camera: showCamera,
-  study: (step) => document.dispatchEvent(new CustomEvent("study", { detail: step })),
+  study(step) {
+    ears.drop();
+    voice.hush();
+    document.dispatchEvent(new CustomEvent("study", { detail: step }));
+  },
 };
 
 function showDoing(state) {
@@ -117,6 +133,24 @@ async function chosen(said, question) {
   }
 }
 
+function askBack(asked) {
+  const had = showAskedBack(asked, (agrees) => settled(asked, agrees));
+  if (had && !asked) focusWords();
+  conversation.toEnd();
+}
+
+async function settled(asked, agrees) {
+  chosenAt = performance.now();
+  askBack(null);
+  try {
+    await settle(asked.id, agrees);
+    setTrouble("say", "");
+  } catch (error) {
+    setTrouble("say", text(error === OVER ? "too_late" : "not_chosen", { text: text(agrees ? "yes" : "no") }));
+    if (error !== OVER) askBack(board.asked_back);
+  }
+}
+
 function suggest() {
   const shown = board.doing?.state === "ready" && !conversation.personHasSpoken();
   showSuggestions(shown && Boolean(board.things), board.things ?? {}, say);
@@ -147,6 +181,8 @@ async function say(said) {
 }
 
 async function stop() {
+  ears.drop();
+  voice.hush();
   if (stopping) return;
   stopping = true;
   stopButton.classList.add("sent");

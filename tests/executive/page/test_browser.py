@@ -94,7 +94,7 @@ def test_why_is_told_beside_the_sentence(browser: Browser, talking: Robot) -> No
         why = tab.get_by_role("button", name=re.compile("^Why did the robot say: I look for"))
         why.click()
         because = tab.locator(".because")
-        expect(because).to_contain_text("which places: high_table (you said so)")
+        expect(because).to_contain_text("which places: high table (you said so)")
         why.press("Enter")
         expect(because).to_have_count(0)
 

@@ -88,6 +88,37 @@ def test_a_yes_that_comes_too_late_does_nothing(talk: Talk) -> None:
     assert "bring the mug" not in talk.done
 
 
+def test_a_button_answers_only_its_own_question_however_late(talk: Talk) -> None:
+    talk.hears("bring the pear")
+    first = talk.doubt.asked_back
+    talk.hears("bring the mug")
+    talk.time = PATIENCE_S + 1
+    assert first
+    assert not talk.doubt.settle(first.number, agrees=True)
+    assert talk.done == []
+    assert talk.doubt.settle(first.number + 1, agrees=True)
+    assert talk.done == ["bring the mug"]
+    assert not talk.doubt.settle(first.number + 1, agrees=True)
+
+
+def test_who_shows_what_is_asked_back_is_told_when_it_changes(talk: Talk) -> None:
+    shown: list[str] = []
+
+    def show() -> None:
+        asked = talk.doubt.asked_back
+        shown.append(asked.text if asked else "")
+
+    talk.doubt.changed = show
+    talk.hears("bring the mug")
+    talk.person.says("bring the pear")
+    assert shown == ["Did you say: bring the mug?", ""]
+
+
+def test_to_end_the_session_is_asked_back_too(talk: Talk) -> None:
+    talk.hears("quit")
+    assert "Did you say: quit?" in talk.out.getvalue()
+
+
 @pytest.mark.parametrize("sure", [True, False])
 def test_a_stop_stops_however_uncertain_it_is(talk: Talk, sure: bool) -> None:
     talk.hears("bring the mug")
