@@ -38,6 +38,8 @@ def color_of(message: Message) -> NDArray[np.uint8]:
         raise PacketError(f"a colour picture with encoding {encoding[:20]!r}; I read {known}")
     channels, order = COLORS[encoding]
     pixels = _rows(message, np.dtype(np.uint8), channels)
+    if order == tuple(range(channels)):
+        return pixels
     return np.ascontiguousarray(pixels[:, :, list(order)])
 
 

@@ -127,7 +127,7 @@ class MotionRobot(SecondRobot):
         return told
 
     def _range(self) -> dict[str, Any]:
-        """Only the uppermost row sees something, far behind what is looked at."""
+        """Only the uppermost row sees something, far behind what it looks at; blind, none does."""
         said = super()._range()
         row = b"" if self.is_blind else FAR_MM.to_bytes(2, "little") * (said["step"] // 2)
         return {**said, "data": row.ljust(len(said["data"]), b"\0")}
