@@ -89,6 +89,12 @@ def test_what_is_there_already_stays_there() -> None:
     assert not any(isinstance(goal, Pick) for goal in run.goals)
 
 
+def test_what_somebody_else_took_there_does_not_stay_in_the_hand(serve: Serve) -> None:
+    session, world = serve(fault=("moved=mug:desk@5",))
+    assert session.run("Put the mug on the desk").status == MissionStatus.DONE
+    assert (world.held, world.resting_place("mug")) == (None, "desk")
+
+
 @pytest.mark.parametrize("thing", ["the hammer", "it"])
 def test_what_is_in_the_hand_is_not_searched_for(serve: Serve, thing: str) -> None:
     session, world = serve()

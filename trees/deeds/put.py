@@ -30,7 +30,8 @@ class Put(Deed):
 
         def is_there() -> bool:
             found = situation.search.found
-            return found is not None and found.place in situation.request.goals
+            at_goal = found is not None and found.place in situation.request.goals
+            return at_goal and not situation.has_it
 
         yield sequence(
             f"{self.kind} already",
