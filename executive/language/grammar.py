@@ -7,7 +7,7 @@ from itertools import chain
 from executive.language.commands import NOT_KNOWN_WHAT, agrees, commands_in, talk
 from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread
 from executive.language.reader import Reader, english
-from executive.language.slips import without_slips
+from executive.language.slips import brought, without_slips
 from executive.language.spoken import NOTHING, Spoken, resolved
 from executive.types import Command, CommandKind, Commands
 
@@ -91,17 +91,20 @@ class EnglishInterpreter:
 
     def without_slips(self, words: str) -> Commands:
         """The tasks that the words are with the word for the deed spelled right; none if none."""
-        for likely in without_slips(self._reader, words):
+        for likely in (*without_slips(self._reader, words), *brought(self._reader, words)):
             if commands := self.commands(likely):
                 return commands
         return ()
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
+        said = self._reader.read(answer)
+        if isinstance(said, Answer) and said.choice in (Choice.ANY, Choice.ALL):
+            return False  # "I do not mind"
         if self._reader.declines(answer) or not self._reader.plain(answer).strip("?"):
             return True
         declining = (Answer(Choice.NO), Answer(Choice.UNKNOWN))
-        return self._reader.knows(answer) and self._reader.read(answer) in declining
+        return self._reader.knows(answer) and said in declining
 
     def agrees(self, answer: str) -> bool | None:
         """Whether an answer says yes or no; None if it says neither."""

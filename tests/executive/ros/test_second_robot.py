@@ -14,6 +14,7 @@ from second_robot import ACTIONS, PROFILE, SPEED_M_S, SecondRobot
 from executive.events import Inbox
 from executive.ros.address import read_address
 from executive.ros.connection import Connection, connect
+from executive.ros.link import LinkError
 from executive.ros.profile import Profile, load_profile
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.camera import CameraBench, CameraContract
@@ -80,6 +81,12 @@ def test_its_profile_is_short_and_there_is_no_python() -> None:
 
 def test_blue_comes_as_blue(linked: Linked) -> None:
     assert linked.here.camera.capture().color[0, 0].tolist() == [0, 0, 200]
+
+
+def test_a_picture_that_cannot_be_read_is_told_with_its_fault(linked: Linked) -> None:
+    linked.there.told["/acme/lens"] = {"height": "high"}
+    with pytest.raises(LinkError, match="its picture cannot be read: ValueError: .*'high'"):
+        linked.here.camera.capture()
 
 
 def test_a_goal_looks_as_the_profile_has_it(linked: Linked) -> None:
