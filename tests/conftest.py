@@ -1,6 +1,7 @@
 """What all tests share: settings of hypothesis, and fixtures."""
 
 import gc
+import os
 import sys
 
 import hypothesis
@@ -24,7 +25,10 @@ LIMITS = {
 
 SLOW = (hypothesis.HealthCheck.too_slow,)
 hypothesis.settings.register_profile(
-    "machines are noisy", deadline=None, suppress_health_check=SLOW
+    "machines are noisy",
+    deadline=None,
+    suppress_health_check=SLOW,
+    derandomize="CI" in os.environ,  # a change is judged by the same examples as the one before it
 )
 hypothesis.settings.load_profile("machines are noisy")
 
