@@ -170,6 +170,8 @@ class Planned:
         says: who says so, in the same order, each with what it gave: "memory 0.90, llm 0.01".
         elsewhere: how likely it is at none of these.
         text: the decision as a sentence.
+        away: how long the way from here and the look take of each of the places (s), in the same
+            order; -1: there is no way, or it is not worth a look. Empty in recordings of before.
     """
 
     thing: str
@@ -189,6 +191,7 @@ class Planned:
     says: tuple[str, ...]
     elsewhere: float
     text: str
+    away: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from kb.rates import Rates, learned
 from kb.sightings import Known, Sightings
 
 MOST_LEARNED = 5_000
-"""So many of the last facts are learned from: half a second, some three months of ten commands."""
+"""So many of the last facts are learned from: a second, some eleven weeks of ten commands a day."""
 MOST_TRUSTED = 0.98
 """No source is believed more than this: something else may always be."""
 SAID_TRUST = 0.95

@@ -1,6 +1,6 @@
 """Look on, or ask? Where to look next: the plan that costs least, made anew at every step."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import takewhile
 from math import inf, isfinite, sqrt
@@ -118,7 +118,8 @@ class PlanNext(Step):
         assert plan
         whereabouts.is_over = plan.is_over
         said = decision(plan, belief)
-        self.context.recorder.record(planned(self.situation.request.object or "", plan, belief))
+        thing = self.situation.request.object or ""
+        self.context.recorder.record(planned(thing, plan, belief, whereabouts.away))
         if plan.is_over or plan.asks:
             return self.fail(said)
         first, *others = (belief.of(place) for place in plan.order)
@@ -134,10 +135,12 @@ class PlanNext(Step):
         worth = [o for o in belief.places if whereabouts.may_look_at(o.place, looks)]
         likely = worth[: parameters.planned]
         places = [one.place for one in likely]
+        from_here = self._from_here(places)
+        whereabouts.away = dict(zip(places, from_here, strict=True))
         helps = not (self.situation.dialogue.no_help or whereabouts.answered)
         return best_plan(
             [Chance(one.place, one.probability) for one in likely],
-            self._from_here(places),
+            from_here,
             [self._ways.seconds(place, places) for place in places],
             Prices(parameters.question_s if helps else inf, parameters.visit_s),
             elsewhere=max(0.0, 1 - sum(one.probability for one in likely)),
@@ -231,10 +234,11 @@ def decision(plan: Plan, belief: Belief) -> str:
     return f"I look at {belief.of(plan.order[0])}: {why}"
 
 
-def planned(thing: str, plan: Plan, belief: Belief) -> Planned:
+def planned(thing: str, plan: Plan, belief: Belief, away: Mapping[str, float]) -> Planned:
     """The record of a decision."""
     expected, asking, looking = plan.expected, plan.asking, plan.looking
     likely: tuple[Likely, ...] = belief.places[:MOST_RECORDED]
+    seconds = (away.get(one.place, inf) for one in likely)
     doing = "give up" if plan.is_over else "ask" if plan.asks else "look"
     return Planned(
         thing=thing,
@@ -254,6 +258,7 @@ def planned(thing: str, plan: Plan, belief: Belief) -> Planned:
         says=tuple(", ".join(f"{s.source} {s.probability:.2f}" for s in o.shares) for o in likely),
         elsewhere=belief.elsewhere,
         text=f"{decision(plan, belief)}.",
+        away=tuple(s if isfinite(s) else -1.0 for s in seconds),
     )
 
 

@@ -56,6 +56,7 @@ class Whereabouts:
     Attributes:
         belief: where the thing may be, as the sources and the looks so far have it.
         plan: what is best to do by that; None before the first.
+        away: how long the way from here and the look take of each place that was planned with (s).
         statements: what the sources say, as it was heard, the most trusted first.
         named: places that the person, or the memory, named after they were looked at: worth
             another look.
@@ -72,6 +73,7 @@ class Whereabouts:
 
     belief: Belief = field(default_factory=Belief, metadata=logged_as(plain=_plain))
     plan: Plan | None = field(default=None, metadata=logged_as(plain=_plan))
+    away: dict[str, float] = field(default_factory=dict, metadata=NOT_LOGGED)
     statements: tuple[Statement, ...] = field(default=(), metadata=NOT_LOGGED)
     named: set[str] = field(default_factory=set, metadata=NOT_LOGGED)
     consulted: bool = field(default=False, metadata=NOT_LOGGED)

@@ -322,13 +322,23 @@ def _runs(paths: Container[str], at: At[Tick]) -> bool:
 
 
 def _less_likely(planned: Planned) -> Iterator[Alternative]:
-    """The likeliest of the places that are not next, and who says so of each."""
+    """The likeliest of the places that are not next, who says so of each, and how far it is."""
+    away = dict(zip(planned.places, planned.away, strict=False))
+    next_s = min((away.get(place, -1.0) for place in planned.order[:1]), default=-1.0)
     told = zip(planned.places, planned.probabilities, planned.says, strict=False)
     others = (
         (place, p, says) for place, p, says in told if place not in planned.order[:1] and p >= LEAST
     )
     for place, probability, says in islice(others, MOST_TOLD):
-        yield Alternative(place, f"{probability:.2f} ({says})" if says else f"{probability:.2f}")
+        likely = f"{probability:.2f} ({says})" if says else f"{probability:.2f}"
+        yield Alternative(place, likely + _farther(away.get(place, -1.0), next_s))
+
+
+def _farther(seconds: float, next_s: float) -> str:
+    """How long going there and looking would take, beside the place that is next."""
+    if seconds < 0:
+        return ""
+    return f", {seconds:.0f} s away" + (f" instead of {next_s:.0f}" if next_s >= 0 else "")
 
 
 def _outranked(call: LlmCall) -> list[Alternative]:

@@ -251,6 +251,7 @@ def mission() -> Iterator[tuple[float, Record]]:
             says=("calendar 0.90", "anywhere 0.05"),
             elsewhere=0.05,
             text="I look at cupboard 0.90: asking would cost 64 s and looking on 11 s.",
+            away=(5.0, -1.0),
         ),
     )
     done = "SUCCESS"

@@ -197,6 +197,15 @@ def test_a_decision_says_what_looking_on_and_asking_would_cost() -> None:
     assert plans(run)[0].text.startswith("I ask, because looking on would cost ")
 
 
+def test_a_decision_says_how_far_each_place_is_so_that_its_order_can_be_understood() -> None:
+    near_and_far = scores(sofa=0.0, desk=0.1)
+    run = run_mission("Find the mug", replies=[near_and_far], defaults=False, place={"mug": "desk"})
+    first, second = plans(run)[-2:]
+    away = dict(zip(first.places, first.away, strict=True))
+    assert away["sofa"] < away["desk"]
+    assert dict(zip(second.places, second.away, strict=True))["sofa"] == -1.0
+
+
 def test_the_ways_that_were_told_are_recorded_once() -> None:
     run = run_mission("Find the mug", llm=False, defaults=False, place={"mug": "bed"})
     pairs = [(w.start, place) for w in run.notebook.all(WaysTold) for place in w.places]

@@ -1,5 +1,6 @@
 """While the language model thinks about where a thing may be, the search goes on."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -229,3 +230,4 @@ def test_why_tells_the_plan_before_and_after_the_list(tmp_path: Path) -> None:
     told = why_text(why(Recorded(run)))
     assert "    0.000  look or ask: I look at coffee_table" in told
     assert "    0.500  look or ask: I look at bookshelf_bedroom" in told
+    assert re.search(r"\(anywhere \S+\), \d+ s away instead of \d", told)
