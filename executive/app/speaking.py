@@ -1,10 +1,13 @@
 """Gives a person ears that hear them, and a voice, as the settings say."""
 
 from contextlib import ExitStack
+from pathlib import Path
 
 from executive.app.parts import Parts
 from executive.errors import InputError
 from executive.language.phrases import spoken
+from executive.servers.key import EARS_KEY, Key
+from executive.speech.agreeing import Agreeing
 from executive.speech.doubt import Doubt
 from executive.speech.espeak import EspeakVoice
 from executive.speech.interfaces import Ears, Vocabulary, Voice
@@ -48,15 +51,46 @@ def listen(
     Raises:
         InputError: if ears or microphone cannot be had.
     """
-    from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
-    from executive.speech.spotting import StopSpotter
+    from executive.speech.spotting import StopSpotter  # of the extra `speech`
 
-    blocks = microphone(parts.settings.microphone)
-    ears: Ears = PocketsphinxEars(vocabulary(parts.knowledge))
+    ears = ears_of(parts, person)
     opened.callback(ears.close)
-    listening = Listening(blocks, ears, doubt, person, spotter=StopSpotter(), voice=voice)
+    spotter, blocks = StopSpotter(), microphone(parts.settings.microphone)
+    listening = Listening(blocks, ears, doubt, person, spotter=spotter, voice=voice)
     opened.callback(listening.close)
     listening.start()
+
+
+def ears_of(parts: Parts, person: Console) -> Ears:
+    """The ears that the settings name; the person is told where sound goes.
+
+    Raises:
+        InputError: if they cannot be had.
+    """
+    from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
+
+    settings = parts.settings
+    local = PocketsphinxEars(vocabulary(parts.knowledge))
+    if settings.ears in (None, local.name):
+        return local
+    if not settings.ears.startswith("http"):
+        from executive.speech.sherpa import SherpaEars  # of the extra `speech-onnx`
+
+        folder = Path(settings.ears).expanduser()
+        own = SherpaEars(folder, settings.ears_language)
+        return Agreeing(own, local, parts.interpreter.agrees)
+    from executive.speech.server import ServerEars  # loads a client of HTTP
+
+    server = ServerEars(
+        settings.ears,
+        model=settings.ears_model,
+        language=settings.ears_language,
+        key=Key.from_environment(EARS_KEY),
+        timeout_s=settings.ears_timeout_s,
+    )
+    if server.note:
+        person.mention(server.note)
+    return Agreeing(server, local, parts.interpreter.agrees)
 
 
 def vocabulary(knowledge: Ontology) -> Vocabulary:

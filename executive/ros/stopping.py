@@ -15,6 +15,8 @@ from executive.ros.senses import Senses
 
 CANCELLING_S = 1.0
 """So long a server may take to say that it cancels."""
+ASKING_S = 0.2
+"""After so long without a word it is asked once more: what was asked may never have arrived."""
 FINDING_S = 3.0
 """So long it is tried to stop what is left of earlier."""
 REST_S = 2.0
@@ -84,12 +86,29 @@ class Brake:
         return {s: why[action.action] for s, action in sections.items() if why[action.action]}
 
     async def _cancel(self, action: str) -> str:
-        """Cancel all goals of an action; why that could not be, or nothing."""
+        """Cancel all goals of an action; why that could not be, or nothing.
+
+        It ends when all that was asked is answered: what is still on its way would hit what is
+        begun next.
+        """
+        time = asyncio.get_running_loop().time
+        latest = time() + CANCELLING_S
+        asked: set[asyncio.Task[str]] = set()
+        try:
+            while not any(one.done() for one in asked) and (left := latest - time()) > 0:
+                asked.add(asyncio.create_task(self._ask_to_cancel(action, left)))
+                await asyncio.wait(asked, timeout=ASKING_S, return_when=asyncio.FIRST_COMPLETED)
+            return min(await asyncio.gather(*asked), key=len)
+        finally:
+            for one in asked:
+                one.cancel()
+
+    async def _ask_to_cancel(self, action: str, within_s: float) -> str:
         service = f"{action}/_action/cancel_goal"
         kind = "action_msgs/srv/CancelGoal"
         try:
             answer = await self._link.call(
-                service, kind, everything(), within_s=CANCELLING_S, urgent=True
+                service, kind, everything(), within_s=within_s, urgent=True
             )
         except LinkError as error:
             return in_words(error)

@@ -1,21 +1,31 @@
 """What was heard and is not certain is asked back, and done only when the person says yes to it."""
 
+import re
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from executive.events import Inbox, Listened
 from executive.interfaces import Interpreter
 from executive.language.control import Control, control
 from executive.speech.interfaces import Reading
+from executive.speech.jsgf import LITTLE
+from executive.speech.overlap import NONE, Overlap
 from executive.user import Console
 
 PATIENCE_S = 20.0
 """How long what was asked back waits for its yes."""
+AGAIN_OR_TYPE = "Please say it again, or type it."
 UNCLEAR = "I did not understand you. Please say it again."
 YES_OR_NO = "Please say yes or no"
 DROPPED = "Then I will not."
+OVERSPOKEN = "I was speaking, and did not understand you. Please say it again."
+TOO_MUCH = "That is more than I can hear at a time. Please say the last of it again."
+SHORTEST = 3
+"""Letters of a word that may have been cut short."""
+OWN = 0.5
+"""If more of the telling words are the robot's own, it has heard itself."""
 SPOTTER = "spotter"
 """Who hears a stop, in logs."""
 
@@ -35,7 +45,7 @@ class AskedBack:
     @property
     def text(self) -> str:
         """As the person is asked."""
-        return f"Did you say: {self.words}?"
+        return f"Did you say: {_bare(self.words)}?"
 
 
 class Doubt:
@@ -69,10 +79,31 @@ class Doubt:
         """What a button may still answer; None if there is nothing."""
         return self._asked
 
-    def hear(self, reading: Reading) -> None:
-        """The ears understood this."""
+    def hear(self, reading: Reading, overlap: Overlap = NONE) -> None:
+        """The ears understood this, and the robot spoke meanwhile or not.
+
+        What was heard while it spoke is never certain. Mostly it is the robot itself.
+        """
+        if not overlap.own:
+            self._hear(reading)
+        elif reading.text and not self._is_own(reading.text, overlap.own):
+            self._hear(replace(reading, sure=False))
+        elif overlap.beside:
+            self._log(reading, "overspoken")
+            self._person.mention(OVERSPOKEN)
+        elif reading.text:
+            self._log(reading, "the robot itself")
+
+    def missed(self) -> None:
+        """Somebody says more than the ears can hear."""
+        self._person.mention(TOO_MUCH)
+
+    def _hear(self, reading: Reading) -> None:
         text, asked = reading.text, self._waiting()
-        if text and control(text) is Control.STOP:
+        if reading.problem:
+            self._log(reading, f"failed: {reading.problem}")
+            self._person.mention(f"I could not hear you: {reading.problem}. {AGAIN_OR_TYPE}")
+        elif text and control(text) is Control.STOP:
             self._log(reading, "a stop")
             self._person.says(text)
         elif not text:
@@ -88,10 +119,12 @@ class Doubt:
             self._log(reading, "asked back")
             self._ask(text)
 
-    def stop(self) -> None:
-        """The spotter heard a stop."""
+    def stop(self, *, busy: bool = True) -> None:
+        """The spotter heard a stop; if the robot only spoke, there is no more to stop."""
         self._log(Reading(SPOTTER, "stop"), "a stop")
-        self._person.says("stop")
+        self._take()
+        if busy:
+            self._person.says("stop")
 
     def settle(self, number: int, *, agrees: bool) -> bool:
         """A button was pressed; False if this is not asked back any more.
@@ -123,6 +156,11 @@ class Doubt:
         self._do(asked, agrees=agrees)
         return True
 
+    def _is_own(self, text: str, own: str) -> bool:
+        """A stop at rest is taken for the robot's own, too: an answer would be heard again."""
+        stops = control(text) is Control.STOP
+        return is_own(text, own) or (stops and not self._person.is_busy)
+
     def _answer(self, reading: Reading, asked: str) -> None:
         """A yes has to be certain; a no need not be."""
         agrees = self._interpreter.agrees(reading.text)
@@ -149,7 +187,7 @@ class Doubt:
         self.changed()
 
     def _question(self, asked: str) -> str:
-        return f"{YES_OR_NO}: {asked}?"
+        return f"{YES_OR_NO}: {_bare(asked)}?"
 
     def _waiting(self) -> str:
         """What was asked back and may still be answered; empty if there is nothing."""
@@ -167,3 +205,24 @@ class Doubt:
 
     def _log(self, reading: Reading, became: str) -> None:
         self._inbox.post(Listened(reading.by, reading.text, reading.confidence, became))
+
+
+def is_own(heard: str, own: str) -> bool:
+    """Whether what was heard is made of what the robot said itself."""
+    words = _words(heard)
+    telling = [word for word in words if word not in LITTLE] or words
+    return sum(_begins_one_of(_words(own), word) for word in telling) > OWN * len(telling)
+
+
+def _begins_one_of(words: list[str], word: str) -> bool:
+    """It may have been cut short: "halting" was heard as "halt"."""
+    return word in words or (len(word) >= SHORTEST and any(w.startswith(word) for w in words))
+
+
+def _bare(text: str) -> str:
+    """Without the sign at its end, which servers write."""
+    return text.rstrip(".!?… ")
+
+
+def _words(text: str) -> list[str]:
+    return re.findall(r"[a-z0-9']+", text.lower())

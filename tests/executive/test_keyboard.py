@@ -14,12 +14,11 @@ from contextlib import closing, suppress
 from pathlib import Path
 
 import pytest
+from patience import PATIENCE_S
 
 ROBOT = [sys.executable, "-m", "executive", "--world", "fake", "--llm", "none", "--search", "paper"]
 ASKED = "quit ends the session"
 PROMPT = "> "
-LONG_S = 60
-"""Nobody waits so long for a terminal."""
 
 
 class Typist:
@@ -41,7 +40,7 @@ class Typist:
 
     def sees(self, words: str) -> str:
         """Wait until it is shown; what came before it is forgotten."""
-        ends = time.monotonic() + LONG_S
+        ends = time.monotonic() + PATIENCE_S
         while words not in self.shown:
             assert time.monotonic() < ends, f"never shows {words!r}, but {self.shown!r}"
             if select.select([self.keys], [], [], 0.1)[0]:
@@ -53,7 +52,7 @@ class Typist:
         os.write(self.keys, keys.encode())
 
     def ends_with(self) -> int:
-        status = self.process.wait(LONG_S)
+        status = self.process.wait(PATIENCE_S)
         assert termios.tcgetattr(self.terminal) == self.before
         return status
 

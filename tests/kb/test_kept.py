@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from patience import PATIENCE_S
 
 from executive.events import Ended, Inbox
 from executive.testing.bench import ontology
@@ -145,7 +146,7 @@ def asked(ask: Callable[[LlamaCpp], int]) -> object:
     """What a model that was just loaded answers."""
     model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024, threads=1, max_tokens=8)
     ask(model)
-    assert inbox.wait(60)
+    assert inbox.wait(PATIENCE_S)
     model.close()
     [event] = inbox.take_all()
     assert isinstance(event, Ended)

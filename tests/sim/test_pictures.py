@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from patience import PATIENCE_S
 
 from executive.events import Inbox
 from executive.records import Note, Picture
@@ -149,7 +150,7 @@ def test_no_process_is_started_for_no_pictures_nor_for_spoilt_ones(
 
 def test_the_process_ends_when_whoever_asks_is_gone():
     painter = subprocess.Popen(process.command(), stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-    painter.communicate(timeout=60)
+    painter.communicate(timeout=PATIENCE_S)
     assert painter.returncode == 0
 
 

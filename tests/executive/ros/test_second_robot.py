@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from second_robot import PROFILE, SPEED_M_S, SecondRobot
+from second_robot import ACTIONS, PROFILE, SPEED_M_S, SecondRobot
 
 from executive.events import Inbox
 from executive.ros.address import read_address
@@ -150,6 +150,15 @@ def test_what_cannot_be_stopped_is_said(linked: Linked) -> None:
     result = linked.bench.do(Halt())
     assert isinstance(result, Failed)
     assert "cannot stop my base" in result.reason
+
+
+def test_a_halt_that_is_lost_on_its_way_is_told_again(linked: Linked) -> None:
+    linked.here.robot.start(DriveTo("desk"))
+    linked.bench.wait(0.2)
+    linked.there.unheard = len(ACTIONS) + 1  # of each action, and of its goal
+    assert linked.bench.do(Halt()) == Succeeded()
+    assert not linked.there.unheard
+    assert not linked.there.busy
 
 
 def test_a_halt_without_a_link_does_not_pretend() -> None:

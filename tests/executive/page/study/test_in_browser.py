@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from browsing import DESKTOP, SMALLEST, opened, say, wait_until_ready
+from patience import PATIENCE_S
 from playwright.sync_api import Browser, expect
 from playwright.sync_api import Page as Tab
 from speaking_browser import STUBS
@@ -179,7 +180,7 @@ def test_one_who_is_killed_in_the_middle_goes_on_and_no_row_is_lost(
         opened(browser, page) as tab,
     ):
         steps = take_part(tab, chance)
-        assert process.wait(60) == 0
+        assert process.wait(PATIENCE_S) == 0
     assert steps == ["questionnaire/1/sus", "part/2/", "task/2/t0", "questionnaire/2/sus"]
     made = read_rows(tmp_path / "data/results.parquet")
     assert [(row["condition"], row["attempts"]) for row in made] == [("a", 1), ("b", 1)]
