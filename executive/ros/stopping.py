@@ -75,8 +75,12 @@ class Brake:
 
     async def settled(self) -> None:
         """Wait until no cancelling is under way: it would hit what is begun meanwhile."""
-        if self._under_way is not None and not self._under_way.done():
+        if self._under_way is not None and self._is_cancelling:
             await asyncio.wait({self._under_way}, timeout=2 * CANCELLING_S)
+
+    @property
+    def _is_cancelling(self) -> bool:
+        return self._under_way is not None and not self._under_way.done()
 
     async def _cancel_all(self) -> dict[str, str]:
         sections = self._profile.actions()
@@ -115,9 +119,13 @@ class Brake:
         return "it refuses" if answer.get("return_code") == REFUSED else ""
 
     async def rest(self) -> str:
-        """Wait for rest; what still moves then, as a clause, or nothing."""
+        """Wait for rest; what still moves then, as a clause, or nothing.
+
+        What moves on is cancelled again: it may have been begun after it was cancelled, if the one
+        overtook the other.
+        """
         time = asyncio.get_running_loop().time
-        latest, again = time() + REST_S, 0.0
+        latest, again, cancelling = time() + REST_S, 0.0, time() + ASKING_S
         while True:
             if time() >= again:
                 self._senses.feel_motion_anew()
@@ -127,3 +135,6 @@ class Brake:
                 return f"nobody can tell whether I move: {self._link.loss}"
             if not (unrest := self._senses.unrest) or time() > latest:
                 return unrest
+            if time() >= cancelling and not self._is_cancelling:
+                self._under_way = asyncio.create_task(self._cancel_all())
+                cancelling = time() + ASKING_S

@@ -28,6 +28,7 @@ from soaking.stops import stop_once
 from executive.errors import ExecutiveError
 
 Row = dict[str, Any]
+TRIES = 3
 
 
 def run_instant(trial: Row) -> Row:
@@ -46,14 +47,24 @@ def run_stop(trial: Row) -> Row:
 
 
 def run_wire(trial: Row) -> Row:
-    """Run some missions over a bad wire."""
+    """Run some missions over a bad wire.
+
+    On a machine that is very busy, a session may not hear of its robot in time: it tries again.
+    """
     seed = trial["seed"]
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            came = faulted_wire.missions(seed, Path(folder))
-        except ExecutiveError as error:
-            return {"violations": [f"{seed}: it does not begin: {error}"]}
-    return {"violations": came.faults, "stops": came.stops, "reconnections": came.reconnections}
+    for _ in range(TRIES):
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                came = faulted_wire.missions(seed, Path(folder))
+            except ExecutiveError as error:
+                why = f"{seed}: it does not begin: {error}"
+            else:
+                return {
+                    "violations": came.faults,
+                    "stops": came.stops,
+                    "reconnections": came.reconnections,
+                }
+    return {"violations": [why]}
 
 
 def households(missions: int, seed: int) -> list[Row]:

@@ -173,7 +173,7 @@ class _Mission:
         if late > STOPPED_S and since > RECONNECTED_S:
             self.wrong.append(
                 f"it ended {outcome.status} ({outcome.reason}), and moved {late:.2f} s after that "
-                f"or the stop, {since:.2f} s after there was a link"
+                f"or the stop, with a link for {since:.2f} s"
             )
 
 

@@ -91,28 +91,27 @@ class OddWire:
         """Until something cuts it."""
         kept: str | bytes | None = None
         async for packet in one:
-            for said in self._meddled(packet, kept):
+            said_now, held_back = self._meddled(packet, kept)
+            for said in said_now:
                 if said is None:
                     self.cuts += 1
                     return
                 if self._happens(self.mischief.delay):
                     await asyncio.sleep(self._chance.uniform(0, self.mischief.delay_s))
                 await other.send(said)
-            kept = packet if self._swapped else None
+            kept = packet if held_back else None
 
-    def _meddled(self, packet: Any, kept: Any) -> list[Any]:
-        """What becomes of a packet; None is a cut."""
-        self._swapped = False
+    def _meddled(self, packet: Any, kept: Any) -> tuple[list[Any], bool]:
+        """What becomes of a packet, None is a cut; and whether it comes after the next one."""
         if self._happens(self.mischief.cut):
-            return [None]
+            return [None], False
         if self._happens(self.mischief.halve):
             packet = packet[: len(packet) // 2]
         if kept is not None:
-            return [packet, kept]
+            return [packet, kept], False
         if self._happens(self.mischief.swap):
-            self._swapped = True
-            return []
-        return [packet]
+            return [], True
+        return [packet], False
 
     def _happens(self, often: float) -> bool:
         return self._chance.random() < often

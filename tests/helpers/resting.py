@@ -26,7 +26,7 @@ class Watch:
         self.now = 0.0
         self.moved = 0.0
         """When it moved last."""
-        self.whole_since = 0.0
+        self.whole_since = float("-inf")
         """Since when there is a link, both sockets of it; infinite while there is none."""
 
     def __enter__(self) -> Self:

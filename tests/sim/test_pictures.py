@@ -1,4 +1,4 @@
-"""Pictures for the log, drawn by a process of their own."""
+"""Pictures that are drawn by a process of their own."""
 
 import multiprocessing
 import os
@@ -13,15 +13,15 @@ from patience import PATIENCE_S
 from executive.events import Inbox
 from executive.records import Note, Picture
 from executive.testing.bench import Notebook, four_rooms
-from executive.types import DriveTo, Frame, Pose
-from sim.bullet.camera import GLANCING, view_from
+from executive.types import FLOOR, DriveTo, Frame, LookAt, Pose
+from sim.bullet.camera import GLANCING, SimulatedCamera, view_from
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_fault
 from sim.objects.objects import load_objects
 from sim.pictures import process
 from sim.pictures.beside import worthwhile
+from sim.pictures.coming import NotDrawnError
 from sim.pictures.painter import Asked, Stage
-from sim.pictures.process import NotDrawnError
 from sim.pictures.scene import Moment
 from sim.world import PhysicsWorld
 
@@ -100,6 +100,20 @@ def test_pictures_drawn_beside_the_physics_are_the_same_to_the_bit(
     assert any(type(frame) is not Frame for frame in beside_it)
     assert all(type(frame) is Frame for frame in at_once)
     assert all(map(same, beside_it, at_once))
+
+
+@physics
+def test_what_the_robot_looks_at_is_drawn_beside_the_same_to_the_bit():
+    world = PhysicsWorld(four_rooms(), MODELS, Inbox(), Notebook(), camera_hz=0, looks_beside=True)
+    world.robot.start(LookAt(FLOOR, 1))
+    while world.busy:
+        world.advance(1.0)
+    beside_it = world.camera.capture()
+    here = SimulatedCamera(world._client, world._camera_pose).capture()
+    assert type(beside_it) is not Frame
+    assert np.array_equal(beside_it.color, here.color)
+    assert np.array_equal(beside_it.depth, here.depth)
+    world.close()
 
 
 @physics

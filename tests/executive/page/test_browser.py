@@ -132,7 +132,10 @@ def test_a_question_is_stopped_as_well(browser: Browser, talking: Robot, how: st
         expect(tab.locator("#answers")).to_be_hidden()
 
 
-def test_it_is_stopped_at_any_moment(browser: Browser, tmp_path: Path) -> None:
+def test_it_is_stopped_at_any_moment(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sim.fake.SPEED_M_S", 0.1)  # not there before a busy machine says stop
     chance = random.Random(0)
     with (
         robot(tmp_path, world="paging:in_real_time") as made,
