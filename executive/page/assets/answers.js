@@ -36,8 +36,9 @@ export function showAskedBack(asked, settle) {
   if (asked) {
     back.append(
       element("p", { id: "asked-back-text" }, asked.text),
-      button(text("yes"), () => settle(true)),
-      button(text("no"), () => settle(false)));
+      element("div", {},
+        button(text("yes"), () => settle(true)),
+        button(text("no"), () => settle(false))));
   }
   return had;
 }

@@ -31,7 +31,9 @@ export function add(entry) {
   if (follows || entry.who === "person") toEnd();
 }
 
+/** Before anything was said, what one could begin with is read from its beginning. */
 export function toEnd() {
+  if (!list.childElementCount) return;
   scroll.scrollTop = scroll.scrollHeight;
 }
 
