@@ -21,12 +21,12 @@ import llama_cpp
 
 from executive.cache import cache_folder
 from executive.errors import ModelError
+from executive.servers.key import EARS_KEY, LLM_KEY
 from executive.text import printable, writable
 from executive.types import Message
 from kb.llm.context import Context
 from kb.llm.gguf import Gguf, check_file
 from kb.llm.gguf_header import TEMPLATE, read_header, refuse_what_does_not_chat
-from kb.llm.key import VARIABLE
 from kb.llm.template import Template
 
 PATIENCE_S = 60.0
@@ -72,7 +72,8 @@ def tried(path: Path, called_off: Callable[[], bool] = lambda: False) -> bool:
 def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
     environment = {**os.environ, "GGML_NO_BACKTRACE": "1"}
     environment["PYTHONPATH"] = os.pathsep.join(part or os.getcwd() for part in sys.path)
-    environment.pop(VARIABLE, None)
+    for secret in (LLM_KEY, EARS_KEY):
+        environment.pop(secret, None)
     command = "from kb.llm.first_load import main; main()"
     with subprocess.Popen(
         [sys.executable, "-P", "-c", command, path.absolute()],
