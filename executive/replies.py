@@ -163,11 +163,11 @@ def _why(words: str, standing: Standing, knowledge: Knowledge) -> str:
     visits = [visit for visit in standing.visits if not named or visit.place in named]
     if named or any(word in _WAYS for word in words.split()):
         if not visits:
-            return "I was not there." if named else "I did not go anywhere."
+            return "I was not there." if named else standing.doing or "I did not go anywhere."
         visit = visits[-1]
         says = SAYS.get(visit.source, f"so says the {visit.source}")
         return f"I went to {Wording(knowledge.called).the(visit.place)} to look there: {says}."
-    return standing.reason or "I did nothing yet."
+    return standing.reason or standing.doing or "I did nothing yet."
 
 
 def _one(things: Things, knowledge: Knowledge) -> tuple[str, str]:

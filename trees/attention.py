@@ -49,8 +49,10 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
     spoken = spoken_now(context.situation)
     said = context.interpreter.read(words)
     correction = as_correction(said)
+    if isinstance(said, Answer) and said.where and not said.told and _goes_somewhere(at_hand):
+        correction = Correction(place=said.where[0])  # "on the sofa": where to, and not where it is
     if isinstance(said, Answer):
-        said = resolved(said, spoken)  # "it is on the sofa"
+        said = correction or resolved(said, spoken)  # "it is on the sofa"
     if denial := not correction and context.interpreter.denial(words):
         return _refuse(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
@@ -60,15 +62,26 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
             return _reply(context, said, now) or context.interpreter.talk(words)
         case Refusal() if answer := _refuse(context, said.words, at_hand):
             return answer
+        case Refusal() if said.words and not _named(context, said.words):
+            return f"{NOT_KNOWN_WHAT.format('not')} {now}"
+        case Request() if answer := _reply(context, said, now):
+            return answer
         case Request():
             commands = commands_in(resolved(said, spoken), words)
             if (alone := left_alone(said)) and isinstance(commands, tuple):
                 return _instead_of(context, alone, commands, at_hand)
+            if at_hand and isinstance(commands, tuple) and _in_its_stead(context, said, at_hand):
+                return _replace(context, commands)
             return _add(context, commands, now)
     if correction and at_hand:
         return _correct(context, correction, at_hand, words, now)
     why_not = context.interpreter.remark(words)
     return why_not or f"{context.interpreter.not_understood(words)}. {now}"
+
+
+def _goes_somewhere(command: Command | None) -> bool:
+    """Whether the task at hand has a place where the thing, or the robot, is to go."""
+    return command is not None and command.kind.means.at_goal
 
 
 def spoken_now(situation: Situation) -> Spoken:
@@ -81,7 +94,15 @@ def spoken_now(situation: Situation) -> Spoken:
     return Spoken(things, request.command.target, place, before.request)
 
 
-def _reply(context: MissionContext, said: Question | Statement, now: str) -> str:
+def _in_its_stead(context: MissionContext, said: Request, at_hand: Command) -> bool:
+    """Whether a certain thing is wanted instead of that at hand: "the drill, not the hammer"."""
+    things = [t for task in said.tasks if task.things for t in task.things.members]
+    certain = (t for t in things if t.definite and t.number is None)
+    left_out = (but.words for thing in certain for but in thing.exceptions if but.words)
+    return any(_is_about(context, words, at_hand) for words in left_out)
+
+
+def _reply(context: MissionContext, said: Question | Statement | Request, now: str) -> str:
     """Answer; if the thing that is looked for is elsewhere, look there from now on."""
     situation = context.situation
     meant = resolved(said, spoken_now(situation))
@@ -152,6 +173,8 @@ def _refuse(context: MissionContext, words: str, at_hand: Command | None) -> str
     is_part = any(task.depth for task in waiting) and not everything
     left_out: list[Command] = []
     is_now = not is_part or context.situation.request.object in named
+    if at_hand and (others := _others(context, at_hand, named)):
+        return _replace(context, ((others,),))
     if at_hand and is_now and _is_about(context, words, at_hand):
         agenda.take_back()
         context.situation.request.command = at_hand
@@ -161,6 +184,15 @@ def _refuse(context: MissionContext, words: str, at_hand: Command | None) -> str
             left_out.append(_leave_out(context, task, named))
     wishes = [in_one_sentence(context, command) for command in left_out]
     return f"Then I do not {either(wishes)}." if wishes else ""
+
+
+def _others(context: MissionContext, at_hand: Command, named: set[str]) -> Command | None:
+    """As many things, but none of those named; None if there are too few, or it is about others."""
+    things = _objects(context, at_hand)
+    left_out = tuple(sorted(named & things))
+    if not left_out or not 1 < at_hand.number <= len(things - named):
+        return None
+    return replace(at_hand, exceptions=(*at_hand.exceptions, *left_out))
 
 
 def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:

@@ -14,13 +14,23 @@ from executive.records import Activity, Utterance
 from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.situation import candidates_from
 from executive.text import printable, too_long
-from executive.types import DELIVERY, Answered, Command, Question, QuestionKind, Result, Source
+from executive.types import (
+    DELIVERY,
+    Answered,
+    Command,
+    CommandKind,
+    Question,
+    QuestionKind,
+    Result,
+    Source,
+)
 from trees.attention import all_of, attend_to
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
 from trees.telling import NEXT_TO, sentence, tell
 from trees.unknown import nearest, unknown, unresolved
 
+_QUESTIONS = {CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL}
 NO_PLACE = "I know no such place. "
 
 
@@ -268,6 +278,13 @@ class AskWhichObject(Ask):
 
     def _named(self, said: Said) -> tuple[str, ...]:
         """What an answer names in more words; a command is one only for what was offered."""
+        command = self.situation.request.command
+        if (
+            isinstance(said, Request)
+            and command
+            and said.tasks[0].verb in _QUESTIONS - {command.kind}
+        ):
+            return ()  # "where is the apple?"
         offered = self.situation.request.options or not isinstance(said, Request)
         return self.context.knowledge.objects_named(named(said)) if offered else ()
 

@@ -10,6 +10,7 @@ from py_trees.common import Status
 from executive.language.answers import picked
 from executive.language.wording import either
 from executive.types import (
+    FLOOR,
     PERSON,
     SOMETHING,
     Command,
@@ -401,6 +402,8 @@ def unknown(context: MissionContext) -> str:
         return f"I do not know where {context.say.are(things[0])}"
     if cannot_be_put(context, goal) and not goes:
         return f"I can put things on furniture, or in it, but not '{context.as_said(goal)}'"
+    if FLOOR in goal.split():
+        return "I put nothing on the floor"
     if goal:
         return f"I do not know where '{context.as_said(goal)}' is"
     put = f"put {context.say.the(request.object or '')}"

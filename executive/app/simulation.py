@@ -1,5 +1,6 @@
 """The two simulated bodies: in PyBullet, and in the instant world."""
 
+import logging
 from collections.abc import Callable
 
 from executive.app.embodiment import Embodiment, Setup
@@ -13,6 +14,8 @@ from sim.faults.orders import Fault, parse_faults, refuse_physical
 from sim.home.home import Home
 from sim.home.state import with_room
 
+log = logging.getLogger(__name__)
+
 
 def fake(setup: Setup) -> Embodiment:
     """The instant world, in which things are on furniture, and have no positions.
@@ -22,6 +25,8 @@ def fake(setup: Setup) -> Embodiment:
     """
     faults = parse_faults(setup.settings.fault, setup.home)
     refuse_physical(faults)
+    if (file := setup.settings.detector).endswith(".onnx"):
+        log.warning("%s is not used: the instant world knows what is in its pictures", file)
     world = FakeWorld(setup.home, setup.inbox, setup.recorder)
     clock = SimulatedClock(setup.inbox, world)
     injector = _injector(setup, faults, clock.now)

@@ -166,10 +166,13 @@ class Builder(Deeds):
         """As in "I think the apple"."""
         return Answer(things=parts[-1])
 
-    def placed(self, parts: list[Part]) -> Answer:
-        """As in "on the desk"."""
+    def placed(self, parts: list[Part]) -> Answer | Correction:
+        """As in "on the desk"; "to the desk" is not where it is."""
+        if isinstance(parts[-1], To) and len(parts) == 1:
+            return Correction(goal=parts[-1].place)
         places = [p for p in parts if not isinstance(p, Token)]
-        return Answer(where=tuple(p if isinstance(p, Where) else p.place for p in places))
+        where = tuple(p if isinstance(p, Where) else p.place for p in places)
+        return Answer(where=where, told=is_a(parts[0], "HEDGE"))
 
     def ordinal(self, parts: list[Part]) -> Answer:
         """As in "the second one"."""

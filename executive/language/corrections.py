@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from executive.language.commands import commands_in, in_words
 from executive.language.meaning import (
+    ME,
     Answer,
     Correction,
     Request,
@@ -16,9 +17,18 @@ from executive.language.meaning import (
 from executive.language.spoken import in_place_of
 from executive.types import Command, CommandKind, Commands
 
+_CARRIED = (CommandKind.BRING, CommandKind.TAKE, CommandKind.PUT)
+"""What of these is done, depends on where the thing is to go."""
+
 
 def corrected(said: Correction, at_hand: Command, words: str) -> Commands | str:
     """The tasks in place of the one at hand, or beside it; or why one of them cannot be done."""
+    if said.goal and at_hand.kind in _CARRIED:
+        brings = said.goal == ME
+        at_hand = replace(at_hand, kind=CommandKind.BRING if brings else CommandKind.PUT, goal="")
+        said = replace(said, goal=None) if brings else said
+    if said.goal and not at_hand.kind.means.at_goal:
+        return f"I do not understand '{words}'."
     match said.meant:
         case Request() as request:
             read = commands_in(request, words)

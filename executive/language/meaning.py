@@ -250,6 +250,8 @@ class Answer:
     """The first is 1, the last is -1."""
     things: Things | None = None
     where: tuple[Where, ...] = ()
+    told: bool = field(default=False, compare=False)
+    """Of a place, whether it is said as a statement is: "it is on the sofa"."""
 
 
 class Courtesy(StrEnum):

@@ -27,6 +27,7 @@ _OF_ALL = ("them", "those", "these")
 _OF_THE_HAND = (CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN)
 """What is put somewhere is first of all what the hand holds."""
 _THERE = ("there", "over there")
+_QUESTIONS = (CommandKind.CHECK, CommandKind.COUNT, CommandKind.TELL)
 _ONE = "one"
 """Of a kind that was spoken of."""
 _ANYWHERE = (CommandKind.COUNT, CommandKind.CHECK)
@@ -123,6 +124,8 @@ def after(said: Said, before: Spoken, *, things: tuple[str, ...] = (), place: st
             named = [task for task in said.tasks if task.things]
             called = _called(named[-1].things) if named else ""
             goal = next((t.goal.words for t in reversed(said.tasks) if t.goal), "")
+            goal = goal or _asked_about(said.tasks[-1])
+            things = things or _asked_for(said.tasks[-1])
             new = replace(before, request=said, called=called or before.called)
         case Statement() | Question(things=Things()):
             assert said.things
@@ -130,6 +133,18 @@ def after(said: Said, before: Spoken, *, things: tuple[str, ...] = (), place: st
         case _:
             return before
     return replace(new, things=things or before.things, place=goal or place or before.place)
+
+
+def _asked_about(task: Task) -> str:
+    """The place of a question: "what is on the desk"; empty for a deed."""
+    asked = task.source if task.verb in _QUESTIONS else None
+    return asked.words if asked and not asked.pronoun and not asked.others else ""
+
+
+def _asked_for(task: Task) -> tuple[str, ...]:
+    """The one thing of a question: "is there an apple"; none for a deed."""
+    members = task.things.members if task.things and task.verb in _QUESTIONS else ()
+    return (members[0].words,) if len(members) == 1 and members[0].words else ()
 
 
 def asked_anew(said: Correction, spoken: Spoken, *, in_one_breath: bool = False) -> Said:
@@ -161,6 +176,9 @@ def in_place_of(task: Task, things: Things) -> Task:
             task, goal=replace(task.goal, words=" or ".join(t.words for t in things.members))
         )
     kind = task.things.members[0].words if task.things else ""
+    if [thing.words for thing in things.members] == [_ONE]:  # "no, one"
+        thing = replace(things.members[0], words=kind, number=1, said=kind)
+        return replace(task, things=replace(things, members=(thing,)))
     members = tuple(
         t if t.words or t.pronoun else replace(t, words=kind, said=f"{t.said} {kind}")
         for t in things.members

@@ -232,3 +232,10 @@ def test_a_signal_before_the_first_command_ends_the_session() -> None:
         process.send_signal(signal.SIGINT)
         process.wait(timeout=PATIENCE_S)
     assert process.returncode == 130
+
+
+def test_a_detector_that_the_instant_world_does_not_use_is_told(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    assert main([*QUICK, "--detector", "mine.onnx", "Find the mug"]) == 0
+    assert "mine.onnx is not used: the instant world" in caplog.text

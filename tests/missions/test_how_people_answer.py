@@ -54,3 +54,20 @@ def test_where_nothing_can_be_put_is_asked_about() -> None:
         "Put the mug behind the sofa", answers=["on the sofa"], llm=False, search="plan"
     )
     assert "not 'behind the sofa'" in run.user.asked[0].text
+
+
+def test_a_question_is_no_answer() -> None:
+    answers = ["Where is the apple?", "the pear"]
+    run = run_mission("Bring me a fruit", answers=answers, llm=False, search="plan")
+    assert moved(run) == {"pear"}
+
+
+@pytest.mark.parametrize("answer", ["apple pls", "umm the apple i guess", "teh apple", "any"])
+def test_an_answer_may_be_sloppy(answer: str) -> None:
+    run = run_mission("Bring me a fruit", answers=[answer], llm=False, search="plan")
+    assert moved(run) == {"apple"}
+
+
+def test_nothing_is_put_on_the_floor() -> None:
+    run = run_mission("Put the mug on the floor", answers=["on the desk"], llm=False, search="plan")
+    assert run.user.asked[0].text == "I put nothing on the floor. Where shall I put the mug?"

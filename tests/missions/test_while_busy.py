@@ -302,3 +302,69 @@ def test_how_many_it_is_to_be_instead_is_told() -> None:
     mission = run("Bring two fruits", "No, three fruits")
     assert "All right: I bring three fruits instead." in answers(mission)
     assert mission.outcome.reason.startswith("I brought all three: ")
+
+
+@pytest.mark.parametrize("heard", ["to the kitchen", "No, to the kitchen"])
+def test_another_place_for_what_is_brought_is_where_it_is_put(heard: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert tasks(mission) == [("put", "hammer", DONE)]
+    assert mission.world.resting_place("hammer") == "cabinet_kitchen"
+
+
+def test_what_is_to_go_to_the_person_instead_is_brought() -> None:
+    mission = run("Put the hammer on the desk", "No, to me")
+    assert tasks(mission) == [("bring", "hammer", DONE)]
+    assert mission.world.resting_place("hammer") == "delivery"
+
+
+@pytest.mark.parametrize(
+    ("heard", "place"), [("on the sofa", "sofa"), ("it is on the sofa", "desk")]
+)
+def test_a_place_is_where_to_unless_it_is_said_that_it_is_there(heard: str, place: str) -> None:
+    mission = run("Put the hammer on the desk", heard)
+    assert mission.world.resting_place("hammer") == place
+
+
+@pytest.mark.parametrize("heard", ["Make it one", "No, one"])
+def test_one_instead_of_two_is_one_of_the_same_kind(heard: str) -> None:
+    mission = run("Bring two tools", heard)
+    assert [task for task in tasks(mission) if task[2] == DONE] == tasks(mission)
+    assert len(tasks(mission)) == 1
+
+
+def test_of_several_that_will_do_one_may_be_left_out() -> None:
+    mission = run("Bring two fruits", "Not the apple")
+    assert mission.outcome.status == DONE
+    assert "All right: I bring two fruits but not the apple instead." in answers(mission)
+    assert mission.world.resting_place("apple") == "dining_table"
+
+
+@pytest.mark.parametrize(
+    "heard",
+    ["Bring the power drill instead of the hammer", "Bring the power drill, not the hammer"],
+)
+def test_what_is_wanted_instead_takes_the_place_of_the_task(heard: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert tasks(mission) == [("bring", "power_drill", DONE)]
+
+
+def test_where_furniture_stands_is_answered_at_once() -> None:
+    mission = run("Bring the hammer", "Where is the sofa?")
+    assert "The sofa is in the living room." in answers(mission)
+    assert tasks(mission) == [("bring", "hammer", DONE)]
+
+
+@pytest.mark.parametrize("heard", ["Why?", "Why are you going there?", "Are you busy?"])
+def test_who_asks_why_is_told_what_it_is_for(heard: str) -> None:
+    mission = run("Bring the hammer", heard)
+    assert any("to bring the hammer" in answer for answer in answers(mission))
+
+
+def test_it_does_not_say_that_it_will_not_and_goes_on() -> None:
+    mission = run("Bring the hammer", "Don't worry")
+    assert "Then I will not." not in answers(mission)
+
+
+def test_a_deed_that_begins_with_and_is_done_next() -> None:
+    mission = run("Find the mug", "And bring it to me")
+    assert [task[:2] for task in tasks(mission)] == [("find", "mug"), ("bring", "mug")]

@@ -130,3 +130,16 @@ def test_another_number_is_of_the_same_things(words: str) -> None:
 def test_what_was_brought_and_is_to_go_elsewhere_is_put_there() -> None:
     [[made]] = read.commands("No, to the kitchen", asked_before("Bring the mug"))
     assert (made.kind, made.target, made.goal) == ("put", "mug", "kitchen")
+
+
+@pytest.mark.parametrize(
+    ("asked", "then", "meant"),
+    [
+        ("What is on the desk?", "Bring the mug from there", "bring mug from desk"),
+        ("Is there an apple?", "Bring it", "bring apple"),
+        ("Is the mug on the desk?", "Bring it", "bring mug"),
+        ("How many tools are there?", "Bring one", "bring tools"),
+    ],
+)
+def test_what_was_asked_about_is_what_was_spoken_of(asked: str, then: str, meant: str) -> None:
+    assert command(then, asked_before(asked)) == meant
