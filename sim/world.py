@@ -40,7 +40,7 @@ from sim.navigation.durations import durations_in
 from sim.navigation.grid import OccupancyGrid
 from sim.navigation.navigator import Navigator
 from sim.objects.objects import ObjectModel
-from sim.pictures.beside import CameraBeside
+from sim.pictures.beside import CameraBeside, OtherCamera
 from sim.pictures.scene import Actors, Blueprint
 from sim.robot import SimulatedRobot
 from sim.transforms import FrameTree
@@ -136,6 +136,10 @@ class PhysicsWorld:
             actors = Actors(self._client, movable, self._hardware.body)
             self._beside = CameraBeside(glancing, actors, blueprint, recorder)
         self._log_camera: Camera = self._beside or self._glancing
+        self.eyes: Camera = self.camera
+        """The same camera; a detector that needs no more than the picture need not draw it here."""
+        if self._beside and not injector:
+            self.eyes = OtherCamera(camera, self._beside)
 
     # --- SimulatedHome ---
 
