@@ -70,24 +70,28 @@ def of_the_person(tab: Page) -> None:
     tab.emulate_media(color_scheme="light")
     tab.set_viewport_size(PHONE)
     say(tab, "Find a fruit")
-    tab.locator("#answers img").last.wait_for()
-    tab.wait_for_timeout(1000)
-    tab.locator("#answers").evaluate("box => { box.scrollTop = 0; }")
+    expect(tab.locator("#doing")).to_contain_text("I am waiting", timeout=PATIENCE_MS)
+    for picture in tab.locator("#answers img").all():
+        expect(picture).to_have_js_property("naturalWidth", 160, timeout=PATIENCE_MS)
     keep(tab, "page-phone.png")
     tab.keyboard.press("Escape")
     expect(tab.locator("#last")).to_contain_text("stopped", timeout=PATIENCE_MS)
 
 
 def of_the_experimenter(desk: Page, tab: Page) -> None:
-    """One with a sentence held, one with two runs, one on a phone."""
+    """One with a sentence and a choice held, one with two runs, one on a phone."""
     for _ in range(2):
         do(tab, "Find the sugar_box")
     desk.get_by_label("Your name").fill("Anna")
     desk.get_by_label("Hold what the robot says").check()
+    desk.get_by_label("Hold where it goes next").check()
     say(tab, "Find a fruit")
     desk.get_by_label("Held sentence 1").wait_for()
-    desk.locator("#live [role=treeitem]").filter(has_text="which object").first.click()
+    desk.locator("#wizard").get_by_role("button", name="peach").click()
+    desk.locator("#wizard .choice").wait_for()
     desk.wait_for_timeout(1000)
+    desk.locator("#live [role=treeitem]").filter(has_text="choice").first.click()
+    desk.locator("#live .why .shape").wait_for()
     keep(desk, "experiment.png")
     desk.emulate_media(color_scheme="dark")
     desk.set_viewport_size(PHONE)

@@ -119,9 +119,16 @@ class Settings(BaseModel):
     user: Annotated[Literal["console", "oracle", "none"], Option()] = Field(
         "console", description="who answers: you, the paper's simulated user, or nobody"
     )
-    ears: Annotated[Literal["pocketsphinx"] | None, Option()] = Field(
+    ears: Annotated[str | None, Option("pocketsphinx, http://host:port/v1 or DIR/")] = Field(
         None, description="who hears what you say aloud (docs/speech.md)"
     )
+    ears_model: str | None = Field(
+        None, description="name of the model on a server that hears (default: whisper-1)"
+    )
+    ears_language: str = Field(
+        "en", pattern="^[a-z]{2,3}$", description="that is spoken, for a server that hears"
+    )
+    ears_timeout_s: float = Field(20.0, gt=0, description="how long a server may take to hear")
     microphone: Annotated[
         str, Option("arecord, FILE.wav, DIR or -", "where the ears hear it (default: arecord)")
     ] = Field("arecord", description="program that records, WAV file, folder of them, or a pipe")
@@ -224,7 +231,18 @@ class Settings(BaseModel):
             return _address(value)
         raise ValueError("should be embedded, none, a FILE.gguf or http://host:port/v1")
 
-    @field_validator("llm_model")
+    @field_validator("ears")
+    @classmethod
+    def _known_ears(cls, value: str | None) -> str | None:
+        if value is None or value == "pocketsphinx" or value.startswith((".", "/", "~")):
+            return value
+        if value.startswith(("http://", "https://")):
+            return _address(value, "EXECUTIVE_EARS_API_KEY")
+        raise ValueError(
+            "should be 'pocketsphinx', http://host:port/v1 or a folder such as ./models/whisper"
+        )
+
+    @field_validator("llm_model", "ears_model")
     @classmethod
     def _name_of_a_model(cls, value: str | None) -> str | None:
         if value is not None and not (value.strip() and value.isprintable() and len(value) <= 200):
@@ -260,6 +278,11 @@ class Settings(BaseModel):
     def body(self) -> str:
         """What the robot's body is called in messages."""
         return f"the robot at {self.robot}" if self.robot else f"the world {self.world}"
+
+    @property
+    def is_typed(self) -> bool:
+        """Whether standard input is what a person types; else it is the microphone's sound."""
+        return self.ears is None or self.microphone != "-"
 
     @property
     def uses_llm(self) -> bool:

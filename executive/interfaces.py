@@ -247,6 +247,10 @@ class Facts(Protocol):
         """The robot has put it down there."""
         ...
 
+    def looked(self, place: str) -> None:
+        """All of the place was looked at: what was not seen there is not there."""
+        ...
+
     def places_of(self, name: str) -> tuple[str, ...]:
         """Where it was seen or said to be, freshest first, as far as no later look contradicts."""
         ...

@@ -23,6 +23,8 @@ log = logging.getLogger(__name__)
 
 MOST_BELIEFS, MOST_PLACES, MOST_NAME = 10_000, 100, 200
 """Objects that are believed to be anywhere; places of one; letters of a name."""
+EVERYTHING = "everything"
+"""What is looked at where a place is looked at all over."""
 MOST_LOOKED_BACK = 20_000
 """Facts among which it is looked for where the robot took things from: some milliseconds."""
 
@@ -39,6 +41,8 @@ class FactKind(StrEnum):
     """The robot picked it up there: it is nowhere now."""
     PUT = "put"
     """The robot put it down there."""
+    LOOKED = "looked"
+    """All of the place was looked at, for everything: what was not seen is not there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +143,10 @@ class FactStore:
             return ()
         self._failing = False
         return places
+
+    def looked(self, place: str) -> None:
+        """All of it was looked at."""
+        self._add(FactKind.LOOKED, EVERYTHING, place)
 
     # --- for whoever keeps and shows them ---
 

@@ -1,7 +1,7 @@
 """What facts say of each thing one after the other: seen here, gone from there, unknown between.
 
-A place that was looked at all over, because something was looked for there in vain, tells of every
-other thing, too: what was not seen there is not there.
+A place that was looked at all over tells of every thing, whatever was looked for: what was not seen
+there is not there. So it is where something was looked for in vain, and often where it was found.
 """
 
 from bisect import bisect_right
@@ -15,6 +15,7 @@ LOOK_S = 60.0
 """Facts about one place within this time are of one look."""
 _SEEN = {FactKind.SEEN, FactKind.PUT, FactKind.SAID, FactKind.TAKEN}
 """What says that the thing is, or was until now, at the place."""
+_OF_A_LOOK = {FactKind.SEEN, FactKind.MISSED, FactKind.LOOKED}
 
 
 def _time(look: tuple[float, frozenset[str]]) -> float:
@@ -64,6 +65,17 @@ class Interval:
 
 
 @dataclass
+class _Look:
+    """A look at a place that may go on: facts that come soon after belong to it."""
+
+    since_s: float
+    seen: set[str] = field(default_factory=set)
+    missed: set[str] = field(default_factory=set)
+    whole: bool = False
+    """Whether all of the place was looked at."""
+
+
+@dataclass
 class Sightings:
     """All of it, in the order of the facts."""
 
@@ -73,8 +85,7 @@ class Sightings:
         default_factory=lambda: defaultdict(list)
     )
     """Of each place, when it was looked at all over, and what was there."""
-    _open: dict[str, tuple[float, set[str], set[str]]] = field(default_factory=dict)
-    """Looks that may go on: since when, what was seen, what was looked for in vain."""
+    _open: dict[str, _Look] = field(default_factory=dict)
 
     def add(self, facts: Iterable[Fact]) -> None:
         """Take in the facts, the oldest first."""
@@ -85,19 +96,21 @@ class Sightings:
                 self.known[fact.object].append(Known(fact.time_s, fact.place, taken, said))
 
     def _look(self, fact: Fact) -> None:
-        if fact.kind not in (FactKind.SEEN, FactKind.MISSED):
+        if fact.kind not in _OF_A_LOOK:
             return
-        since, seen, missed = self._open.get(fact.place, (fact.time_s, set(), set()))
-        if not 0 <= fact.time_s - since <= LOOK_S:
-            since, seen, missed = fact.time_s, set[str](), set[str]()
-        (seen if fact.kind == FactKind.SEEN else missed).add(fact.object)
-        self._open[fact.place] = since, seen, missed
-        if missed:
-            looks, look = self.looks[fact.place], (since, frozenset(seen - missed))
-            if looks and looks[-1][0] == since:
-                looks[-1] = look
-            else:
-                looks.append(look)
+        look = self._open.get(fact.place)
+        if look is None or not 0 <= fact.time_s - look.since_s <= LOOK_S:
+            look = self._open[fact.place] = _Look(fact.time_s)
+        if fact.kind == FactKind.SEEN:
+            look.seen.add(fact.object)
+        elif fact.kind == FactKind.MISSED:
+            look.missed.add(fact.object)
+        look.whole |= fact.kind != FactKind.SEEN
+        if look.whole:
+            looks = self.looks[fact.place]
+            if looks and looks[-1][0] == look.since_s:
+                looks.pop()
+            looks.append((look.since_s, frozenset(look.seen - look.missed)))
 
     def intervals(self) -> Iterator[Interval]:
         """What can be learned from: the times between two sightings of a thing."""

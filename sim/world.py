@@ -75,6 +75,7 @@ class PhysicsWorld:
         injector: FaultInjector | None = None,
         left: Collection[str] = (),
         beside: bool = False,
+        looks_beside: bool = False,
     ) -> None:
         """Build the home with the robot in it.
 
@@ -89,13 +90,15 @@ class PhysicsWorld:
             injector: what goes wrong by order.
             left: things that are where they were left, so that the seed leaves them there.
             beside: whether another process draws the pictures for the log.
+            looks_beside: whether another process draws what the robot looks at.
         """
         self._home = home
         self._models = models
         self._recorder = recorder
         self._client = connect(gui)
         self._client.setPhysicsEngineParameter(deterministicOverlappingPairs=1)
-        blueprint = Blueprint(self._client) if beside and camera_hz else None
+        drawn_beside = (beside and camera_hz) or looks_beside
+        blueprint = Blueprint(self._client) if drawn_beside else None
         self._fixtures = build_home(self._client, home)
         if gui:
             aim_window(self._client, home.extent())
@@ -131,15 +134,22 @@ class PhysicsWorld:
         self._frames = FrameTree(self._client, self._hardware, movable)
         self._robots_frames = FrameTree(self._client, self._hardware, {})
         self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
-        self._beside: CameraBeside | None = None
-        if blueprint and not (injector and injector.spoils_pictures):
+        self._beside: list[CameraBeside] = []
+        self._log_camera: Camera = self._glancing
+        spoilt = injector is not None and injector.spoils_pictures
+        self.draws_looks_beside = looks_beside and not spoilt
+        if blueprint and not spoilt:
             actors = Actors(self._client, movable, self._hardware.body)
-            self._beside = CameraBeside(glancing, actors, blueprint, recorder)
-        self._log_camera: Camera = self._beside or self._glancing
+            if beside and camera_hz:
+                self._log_camera = CameraBeside(glancing, actors, blueprint, recorder)
+                self._beside.append(self._log_camera)
+            if self.draws_looks_beside:
+                self.camera = CameraBeside(camera, actors, blueprint, recorder, "pictures")
+                self._beside.append(self.camera)
         self.eyes: Camera = self.camera
         """The same camera; a detector that needs no more than the picture need not draw it here."""
-        if self._beside and not injector:
-            self.eyes = OtherCamera(camera, self._beside)
+        if isinstance(self._log_camera, CameraBeside) and not (injector or looks_beside):
+            self.eyes = OtherCamera(camera, self._log_camera)
 
     # --- SimulatedHome ---
 
@@ -171,8 +181,8 @@ class PhysicsWorld:
 
     def close(self) -> None:
         """Free the simulator."""
-        if self._beside:
-            self._beside.close()
+        for camera in self._beside:
+            camera.close()
         self.robot.close()
         self._planning.close()
         self._client.disconnect()

@@ -1,13 +1,31 @@
 """What all tests share: settings of hypothesis, and fixtures."""
 
 import gc
+import sys
 
 import hypothesis
 import pytest
+from patience import PATIENCE_S
 
 from executive.testing.bench import four_rooms
 
-hypothesis.settings.register_profile("machines are noisy", deadline=None)
+LIMITS = {
+    "executive.campaign.cluster": ("CONNECTING_S",),
+    "executive.ros.actions": ("LINK_S", "PATH_S"),
+    "executive.ros.camera": ("FRAME_S", "LINK_S"),
+    "executive.ros.rclpy_link": ("SERVER_S",),
+    "kb.llm.llama": ("CLOSING_S",),
+    "kb.llm.server.asking": ("LOOKING_S",),
+    "kb.llm.server.server": ("CLOSING_S",),
+    "logs.recorder": ("PATIENCE_S", "CLOSE_S"),
+    "logs.viewer.program": ("START_S", "SETTLE_S"),
+}
+"""How long is waited for what comes at once on a machine with nothing else to do."""
+
+SLOW = (hypothesis.HealthCheck.too_slow,)
+hypothesis.settings.register_profile(
+    "machines are noisy", deadline=None, suppress_health_check=SLOW
+)
 hypothesis.settings.load_profile("machines are noisy")
 
 
@@ -19,6 +37,9 @@ def pytest_collection_finish() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(5000, 10, 10)
+    for module, limits in LIMITS.items():
+        for limit in limits if module in sys.modules else ():
+            setattr(sys.modules[module], limit, PATIENCE_S)
 
 
 @pytest.fixture(scope="session")

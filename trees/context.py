@@ -79,6 +79,9 @@ class NoFacts:
     def put(self, name: str, place: str) -> None:
         """Forget it."""
 
+    def looked(self, place: str) -> None:
+        """Forget it."""
+
     def places_of(self, name: str) -> tuple[str, ...]:
         """Nowhere."""
         return ()

@@ -517,6 +517,8 @@ class SeeTarget(BodyAction):
             return Status.FAILURE
         search.detection = seen
         search.found = self._where(seen)
+        if search.looks.all_but(search.candidate.place, search.view):
+            self.context.facts.looked(search.candidate.place)
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
     def attempt(self) -> str:

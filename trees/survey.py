@@ -106,7 +106,7 @@ class SeeAll(SeeTarget):
 
 
 class RememberWhatIsGone(Step):
-    """What was believed to be here and was not seen is here no more.
+    """What was believed to be here and was not seen is here no more; all of it was looked at.
 
     Reads search.candidate, search.looks and survey.seen.
     """
@@ -121,6 +121,7 @@ class RememberWhatIsGone(Step):
             for name in believed:
                 if name not in seen[place]:
                     facts.missed(name, place)
+            facts.looked(place)
         return Status.SUCCESS
 
 

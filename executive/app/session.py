@@ -107,7 +107,8 @@ class Session:
             self.parts = change(replace(parts, sources=given))
             """Whom missions are run with."""
             checked(self.parts.sources)
-            speak_aloud(self.parts, opened)
+            self.doubt = speak_aloud(self.parts, opened)
+            """Takes in what ears hear; None if there is no person to be heard."""
             self._recording = None
             if recorded:
                 used |= body_used(self.parts)

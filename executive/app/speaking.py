@@ -1,56 +1,97 @@
 """Gives a person ears that hear them, and a voice, as the settings say."""
 
 from contextlib import ExitStack
+from pathlib import Path
 
 from executive.app.parts import Parts
 from executive.errors import InputError
 from executive.language.phrases import spoken
+from executive.servers.key import EARS_KEY, Key
+from executive.speech.agreeing import Agreeing
 from executive.speech.doubt import Doubt
 from executive.speech.espeak import EspeakVoice
 from executive.speech.interfaces import Ears, Vocabulary, Voice
 from executive.speech.listening import Listening
-from executive.speech.microphone import microphone
+from executive.speech.microphone import is_live, microphone
 from executive.user import Console
 from kb.ontology.ontology import Ontology
 
 
-def speak_aloud(parts: Parts, opened: ExitStack) -> None:
+def speak_aloud(parts: Parts, opened: ExitStack) -> Doubt | None:
     """Begin to speak and to listen, if that is wanted; it ends with `opened`.
+
+    Returns:
+        Who takes in what ears hear, ours or a page's; None if there is no person to be heard.
 
     Raises:
         InputError: if something that it takes is not there, or nobody is there to be heard.
     """
     settings = parts.settings
-    if settings.ears is None and settings.voice is None:
-        return
     if not isinstance(parts.user, Console):
+        if settings.ears is None and settings.voice is None:
+            return None
         option = "--ears" if settings.ears else "--voice"
         raise InputError(option, "there is no person to talk with", "use --user console")
+    doubt = Doubt(parts.user, parts.interpreter, parts.inbox)
     voice = None
     if settings.voice:
         voice = EspeakVoice()
         opened.callback(voice.close)
         parts.user.aloud = voice.say
     if settings.ears:
-        listen(parts, parts.user, voice, opened)
+        listen(parts, parts.user, doubt, voice, opened)
+    return doubt
 
 
-def listen(parts: Parts, person: Console, voice: Voice | None, opened: ExitStack) -> None:
+def listen(
+    parts: Parts, person: Console, doubt: Doubt, voice: Voice | None, opened: ExitStack
+) -> None:
     """Hear the person from now on.
 
     Raises:
         InputError: if ears or microphone cannot be had.
     """
-    from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
-    from executive.speech.spotting import StopSpotter
+    from executive.speech.spotting import StopSpotter  # of the extra `speech`
 
-    blocks = microphone(parts.settings.microphone)
-    ears: Ears = PocketsphinxEars(vocabulary(parts.knowledge))
+    ears = ears_of(parts, person)
     opened.callback(ears.close)
-    doubt = Doubt(person, parts.interpreter, parts.inbox)
-    listening = Listening(blocks, ears, doubt, person, spotter=StopSpotter(), voice=voice)
+    spotter, blocks = StopSpotter(), microphone(parts.settings.microphone)
+    live = is_live(parts.settings.microphone)
+    listening = Listening(blocks, ears, doubt, person, spotter=spotter, voice=voice, live=live)
     opened.callback(listening.close)
     listening.start()
+
+
+def ears_of(parts: Parts, person: Console) -> Ears:
+    """The ears that the settings name; the person is told where sound goes.
+
+    Raises:
+        InputError: if they cannot be had.
+    """
+    from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
+
+    settings = parts.settings
+    local = PocketsphinxEars(vocabulary(parts.knowledge))
+    if settings.ears in (None, local.name):
+        return local
+    if not settings.ears.startswith("http"):
+        from executive.speech.sherpa import SherpaEars  # of the extra `speech-onnx`
+
+        folder = Path(settings.ears).expanduser()
+        own = SherpaEars(folder, settings.ears_language)
+        return Agreeing(own, local, parts.interpreter.agrees)
+    from executive.speech.server import ServerEars  # loads a client of HTTP
+
+    server = ServerEars(
+        settings.ears,
+        model=settings.ears_model,
+        language=settings.ears_language,
+        key=Key.from_environment(EARS_KEY),
+        timeout_s=settings.ears_timeout_s,
+    )
+    if server.note:
+        person.mention(server.note)
+    return Agreeing(server, local, parts.interpreter.agrees)
 
 
 def vocabulary(knowledge: Ontology) -> Vocabulary:

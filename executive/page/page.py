@@ -1,11 +1,13 @@
 """The page as a whole: what is shown, who speaks, and the server between."""
 
 import secrets
+from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from starlette.routing import Route
 
+from executive.app.speaking import vocabulary
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.language.phrases import spoken
@@ -16,6 +18,7 @@ from executive.page.experiment.runs import Runs
 from executive.page.experiment.site import PUBLIC as EXPERIMENT_PUBLIC
 from executive.page.experiment.site import ROOT, experiment_site
 from executive.page.guarding import Guard, Site, parted
+from executive.page.hearing import Alternative
 from executive.page.person import PagePerson
 from executive.page.plan import plan
 from executive.page.portraits import Portraits
@@ -36,14 +39,24 @@ class Page:
     `follow` when it is built.
     """
 
-    def __init__(self, inbox: Inbox, address: Address | None = None, token: str = "") -> None:
+    def __init__(
+        self,
+        inbox: Inbox,
+        address: Address | None = None,
+        token: str = "",
+        *,
+        speech: bool = True,
+    ) -> None:
         """Serve at once; the token is chosen if none is given.
+
+        With `speech`, the person may have their browser listen and speak.
 
         Raises:
             InputError: if the address cannot be had.
         """
         address = address or Address()
         token = token or secrets.token_urlsafe(16)
+        self.speech = speech
         self._server = Server(address)
         self.url = address.url(self._server.port, token)
         """What to open in a browser."""
@@ -94,7 +107,9 @@ class Page:
         self._portraits = Portraits(home.drawn_models())
         self.board.put("home", plan(home))
         self.board.put("things", _things(session, self._portraits))
-        self.person.follow(session)
+        known = vocabulary(session.parts.knowledge)
+        self.person.follow(session, (*known.things, *known.places))
+        self.board.put("speech", self.speech)
         self.board.flush()
         if self.desk:
             self.desk.live.name = lambda: session.folder.name if session.folder else ""
@@ -121,6 +136,14 @@ class Page:
     def answers(self, words: str, question: int) -> bool:
         """The person chose an answer of this question; False if that is over."""
         return self.person.answers(words, question)
+
+    def hears(self, heard: Sequence[Alternative], utterance: str, *, final: bool) -> str:
+        """The person's browser heard this: what became of it; empty if it should not listen."""
+        return self.person.hears(heard, utterance, final=final) if self.speech else ""
+
+    def settles(self, number: int, *, agrees: bool) -> bool:
+        """The person said yes or no to what was asked back; False if that is over."""
+        return self.person.settles(number, agrees=agrees)
 
     def stops(self) -> None:
         """The person pressed the stop button."""

@@ -2,20 +2,27 @@
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, cast
 
 from executive.events import Deed, Inbox, Intervened
 from executive.page.board import Board
 from executive.page.gate import Gate
+from executive.page.hearing import BROWSER, Alternative, Hearing, stop_in
 from executive.page.lines import Lines, Said
+from executive.speech.doubt import Doubt
+from executive.speech.interfaces import Reading
 from executive.text import LONGEST, one_line, writable
 from executive.types import Question
 from executive.user import Console
 
 if TYPE_CHECKING:
     from executive.app.session import Session
+
+
+STOPPED, HEARD, NOT_READY = "stopped", "heard", "not ready"
+"""What becomes of what a page heard."""
 
 
 class PagePerson(Console):
@@ -33,6 +40,10 @@ class PagePerson(Console):
         self._ticking = 0
         """The thread in which the mission speaks."""
         self._session: Session | None = None
+        self._doubt: Doubt | None = None
+        self._hearing: Hearing | None = None
+        self._stopped_in = ""
+        """The utterance in which a stop was heard last."""
         self._before: Path | None = None
         """The last mission that was over when a command was listened for."""
         self.gate = Gate(self._let_through)
@@ -41,10 +52,18 @@ class PagePerson(Console):
         """Is told which question waits for an answer, whether the person was asked it or not."""
         super().__init__(inbox, cast(TextIO, self._typing), cast(TextIO, Said(self._shown)))
         board.put("question", None)
+        board.put("asked_back", None)
 
-    def follow(self, session: "Session") -> None:
-        """Tell from now on with each sentence in which mission of this session it was said."""
+    def follow(self, session: "Session", names: Sequence[str] = ()) -> None:
+        """Tell from now on with each sentence in which mission of this session it was said.
+
+        These names are listened for.
+        """
         self._session = session
+        if session.doubt:
+            self._hearing = Hearing(names, session.parts.interpreter.agrees)
+            self._doubt = session.doubt
+            self._doubt.changed = self._show_asked_back
 
     # --- the robot speaks ---
 
@@ -104,17 +123,55 @@ class PagePerson(Console):
             self._show_said(line)
             self._lines.append(line)
             self._serve()
-            return True
+        self._ask_nothing_back()
+        return True
+
+    def hears(self, heard: Sequence[Alternative], utterance: str, *, final: bool) -> str:
+        """A recogniser at the page heard this: what became of it.
+
+        As long as they still speak, only a stop counts, once an utterance.
+        """
+        if stop := stop_in(heard):
+            if utterance != self._stopped_in:
+                self._stopped_in = utterance
+                self._take_in(Reading(BROWSER, *stop))
+            return STOPPED
+        if final and self._hearing:
+            self._take_in(self._hearing.reading(heard))
+        return HEARD if self._hearing else NOT_READY
+
+    def _take_in(self, reading: Reading) -> None:
+        """A stop needs nobody who asks back."""
+        if self._doubt:
+            self._doubt.hear(reading)
+        else:
+            self.says(reading.text)
+
+    def settles(self, number: int, *, agrees: bool) -> bool:
+        """They pressed yes or no to what was asked back; False if that is over."""
+        return self._doubt is not None and self._doubt.settle(number, agrees=agrees)
 
     def stops(self) -> None:
         """They pressed the stop button: nothing has to be read first."""
         self._board.say({"who": "person", "stop": True, "at": time.time()})
         self._stop()
+        self._ask_nothing_back()
 
     def show_question(self) -> None:
         """Show it as it is by now, after what the robot said was let go."""
         with self._lock:
             self._show_question()
+        self._board.flush()
+
+    def _ask_nothing_back(self) -> None:
+        if self._doubt:
+            self._doubt.forget()
+
+    def _show_asked_back(self) -> None:
+        assert self._doubt
+        asked = self._doubt.asked_back
+        shown = asked and {"id": asked.number, "text": asked.text, "words": asked.words}
+        self._board.put("asked_back", shown)
         self._board.flush()
 
     def _show_said(self, line: str) -> None:

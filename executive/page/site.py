@@ -16,6 +16,7 @@ from starlette.routing import Route
 
 from executive.errors import ExecutiveError
 from executive.page.board import Board
+from executive.page.hearing import Alternative, alternatives_in
 
 T = TypeVar("T")
 
@@ -64,6 +65,14 @@ class Behind(Protocol):
         """The person chose an answer of this question; False if that is over."""
         ...
 
+    def hears(self, heard: Sequence[Alternative], utterance: str, *, final: bool) -> str:
+        """The person's browser heard this: what became of it; empty if it should not listen."""
+        ...
+
+    def settles(self, number: int, *, agrees: bool) -> bool:
+        """The person said yes or no to what was asked back; False if that is over."""
+        ...
+
     def stops(self) -> None:
         """The person pressed the stop button."""
         ...
@@ -91,6 +100,8 @@ def site(behind: Behind) -> Starlette:
             *(Route(path, answers.asset) for path in sorted(PUBLIC)),
             Route("/events", answers.events),
             Route("/say", answers.say, methods=["POST"]),
+            Route("/heard", answers.heard, methods=["POST"]),
+            Route("/settle", answers.settle, methods=["POST"]),
             Route("/stop", answers.stop, methods=["POST"]),
             Route("/why", answers.why),
             Route("/camera/{number:int}.jpg", answers.camera),
@@ -128,6 +139,26 @@ class _Answers:
         elif not self._behind.answers(words, question):
             return PlainTextResponse("This question is over.", 409)
         return JSONResponse({})
+
+    async def heard(self, request: Request) -> Response:
+        sent = await sent_json(request)
+        heard, utterance = alternatives_in(sent), sent.get("utterance")
+        if not heard or not isinstance(utterance, str):
+            return PlainTextResponse("This is too long, or nothing that was heard.", 413)
+        final, hears = sent.get("final") is True, self._behind.hears
+        became = await run_in_threadpool(hears, heard, utterance, final=final)
+        if not became:
+            return PlainTextResponse("This page does not listen.", 409)
+        return JSONResponse({"became": became})
+
+    async def settle(self, request: Request) -> Response:
+        sent = await sent_json(request)
+        match sent:
+            case {"asked": int(number), "agrees": bool(agrees)}:
+                done = self._behind.settles(number, agrees=agrees)
+            case _:
+                return PlainTextResponse("This is no answer.", 413)
+        return JSONResponse({}) if done else PlainTextResponse("This question is over.", 409)
 
     async def stop(self, request: Request) -> Response:
         self._behind.stops()
@@ -207,7 +238,8 @@ def _known(board: Board, last: str) -> int:
 async def news(board: Board, known: int) -> AsyncIterator[str]:
     """Server-sent events: all that is newer than a page knows, and then what comes, until it ends.
 
-    A page that knows nothing of this board is told first to forget what it shows.
+    A page that knows nothing of this board is told first to forget what it shows. Each is told when
+    it has caught up: what comes then is news.
     """
     loop, changed = asyncio.get_running_loop(), asyncio.Event()
 
@@ -220,14 +252,18 @@ async def news(board: Board, known: int) -> AsyncIterator[str]:
         yield f"retry: {RETRY_MS}\n\n"
         if not known:
             yield "event: fresh\ndata: {}\n\n"
+        caught_up = False
         while True:
             changed.clear()
             over = board.over
             for number, name, text in board.since(known):
-                known = number
+                known, caught_up = number, caught_up and name != "fresh"
                 yield f"id: {board.name}-{number}\nevent: {name}\ndata: {text}\n\n"
             if over:
                 return
+            if not caught_up:
+                caught_up = True
+                yield "event: caught_up\ndata: {}\n\n"
             try:
                 async with asyncio.timeout(HEARTBEAT_S):
                     await changed.wait()

@@ -22,8 +22,8 @@ SERVER_S = 3.0
 MATCHING_S = 0.5
 """A server that is found may find who asks it this much later: a goal in between would be lost."""
 DISCOVERY_S, QUIET_S = 15.0, 3.5
-"""So long a graph may take to be discovered; one to which nothing is added for so long is whole: what
-a lost packet hid is told again with the next heartbeat, every 3 s by Fast DDS's defaults."""
+"""So long a graph may take to be discovered; one to which nothing is added for so long is whole: a
+heartbeat, every 3 s by Fast DDS's defaults, tells again what a lost packet hid."""
 LOOK_S = 0.02
 DEPTH = 10
 _GOAL, _KIND = "/_action/send_goal", "_SendGoal"

@@ -15,6 +15,8 @@ from executive.ros.senses import Senses
 
 CANCELLING_S = 1.0
 """So long a server may take to say that it cancels."""
+ASKING_S = 0.2
+"""After so long without a word it is asked once more: what was asked may never have arrived."""
 FINDING_S = 3.0
 """So long it is tried to stop what is left of earlier."""
 REST_S = 2.0
@@ -73,8 +75,12 @@ class Brake:
 
     async def settled(self) -> None:
         """Wait until no cancelling is under way: it would hit what is begun meanwhile."""
-        if self._under_way is not None and not self._under_way.done():
+        if self._under_way is not None and self._is_cancelling:
             await asyncio.wait({self._under_way}, timeout=2 * CANCELLING_S)
+
+    @property
+    def _is_cancelling(self) -> bool:
+        return self._under_way is not None and not self._under_way.done()
 
     async def _cancel_all(self) -> dict[str, str]:
         sections = self._profile.actions()
@@ -84,21 +90,42 @@ class Brake:
         return {s: why[action.action] for s, action in sections.items() if why[action.action]}
 
     async def _cancel(self, action: str) -> str:
-        """Cancel all goals of an action; why that could not be, or nothing."""
+        """Cancel all goals of an action; why that could not be, or nothing.
+
+        It ends when all that was asked is answered: what is still on its way would hit what is
+        begun next.
+        """
+        time = asyncio.get_running_loop().time
+        latest = time() + CANCELLING_S
+        asked: set[asyncio.Task[str]] = set()
+        try:
+            while not any(one.done() for one in asked) and (left := latest - time()) > 0:
+                asked.add(asyncio.create_task(self._ask_to_cancel(action, left)))
+                await asyncio.wait(asked, timeout=ASKING_S, return_when=asyncio.FIRST_COMPLETED)
+            return min(await asyncio.gather(*asked), key=len)
+        finally:
+            for one in asked:
+                one.cancel()
+
+    async def _ask_to_cancel(self, action: str, within_s: float) -> str:
         service = f"{action}/_action/cancel_goal"
         kind = "action_msgs/srv/CancelGoal"
         try:
             answer = await self._link.call(
-                service, kind, everything(), within_s=CANCELLING_S, urgent=True
+                service, kind, everything(), within_s=within_s, urgent=True
             )
         except LinkError as error:
             return in_words(error)
         return "it refuses" if answer.get("return_code") == REFUSED else ""
 
     async def rest(self) -> str:
-        """Wait for rest; what still moves then, as a clause, or nothing."""
+        """Wait for rest; what still moves then, as a clause, or nothing.
+
+        What moves on is cancelled again: it may have been begun after it was cancelled, if the one
+        overtook the other.
+        """
         time = asyncio.get_running_loop().time
-        latest, again = time() + REST_S, 0.0
+        latest, again, cancelling = time() + REST_S, 0.0, time() + ASKING_S
         while True:
             if time() >= again:
                 self._senses.feel_motion_anew()
@@ -108,3 +135,6 @@ class Brake:
                 return f"nobody can tell whether I move: {self._link.loss}"
             if not (unrest := self._senses.unrest) or time() > latest:
                 return unrest
+            if time() >= cancelling and not self._is_cancelling:
+                self._under_way = asyncio.create_task(self._cancel_all())
+                cancelling = time() + ASKING_S

@@ -52,6 +52,11 @@ class Looks:
         """Whether every part of a place was seen, and the thing is in none of them."""
         return 0 < self._parts.get(place, 0) == len(self._without.get(place, ()))
 
+    def all_but(self, place: str, part: int) -> bool:
+        """Whether every other part of a place was seen, and the thing is in none of them."""
+        without = self._without.get(place, set())
+        return 0 < self._parts.get(place, 0) == len(without | {part})
+
     def share_seen(self, place: str) -> float:
         """How much of a place was seen without the thing, from 0 to 1."""
         parts = self._parts.get(place, 0)

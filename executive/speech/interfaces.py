@@ -23,12 +23,14 @@ class Reading:
         text: the words; empty if they could not make any of it.
         confidence: between 0 and 1; 0 if the ears cannot tell.
         sure: whether the words may be acted upon without asking; ours are only of a yes or a no.
+        problem: why the ears could not hear it, as a clause; empty if they could.
     """
 
     by: str
     text: str
     confidence: float = 0.0
     sure: bool = False
+    problem: str = ""
 
 
 class Ears(Protocol):
@@ -42,6 +44,7 @@ class Ears(Protocol):
     def hear(self, sound: Sound) -> Reading:
         """What was said in one utterance; takes as long as it takes. Never raises.
 
+        One thread calls it, which is neither the one that ticks nor the one that listens to a stop.
         What is silence or noise has no text. What is not certain is not `sure`: a wrong reading
         that is sure becomes a wrong deed.
         """
@@ -64,8 +67,8 @@ class Voice(Protocol):
         ...
 
     @property
-    def speaks(self) -> bool:
-        """Whether something is being said now, so that ears hear the robot itself."""
+    def saying(self) -> str:
+        """What is being said or is about to be, as it sounds, for ears hear it, too; or nothing."""
         ...
 
     def close(self) -> None:

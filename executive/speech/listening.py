@@ -1,22 +1,33 @@
 """Listens all the time, on a thread of its own: to a stop while something runs, and to words."""
 
-import logging
 import threading
 from collections.abc import Iterator
 
 from executive.errors import ExecutiveError
 from executive.speech.doubt import Doubt
+from executive.speech.hearing import Hearing
 from executive.speech.interfaces import Ears, Voice
-from executive.speech.sound import Sound
+from executive.speech.interrupting import Interrupting
+from executive.speech.overlap import Overlapping
+from executive.speech.sound import RATE_HZ, Sound
 from executive.speech.spotting import StopSpotter
 from executive.speech.utterances import Utterances
+from executive.text import printable
 from executive.user import Console
 
-log = logging.getLogger(__name__)
+DEAD_S = 10.0
+"""A microphone that gives nothing but zeros for so long is switched off."""
+DEAD = "I hear nothing at all, not even noise. Is the microphone switched off?"
+
+TOO_LONG = "What I hear is too long for a command, or noise."
+NOBODY = "The sound has ended, and I have heard nobody speak."
 
 
 class Listening:
-    """What the microphone hears goes to the ears, and what they make of it to the person's side."""
+    """What the microphone hears goes to the ears, and what they make of it to the person's side.
+
+    The stop is listened for while there is something to stop: the robot's deed, or its voice.
+    """
 
     def __init__(
         self,
@@ -27,15 +38,23 @@ class Listening:
         *,
         spotter: StopSpotter | None = None,
         voice: Voice | None = None,
+        live: bool = True,
     ) -> None:
-        """Put it together; `start` begins."""
+        """Put it together; `start` begins. What is not live waits until the ears have heard."""
         self._blocks = blocks
-        self._ears = ears
         self._doubt = doubt
         self._person = person
         self._spotter = spotter
         self._voice = voice
+        self._live = live
         self._closed = False
+        self._hearing = Hearing(ears, doubt)
+        self._interrupting = Interrupting()
+        self._dead_s = 0.0
+        self._understands = True
+        """Whether what was heard last could be a command: else it has been told already."""
+        self._heard = False
+        """Whether anybody has been heard."""
         self._thread = threading.Thread(target=self._listen, name="ears", daemon=True)
 
     def start(self) -> None:
@@ -46,40 +65,70 @@ class Listening:
     def close(self) -> None:
         """Listen no more; what is being heard is dropped."""
         self._closed = True
+        self._hearing.forget()
 
     def _listen(self) -> None:
         try:
             self._listen_to_all()
+            if not (self._heard or self._closed):
+                self._person.mention(NOBODY)
         except (ExecutiveError, OSError, ValueError) as error:
-            log.warning("the ears hear no more: %s", error)
+            if not self._closed:
+                self._person.mention(f"I hear no more: {printable(error)}.")
         finally:
+            self._hearing.finish()
             self._person.keep_open(False)
 
     def _listen_to_all(self) -> None:
-        cut = Utterances()
-        own = False
+        cut, overlapping = Utterances(), Overlapping()
         for block in self._blocks:
             if self._closed:
                 return
-            if self._spotter and self._person.is_busy and self._spotter.hears_stop(block):
-                self._stop()
-                cut, own = Utterances(), False
+            saying = self._voice.saying if self._voice else ""
+            if self._hears_stop(block, saying):
+                cut, overlapping = Utterances(), Overlapping()
                 continue
-            own = own or bool(self._voice and self._voice.speaks)
-            said = cut.add(block)
+            self._notice_a_dead_one(block)
+            said, seconds = cut.add(block), len(block) / RATE_HZ
+            overlapping.add(saying, seconds, loud=cut.is_loud)
+            if self._interrupting.add(cut.level, seconds, speaking=bool(saying)):
+                self._give_way(overlapping)
             if said is not None:
-                self._hear(said, own)
-            if said is not None or not cut.is_open:
-                own = False
+                self._add(said, overlapping)
+            elif not cut.is_open:
+                overlapping.take()
+            if cut.too_long and self._understands:
+                self._understands = False
+                self._person.mention(TOO_LONG)
         if (said := cut.end()) is not None:
-            self._hear(said, own)
+            self._add(said, overlapping)
 
-    def _hear(self, sound: Sound, own: bool) -> None:
-        """What was said while the robot spoke is mostly the robot: it is left out."""
-        if not own:
-            self._doubt.hear(self._ears.hear(sound))
+    def _add(self, said: Sound, overlapping: Overlapping) -> None:
+        self._heard = self._understands = True
+        self._hearing.add(said, overlapping.take())
+        if not self._live:
+            self._hearing.settle()
 
-    def _stop(self) -> None:
+    def _hears_stop(self, block: Sound, saying: str) -> bool:
+        """Whether it ends a spoken stop: what runs is stopped, and the voice is silent."""
+        busy = self._person.is_busy
+        if not self._spotter or not (busy or saying) or not self._spotter.hears_stop(block):
+            return False
+        self._hearing.forget()
         if self._voice:
             self._voice.hush()
-        self._doubt.stop()
+        self._doubt.stop(busy=busy)
+        return True
+
+    def _give_way(self, overlapping: Overlapping) -> None:
+        """Somebody speaks into the robot's words: it lets them."""
+        overlapping.interrupted()
+        if self._voice:
+            self._voice.hush()
+
+    def _notice_a_dead_one(self, block: Sound) -> None:
+        """Say once that the microphone seems to be switched off."""
+        before = self._dead_s
+        self._dead_s = 0.0 if block.any() else before + len(block) / RATE_HZ
+        if before < DEAD_S <= self._dead_s:
+            self._person.mention(DEAD)

@@ -3,11 +3,14 @@
 It comes in blocks of a tenth of a second. After each file there is silence, as after a sentence.
 """
 
+import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
@@ -19,6 +22,12 @@ from executive.speech.sound import RATE_HZ, Sound, read_wav
 RECORDER = "arecord"
 BLOCK = RATE_HZ // 10
 PAUSE_S = 1.0
+START_S = 0.3
+"""A recorder that finds no device, or a busy one, ends within this."""
+MOST_SAID = 1 << 16
+NO_DEVICE = f"see what {RECORDER} -l lists, and that no other program records; or give a FILE.wav"
+_PLACE = re.compile(r"^\w+: (?:\w+:\d+: )?")
+"""Where in its own source it found a fault."""
 RIGHT = f"give a FILE.wav, a folder of them, - for a pipe, or {RECORDER} for a microphone"
 
 
@@ -29,6 +38,8 @@ def microphone(name: str) -> Iterator[Sound]:
         InputError: if there is no such file or program, or a file is no WAV that can be read.
     """
     if name == "-":
+        if sys.stdin is None or sys.stdin.closed:
+            raise InputError("--microphone -", "standard input is closed", RIGHT)
         return blocks(sys.stdin.buffer)
     if name == RECORDER:
         return recorded()
@@ -37,6 +48,11 @@ def microphone(name: str) -> Iterator[Sound]:
     if path.is_dir() and not files:
         raise InputError(name, "there is no .wav file in this folder", RIGHT)
     return from_files([read_wav(file) for file in files])
+
+
+def is_live(name: str) -> bool:
+    """Whether it goes on while ears think: files wait for them."""
+    return name in ("-", RECORDER)
 
 
 def from_files(sounds: list[Sound], wait: Callable[[float], None] = time.sleep) -> Iterator[Sound]:
@@ -50,21 +66,45 @@ def from_files(sounds: list[Sound], wait: Callable[[float], None] = time.sleep) 
 
 
 def recorded() -> Iterator[Sound]:
-    """What the default microphone of ALSA hears."""
+    """What the default microphone of ALSA hears.
+
+    Raises:
+        InputError: if the program is not there, or ends: at once, or while it is listened to.
+    """
     program = shutil.which(RECORDER)
     if program is None:
         raise InputError(f"--microphone {RECORDER}", "there is no such program", RIGHT)
-    command = [program, "-q", "-t", "raw", "-f", "S16_LE", "-r", str(RATE_HZ), "-c", "1"]
-    return _recorded(command)
+    found = _recorded([program, "-q", "-t", "raw", "-f", "S16_LE", "-r", str(RATE_HZ), "-c", "1"])
+    next(found)
+    return found
 
 
 def _recorded(command: list[str]) -> Iterator[Sound]:
-    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE) as process:
+    """First nothing, when it has begun; then what is recorded."""
+    quiet, out = subprocess.DEVNULL, subprocess.PIPE
+    with (
+        tempfile.TemporaryFile() as said,
+        subprocess.Popen(command, stdin=quiet, stdout=out, stderr=said) as process,
+    ):
         assert process.stdout
         try:
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(START_S)
+                raise _ended(process, said)
+            yield np.zeros(0, np.int16)
             yield from blocks(process.stdout)
+            process.wait()
+            raise _ended(process, said)
         finally:
             process.kill()
+
+
+def _ended(process: subprocess.Popen[bytes], said: IO[bytes]) -> InputError:
+    """Why there is no microphone, in the recorder's last words."""
+    said.seek(0)
+    lines = said.read(MOST_SAID).decode(errors="replace").strip().splitlines()
+    why = _PLACE.sub("", lines[-1]) if lines else f"it ended with {process.returncode}"
+    return InputError(f"--microphone {RECORDER}", f"nothing is recorded: {why}", NO_DEVICE)
 
 
 def blocks(source: IO[bytes]) -> Iterator[Sound]:

@@ -18,6 +18,9 @@ LONGEST_S = 60.0
 """Nobody speaks longer without a break; a file that does is no command."""
 RIGHT = "record WAV, 16 bits, 16 kHz, one channel: arecord -f S16_LE -r 16000 -c 1 FILE.wav"
 SLOWEST_HZ, FASTEST_HZ = 8_000, 192_000
+MOST_BYTES = 100 << 20
+"""Of a file: a minute has less, even of the finest sound in two channels."""
+EXTENSIBLE = b"\xfe\xff"
 FLOOR = 3.0
 """Standard deviation of a noise that nobody hears."""
 QUIET = 100
@@ -27,15 +30,19 @@ QUIET = 100
 def read_wav(path: Path) -> Sound:
     """What is in a WAV file.
 
-    Other rates than 16 kHz are resampled, and of several channels the mean is taken.
+    Other rates than 16 kHz are resampled, of several channels the mean is taken, and samples of 8,
+    24 or 32 bits become 16.
 
     Raises:
-        InputError: if it cannot be read, is no WAV of 16 bits, or is longer than a minute.
+        InputError: if it cannot be read, is no such WAV, has no sound, or more than a minute of it.
     """
     try:
-        content = path.read_bytes()
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise InputError(str(path), error.strerror or "cannot be read", RIGHT) from None
+    if len(content) > MOST_BYTES:
+        raise InputError(str(path), f"is larger than {MOST_BYTES >> 20} MB", RIGHT)
     return from_wav(content, str(path))
 
 
@@ -49,19 +56,40 @@ def from_wav(content: bytes, where: str) -> Sound:
         InputError: as `read_wav` does.
     """
     try:
-        with wave.open(io.BytesIO(content)) as file:
+        with wave.open(io.BytesIO(_with_plain_format(content))) as file:
             width, channels, rate = file.getsampwidth(), file.getnchannels(), file.getframerate()
-            if width != 2:
+            if not 1 <= width <= 4:
                 raise InputError(where, f"has samples of {8 * width} bits", RIGHT)
             if not SLOWEST_HZ <= rate <= FASTEST_HZ:
                 raise InputError(where, f"has {rate:,} samples a second", RIGHT)
             frames = file.readframes(int(rate * LONGEST_S) + 1)
-    except (wave.Error, EOFError):
-        raise InputError(where, "is no WAV file", RIGHT) from None
-    samples = np.frombuffer(frames[: len(frames) // (2 * channels) * 2 * channels], "<i2")
+    except (wave.Error, EOFError, RuntimeError, ValueError) as error:  # of a broken header
+        other = "unknown format" in str(error)
+        what = "is a WAV file whose samples are no whole numbers" if other else "is no WAV file"
+        raise InputError(where, what, RIGHT) from None
+    samples = _of_16_bits(frames[: len(frames) // (width * channels) * width * channels], width)
+    if not len(samples):
+        raise InputError(where, "has no sound in it", RIGHT)
     if len(samples) / channels > rate * LONGEST_S:
         raise InputError(where, f"is longer than {LONGEST_S:.0f} s", "give one command a file")
     return resampled(samples.reshape(-1, channels).mean(axis=1), rate)
+
+
+def _with_plain_format(content: bytes) -> bytes:
+    """A header of the extensible kind says at its end what another says at once."""
+    at = content.find(b"fmt ", 0, 1000) + 8
+    if at < 8 or content[at : at + 2] != EXTENSIBLE or len(content) < at + 26:
+        return content
+    return content[:at] + content[at + 24 : at + 26] + content[at + 2 :]
+
+
+def _of_16_bits(frames: bytes, width: int) -> NDArray[np.float64]:
+    """Samples of so many bytes, as large as if they had 16 bits."""
+    if width == 1:
+        return (np.frombuffer(frames, np.uint8).astype(np.float64) - 128.0) * 256.0
+    padded = np.zeros((len(frames) // width, 4), np.uint8)
+    padded[:, 4 - width :] = np.frombuffer(frames, np.uint8).reshape(-1, width)
+    return padded.view("<i4")[:, 0] / 65536.0
 
 
 def resampled(samples: NDArray[np.floating], rate_hz: int) -> Sound:

@@ -24,7 +24,12 @@ class Utterances:
     def __init__(self) -> None:
         """Nothing was heard yet."""
         self._noise = LEAST / OVER_NOISE
-        self._level = 0.0
+        self.level = 0.0
+        """Root mean square of the last block."""
+        self.too_long = False
+        """Whether what ended with the last block was too long for a command."""
+        self.is_loud = False
+        """Whether the last block was as loud as speech is."""
         self._before: deque[Sound] = deque()
         self._spoken: list[Sound] = []
         self._loud_s = self._quiet_s = 0.0
@@ -32,9 +37,9 @@ class Utterances:
     def add(self, block: Sound) -> Sound | None:
         """An utterance that ended with this block; None if none did."""
         level = float(np.sqrt(np.mean(block.astype(np.float64) ** 2))) if len(block) else 0.0
-        self._level = level
+        self.level, self.too_long = level, False
         seconds = len(block) / RATE_HZ
-        loud = level > max(LEAST, OVER_NOISE * self._noise)
+        self.is_loud = loud = level > max(LEAST, OVER_NOISE * self._noise)
         if not self._spoken and not loud:
             self._noise += 0.1 * (level - self._noise)
             self._before.append(block)
@@ -51,8 +56,9 @@ class Utterances:
     def end(self) -> Sound | None:
         """What was said last, if it is an utterance."""
         whole, said = self._spoken, self._loud_s >= SHORTEST_S and self._length_s <= MOST_S
-        if self._length_s > MOST_S:
-            self._noise = self._level  # what is as loud all the time is noise, from now on
+        self.too_long = self._length_s > MOST_S
+        if self.too_long:
+            self._noise = self.level  # what is as loud all the time is noise, from now on
         self._spoken, self._loud_s, self._quiet_s = [], 0.0, 0.0
         return np.concatenate(whole) if said and whole else None
 

@@ -19,9 +19,9 @@ from pathlib import Path
 
 from executive.cache import cache_folder
 from executive.errors import ModelError
+from executive.servers.key import EARS_KEY, LLM_KEY
 from executive.text import printable, writable
 from kb.llm.gguf_header import RANKS, WRITES, check_file
-from kb.llm.key import VARIABLE
 
 PATIENCE_S = 60.0
 """For a small file, and ..."""
@@ -60,7 +60,8 @@ def tried(path: Path, called_off: Callable[[], bool] = lambda: False) -> bool:
 def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
     environment = {**os.environ, "GGML_NO_BACKTRACE": "1"}
     environment["PYTHONPATH"] = os.pathsep.join(part or os.getcwd() for part in sys.path)
-    environment.pop(VARIABLE, None)
+    for secret in (LLM_KEY, EARS_KEY):
+        environment.pop(secret, None)
     command = "from kb.llm.trial import main; main()"
     with subprocess.Popen(
         [sys.executable, "-P", "-c", command, path.absolute()],

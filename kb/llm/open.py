@@ -9,7 +9,7 @@ from executive.config import Settings
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import LanguageModel
-from kb.llm.key import Key
+from executive.servers.key import Key
 
 
 def model_for_missions(settings: Settings, inbox: Inbox) -> LanguageModel | None:

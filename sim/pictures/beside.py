@@ -1,4 +1,4 @@
-"""Pictures drawn beside the physics by a process with its own copy of the world.
+"""Pictures that are drawn beside the physics, by a process with its own copy of the world.
 
 What it draws is the same to the bit: a frame's pixels come later. For those of the log nobody
 waits; for what the robot looks at the mission waits, but a stop is heard meanwhile. Where there is
@@ -8,17 +8,14 @@ no such process, or too much waits for it, pictures are drawn here and at once.
 import logging
 import multiprocessing
 import os
-from concurrent.futures import Future
-
-import numpy as np
-from numpy.typing import NDArray
 
 from executive.interfaces import Recorder
 from executive.records import Note
 from executive.text import printable
-from executive.types import Frame, Intrinsics, Pose
+from executive.types import Frame
 from sim.bullet.camera import SimulatedCamera, view_from
-from sim.pictures.painter import Asked, Pixels, Stage
+from sim.pictures.coming import ComingFrame
+from sim.pictures.painter import Asked, Stage
 from sim.pictures.process import Painter
 from sim.pictures.scene import Actors, Blueprint
 
@@ -37,44 +34,16 @@ def _cores() -> int:
     return os.cpu_count() or 1
 
 
-class ComingFrame(Frame):
-    """A Frame whose pixels are still drawn; who reads them waits for them.
-
-    Reading them raises what the drawing raised.
-    """
-
-    __slots__ = ("_pixels",)
-    _pixels: "Future[Pixels]"
-
-    def __init__(
-        self, number: int, intrinsics: Intrinsics, pose: Pose, pixels: "Future[Pixels]"
-    ) -> None:
-        """All is known but the pixels."""
-        known = {"number": number, "intrinsics": intrinsics, "pose": pose, "_pixels": pixels}
-        for name, value in known.items():
-            object.__setattr__(self, name, value)  # frames are frozen
-
-    @property
-    def coming(self) -> bool:
-        """It is taken as such when it has come, too: what follows is the same."""
-        return True
-
-    @property
-    def color(self) -> NDArray[np.uint8]:
-        """As any frame's."""
-        return self._pixels.result()[0]
-
-    @property
-    def depth(self) -> NDArray[np.float32]:
-        """As any frame's."""
-        return self._pixels.result()[1]
-
-
 class CameraBeside:
     """A Camera whose pictures are drawn by another process, and by this one where that cannot."""
 
     def __init__(
-        self, camera: SimulatedCamera, actors: Actors, blueprint: Blueprint, recorder: Recorder
+        self,
+        camera: SimulatedCamera,
+        actors: Actors,
+        blueprint: Blueprint,
+        recorder: Recorder,
+        what: str = "pictures for the log",
     ) -> None:
         """Start the process.
 
@@ -83,10 +52,12 @@ class CameraBeside:
             actors: what moves in its world.
             blueprint: of its world, which is built.
             recorder: is told when the other process draws no more.
+            what: what it draws, in words.
         """
         self._camera = camera
         self._actors = actors
         self._recorder = recorder
+        self._what = what
         self._painter: Painter | None = None
         self._untold = ""
         """Why there is no painter, until that is told."""
@@ -104,7 +75,7 @@ class CameraBeside:
         """The picture of this moment by another camera in the same world."""
         coming = self._coming(camera)
         if self._untold:
-            text = f"pictures for the log are not drawn beside the physics: {self._untold}"
+            text = f"{self._what} are not drawn beside the physics: {self._untold}"
             log.warning("%s", printable(text))
             self._recorder.record(Note("warning", printable(text)))
             self._untold = ""

@@ -10,6 +10,7 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import suppress
 from typing import IO
 
+from sim.pictures.coming import NotDrawnError
 from sim.pictures.painter import PROTOCOL, Asked, Pixels, Stage
 
 MOST_WAITING = 4
@@ -23,13 +24,6 @@ PIPE_BYTES = 1 << 20
 PROGRAM = "import sys; sys.path[:] = {path!r}; from sim.pictures.painter import main; main()"
 _NO_THREADS = {"OPENBLAS_NUM_THREADS": "1"}
 """It does no linear algebra."""
-
-
-class NotDrawnError(RuntimeError):
-    """A picture that was asked for will never be there.
-
-    It is no OSError: a log that cannot have the picture is sound all the same.
-    """
 
 
 def command() -> list[str]:

@@ -33,6 +33,11 @@ class Body(Protocol):
         ...
 
     @property
+    def draws_beside(self) -> bool:
+        """Whether the camera's pictures are drawn by another process, so that nobody waits."""
+        ...
+
+    @property
     def busy(self) -> bool:
         """Whether it acts; if not, no time passes."""
         ...
@@ -105,6 +110,7 @@ class PhysicsBody:
         self.frames = world.robots_frames
         self.joints = world.hardware.joint_states
         self.close = world.close
+        self.draws_beside = world.draws_looks_beside
 
     @property
     def busy(self) -> bool:
@@ -155,6 +161,7 @@ class FakeBody:
         self.cancel = robot.cancel
         self.advance = world.advance
         self.close = world.close
+        self.draws_beside = False
 
     def start(self, goal: AnyGoal) -> int:
         """Pursue a goal; no head can be turned here but to a place, and there is no arm to move."""

@@ -1,32 +1,69 @@
 """Tells what the robot knows of itself and sees, to whoever wants it."""
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import partial
 
 from executive.ros.protocol import Message
 from executive.types import Frame
+from sim.pictures.coming import ComingFrame, NotDrawnError
 from sim.served import messages, offered
 from sim.served.bodies import Body
 from sim.served.offered import CLOCK, PICTURES, STATE
 
 Publish = Callable[[str, Message], None]
+Order = Callable[[], None]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Shot:
+    """A picture, and when it was taken (ns)."""
+
+    frame: Frame
+    time_ns: int
+
+    @property
+    def is_drawn(self) -> bool:
+        return not isinstance(self.frame, ComingFrame) or self.frame.is_drawn
 
 
 class Publisher:
-    """Publishes what is wanted. Belongs to the thread of the simulation."""
+    """Publishes what is wanted. Belongs to the thread of the simulation.
 
-    def __init__(self, body: Body, publish: Publish) -> None:
-        """Nobody wants anything yet."""
+    Nobody waits for a picture that another process draws: it is published when it is there.
+    """
+
+    def __init__(
+        self,
+        body: Body,
+        publish: Publish,
+        now_ns: Callable[[], int],
+        later: Callable[[Order], None],
+    ) -> None:
+        """Nobody wants anything yet.
+
+        Args:
+            body: whose state and pictures are told.
+            publish: tells them.
+            now_ns: the robot's time.
+            later: has something done on the thread of the simulation; from any thread.
+        """
         self._body = body
         self._publish = publish
+        self._now_ns = now_ns
+        self._later = later
         self._wanted: set[str] = set()
-        self._frame: Frame | None = None
+        self._takes_pictures = False
+        self._newest: _Shot | None = None
+        self._drawing: list[_Shot] = []
 
-    def want(self, topic: str, time_ns: int) -> None:
+    def want(self, topic: str) -> None:
         """Publish this topic from now on, and once now; a picture with what belongs to it."""
         self._wanted.add(topic)
         if topic in PICTURES:
-            self.tell_state(time_ns)
-        self._tell((topic,), time_ns)
+            self._takes_pictures = True
+            self.tell_state()
+        self._tell((topic,))
 
     def leave_out(self, topic: str) -> None:
         """Nobody wants it any more."""
@@ -34,32 +71,47 @@ class Publisher:
 
     def forget_picture(self) -> None:
         """Something may have changed: what is seen next is a new picture."""
-        self._frame = None
+        self._newest = None
 
-    def tell_time(self, time_ns: int) -> None:
+    def expect_picture(self) -> None:
+        """A picture of now will be wanted soon, if any ever were: it is drawn if that is free."""
+        if self._takes_pictures and self._body.draws_beside and not self.is_drawing:
+            self._picture()
+
+    def tell_time(self) -> None:
         """Only the clock."""
-        self._tell((CLOCK,), time_ns)
+        self._tell((CLOCK,))
 
-    def tell_state(self, time_ns: int) -> None:
+    def tell_state(self) -> None:
         """All but the pictures."""
-        self._tell(STATE, time_ns)
+        self._tell(STATE)
 
-    def tell_pictures(self, time_ns: int) -> None:
+    def tell_pictures(self) -> None:
         """What the camera sees now."""
-        self._tell(PICTURES, time_ns)
+        self._tell(PICTURES)
 
     @property
     def shows_pictures(self) -> bool:
         """Whether anybody wants them."""
         return not self._wanted.isdisjoint(PICTURES)
 
-    def _tell(self, topics: Iterable[str], time_ns: int) -> None:
-        for topic in topics:
-            if topic in self._wanted:
-                self._publish(topic, self._message(topic, time_ns))
+    @property
+    def is_drawing(self) -> bool:
+        """Whether a picture is still drawn."""
+        self._drawing = [shot for shot in self._drawing if not shot.is_drawn]
+        return bool(self._drawing)
 
-    def _message(self, topic: str, time_ns: int) -> Message:
-        body = self._body
+    def _tell(self, topics: Iterable[str]) -> None:
+        for topic in topics:
+            if topic not in self._wanted:
+                continue
+            if topic in PICTURES:
+                self._show(topic, self._picture())
+            else:
+                self._publish(topic, self._message(topic))
+
+    def _message(self, topic: str) -> Message:
+        body, time_ns = self._body, self._now_ns()
         match topic:
             case offered.CLOCK:
                 return messages.clock(time_ns)
@@ -71,17 +123,49 @@ class Publisher:
                 return messages.odometry(time_ns, body.pose, body.velocity)
             case offered.JOINTS:
                 return messages.joint_states(time_ns, body.joints())
-            case offered.TOUCH:
-                return messages.touch(body.holding)
-            case offered.COLOR:
-                return messages.color_image(time_ns, self._picture())
-            case offered.DEPTH:
-                return messages.depth_image(time_ns, self._picture())
             case _:
-                return messages.camera_info(time_ns, self._picture().intrinsics)
+                return messages.touch(body.holding)
 
-    def _picture(self) -> Frame:
+    # --- pictures ---
+
+    def _picture(self) -> _Shot:
         """One for all topics, as long as nothing changes."""
-        if self._frame is None:
-            self._frame = self._body.camera.capture()
-        return self._frame
+        if self._newest is None:
+            self._newest = _Shot(self._body.camera.capture(), self._now_ns())
+            self._drawing.append(self._newest)
+        return self._newest
+
+    def _show(self, topic: str, shot: _Shot) -> None:
+        """Publish it when it is drawn."""
+        frame = shot.frame
+        if isinstance(frame, ComingFrame) and not frame.is_drawn:
+            frame.when_drawn(partial(self._later, partial(self._show_drawn, topic, shot)))
+        else:
+            self._show_drawn(topic, shot)
+
+    def _show_drawn(self, topic: str, shot: _Shot) -> None:
+        if topic not in self._wanted:
+            return
+        try:
+            message = _message_of(topic, shot)
+        except NotDrawnError:
+            self._take_another(topic, shot)
+        else:
+            self._publish(topic, message)
+
+    def _take_another(self, topic: str, shot: _Shot) -> None:
+        """The process that draws is gone: this one takes a picture of now."""
+        if self._newest is shot:
+            self._newest = None
+        self.tell_state()
+        self._tell((topic,))
+
+
+def _message_of(topic: str, shot: _Shot) -> Message:
+    match topic:
+        case offered.COLOR:
+            return messages.color_image(shot.time_ns, shot.frame)
+        case offered.DEPTH:
+            return messages.depth_image(shot.time_ns, shot.frame)
+        case _:
+            return messages.camera_info(shot.time_ns, shot.frame.intrinsics)

@@ -92,11 +92,15 @@ class Pursuits:
                     self._halting = _Halting(self._body.start(Halt()))
                 self._halting.goals.append(goal)
 
-    def take_ends(self) -> None:
-        """Tell of each that has ended."""
+    def take_ends(self) -> bool:
+        """Tell of each that has ended; whether one of them was a look."""
+        looked = False
         for event in self._inbox.take_all():
             if isinstance(event, Ended):
+                pursuit = self._open.get(event.request)
+                looked |= pursuit is not None and pursuit.goal.action == LOOK
                 self._end(event.request, event.result)
+        return looked
 
     def tell_progress(self, time_ns: int) -> None:
         """Tell how the robot gets on with what it pursues."""

@@ -87,7 +87,8 @@ def _fake(plan: Plan, inbox: Inbox, recorder: _Teller, injector: FaultInjector |
 
 
 def _physics(plan: Plan, inbox: Inbox, recorder: _Teller, injector: FaultInjector | None) -> Body:
-    from sim.world import PhysicsWorld  # takes long, and the instant world does without
+    from sim.pictures.beside import worthwhile  # takes long, and the instant world does without
+    from sim.world import PhysicsWorld
 
     world = PhysicsWorld(
         plan.home,
@@ -98,6 +99,7 @@ def _physics(plan: Plan, inbox: Inbox, recorder: _Teller, injector: FaultInjecto
         gui=plan.gui,
         camera_hz=0.0,
         injector=injector,
+        looks_beside=worthwhile(),
     )
     return PhysicsBody(world)
 

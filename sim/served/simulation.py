@@ -7,7 +7,6 @@ at the same times as one who drives it in the same process.
 
 import queue
 import time
-from collections.abc import Callable
 from functools import partial
 
 from executive.events import Inbox
@@ -18,10 +17,8 @@ from executive.ros.server import Server
 from sim.home.home import Home
 from sim.served.bodies import Body
 from sim.served.messages import time_message
-from sim.served.publishing import Publisher
+from sim.served.publishing import Order, Publisher
 from sim.served.pursuits import Pursuits
-
-Order = Callable[[], None]
 
 STEP_S = 0.05
 """The longest that passes unseen (simulated seconds); so often the clock is told."""
@@ -55,8 +52,10 @@ class Simulation:
         self._inbox = inbox
         self._orders: queue.SimpleQueue[Order] = queue.SimpleQueue()
         self.server = Server(self, port)
-        self._publisher = Publisher(body, self.server.publish)
-        self._pursuits = Pursuits(home, body, inbox, self.server, self._tell_state)
+        self._publisher = Publisher(
+            body, self.server.publish, lambda: self._now_ns, self._orders.put
+        )
+        self._pursuits = Pursuits(home, body, inbox, self.server, self._publisher.tell_state)
         self._time = 0.0
         self._pace = _Pace(speed)
         self._state_due, self._progress_due = _Due(STATE_S), _Due(PROGRESS_S)
@@ -72,7 +71,7 @@ class Simulation:
 
     def want(self, topic: str) -> None:
         """Somebody is new to a topic."""
-        self._orders.put(lambda: self._publisher.want(topic, self._now_ns))
+        self._orders.put(partial(self._publisher.want, topic))
 
     def leave_out(self, topic: str) -> None:
         """Nobody wants it any more."""
@@ -123,7 +122,7 @@ class Simulation:
         self._pace.rest()
         self._obey(self._heartbeat_due.left)
         if self._heartbeat_due.is_now:
-            self._tell_state()
+            self._publisher.tell_state()
 
     def _pass_time(self) -> None:
         passed = self.body.advance(STEP_S)
@@ -132,18 +131,24 @@ class Simulation:
         self._pace.passed(passed)
         if self._time - self._told_at >= STEP_S:
             self._told_at = self._time
-            self._publisher.tell_time(self._now_ns)
+            self._publisher.tell_time()
 
     def _go_on(self) -> None:
         """Tell what has come of it, and hear what is wanted meanwhile."""
-        self._pursuits.take_ends()
+        if self._pursuits.take_ends():
+            self._publisher.expect_picture()
         if self._state_due.is_now:
-            self._tell_state()
+            self._publisher.tell_state()
         if self._progress_due.is_now:
             self._pursuits.tell_progress(self._now_ns)
-        if self._publisher.shows_pictures and (not self.body.busy or self._pictures_due.is_now):
-            self._publisher.tell_pictures(self._now_ns)
+        self._show_pictures()
         self._obey(self._pace.left if self.body.busy and not self.body.computing else 0.0)
+
+    def _show_pictures(self) -> None:
+        """Now and then to who watches, and one of how it is at rest."""
+        due = self._pictures_due.is_now and not self._publisher.is_drawing
+        if self._publisher.shows_pictures and (due or not self.body.busy):
+            self._publisher.tell_pictures()
 
     def _obey(self, seconds: float) -> None:
         """Do all that is wanted; wait for the first so long (real seconds)."""
@@ -162,9 +167,6 @@ class Simulation:
     def _cancel(self, goal: Goal) -> None:
         self._publisher.forget_picture()
         self._pursuits.cancel(goal)
-
-    def _tell_state(self) -> None:
-        self._publisher.tell_state(self._now_ns)
 
     def _stop(self) -> None:
         self._over = True

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from patience import PATIENCE_S
 
 from executive.app.session import Session
 from executive.clock import RealClock
@@ -63,7 +64,7 @@ def test_a_driver_that_raises_fails_in_words():
     inbox = Inbox()
     robot = EXAMPLE["DriverRobot"](BrokenDriver(), inbox)
     request = robot.start(Halt())
-    inbox.wait(5.0)
+    inbox.wait(PATIENCE_S)
     (event,) = inbox.take_all()
     assert event.request == request
     assert event.result.reason == "my driver fails: no connection"

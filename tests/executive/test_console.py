@@ -8,6 +8,7 @@ import time
 from collections.abc import Iterator
 
 import pytest
+from patience import PATIENCE_S
 
 from executive.config import Settings
 from executive.events import THE_PERSON, Ended, Event, Heard, Inbox, StopRequested
@@ -49,7 +50,7 @@ class Screen(io.StringIO):
         return len(text)
 
     def next(self) -> str:
-        return self.lines.get(timeout=5)
+        return self.lines.get(timeout=PATIENCE_S)
 
 
 class Person:
@@ -62,7 +63,7 @@ class Person:
         assert self.screen.next() == reply
 
     def events(self) -> tuple[Event, ...]:
-        self.inbox.wait(5)
+        self.inbox.wait(PATIENCE_S)
         return self.inbox.take_all()
 
     def is_asked(self) -> None:
@@ -172,7 +173,7 @@ def test_quit_in_a_script_is_its_end() -> None:
     console = Console(inbox, io.StringIO("Find the mug\nquit\nFind the apple\n"), Screen())
     for expected in (Answered("Find the mug"), Failed("the session was ended")):
         console.listen()
-        assert inbox.wait(5)
+        assert inbox.wait(PATIENCE_S)
         [event] = inbox.take_all()
         assert isinstance(event, Ended)
         assert event.result == expected
@@ -182,7 +183,7 @@ def test_bytes_that_are_no_text_do_not_end_the_hearing() -> None:
     inbox = Inbox()
     source = io.TextIOWrapper(io.BytesIO(b"\xff\xfe\nplease stop\n"), encoding="utf-8")
     Console(inbox, source, Screen())
-    assert inbox.wait(5)
+    assert inbox.wait(PATIENCE_S)
     assert StopRequested(THE_PERSON) in inbox.take_all()
 
 
@@ -210,7 +211,7 @@ def test_a_terminal_that_is_gone_is_nobody_and_no_error() -> None:
     console = Console(inbox, Broken(), Broken())
     console.tell("I look for the mug.")
     console.ask(WHERE)
-    assert inbox.wait(5)
+    assert inbox.wait(PATIENCE_S)
     [event] = inbox.take_all()
     assert isinstance(event, Ended)
     assert event.result == Failed("the input has ended")

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from ontologies import ANNA, OWL
+from patience import PATIENCE_S
 
 from executive.__main__ import main
 
@@ -154,7 +155,7 @@ def test_a_signal_stops_the_robot_and_closes_the_logs(number: signal.Signals) ->
     with start("--json", "Find an apple") as process:
         asked(process)
         process.send_signal(number)
-        out, _ = process.communicate(timeout=20)
+        out, _ = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 130
     outcome = json.loads(out)
     assert outcome["status"] == "stopped"
@@ -164,21 +165,23 @@ def test_a_signal_stops_the_robot_and_closes_the_logs(number: signal.Signals) ->
 def test_the_word_stop_stops_it() -> None:
     with start("--json", "Find an apple") as process:
         asked(process)
-        out, _ = process.communicate("stop\n", timeout=20)
+        out, _ = process.communicate("stop\n", timeout=PATIENCE_S)
     assert process.returncode == 130
     assert json.loads(out)["reason"] == "stopped by the person"
 
 
 def test_end_of_input_is_no_answer_and_no_hang() -> None:
     with start("--json", "Find an apple") as process:
-        out, _ = process.communicate("", timeout=20)
+        out, _ = process.communicate("", timeout=PATIENCE_S)
     assert process.returncode == 1
     assert "the input has ended" in json.loads(out)["reason"]
 
 
 def test_interactive_runs_one_command_a_line() -> None:
     with start("--json") as process:
-        out, _ = process.communicate("Find an apple\nliving room\nTake a hammer\n", timeout=20)
+        out, _ = process.communicate(
+            "Find an apple\nliving room\nTake a hammer\n", timeout=PATIENCE_S
+        )
     assert process.returncode == 0
     outcomes = [json.loads(line) for line in out.splitlines()]
     assert [o["object"] for o in outcomes] == ["apple", "hammer"]
@@ -215,7 +218,9 @@ def test_facts_outlive_the_session_in_a_file_only(
 
 def test_facts_outlive_the_mission(tmp_path: Path) -> None:
     with start("--json") as process:
-        out, _ = process.communicate("Find an apple\nliving room\nFind an apple\n", timeout=20)
+        out, _ = process.communicate(
+            "Find an apple\nliving room\nFind an apple\n", timeout=PATIENCE_S
+        )
     assert [json.loads(line)["source"] for line in out.splitlines()] == ["user", "memory"]
 
 
@@ -225,5 +230,5 @@ def test_a_signal_before_the_first_command_ends_the_session() -> None:
         assert "What can I do" in process.stderr.readline()
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)
-        process.wait(timeout=20)
+        process.wait(timeout=PATIENCE_S)
     assert process.returncode == 130

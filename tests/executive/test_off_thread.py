@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import pytest
+from patience import PATIENCE_S
 
 from executive import clock as clocks
 from executive.clock import SimulatedClock
@@ -17,8 +18,6 @@ from executive.records import Mishap, Record, Seen
 from executive.testing.bench import Notebook, Run, run_mission
 from executive.types import Detection, Failed, Frame, Goal, LookAt, MissionStatus, Succeeded
 from sim.fake import FakeDetector, FakeWorld
-
-PATIENCE_S = 20.0
 
 
 class Stillness:
@@ -223,6 +222,10 @@ session.close()
 
 def test_a_process_ends_though_its_detector_hangs() -> None:
     ended = subprocess.run(
-        [sys.executable, "-c", HANGING], capture_output=True, text=True, timeout=120, check=True
+        [sys.executable, "-c", HANGING],
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+        check=True,
     )
     assert ended.stdout.strip() == "stopped"

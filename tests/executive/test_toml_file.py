@@ -44,10 +44,10 @@ def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path) -> None:
     ],
 )
 def test_what_no_file_of_ours_holds_is_refused_at_once(content: bytes, sentence: str) -> None:
-    began = time.monotonic()
+    began = time.thread_time()
     with pytest.raises(InputError, match=f"my.toml: .*(?:{sentence})"):
         parse_toml(content, "my.toml")
-    assert time.monotonic() - began < 20
+    assert time.thread_time() - began < 20
 
 
 def test_dots_and_brackets_in_texts_are_no_nesting() -> None:

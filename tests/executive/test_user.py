@@ -4,6 +4,7 @@ import io
 from collections.abc import Callable
 
 import pytest
+from patience import PATIENCE_S
 
 from executive.events import Ended, Event, Inbox, StopRequested
 from executive.types import Answered, Failed, Question, QuestionKind
@@ -17,7 +18,7 @@ def asked(make: Callable[[Inbox], Console | Oracle | Nobody], question: Question
     inbox = Inbox()
     user = make(inbox)
     user.ask(question)
-    assert inbox.wait(5)
+    assert inbox.wait(PATIENCE_S)
     [event] = inbox.take_all()
     return event
 
@@ -48,7 +49,7 @@ def test_the_end_of_input_is_no_answer() -> None:
 def test_stop_is_heard_without_a_question() -> None:
     inbox = Inbox()
     Console(inbox, io.StringIO("Stop\n"), io.StringIO())
-    assert inbox.wait(5)
+    assert inbox.wait(PATIENCE_S)
     assert inbox.take_all() == (StopRequested("the person"),)
 
 
@@ -57,7 +58,7 @@ def test_lines_typed_ahead_are_kept_in_order() -> None:
     user = Console(inbox, io.StringIO("one\ntwo\n"), io.StringIO())
     for expected in ("one", "two"):
         user.listen()
-        assert inbox.wait(5)
+        assert inbox.wait(PATIENCE_S)
         [event] = inbox.take_all()
         assert result(event) == Answered(expected)
 

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from patience import PATIENCE_S
 from playwright.sync_api import Browser, Locator, expect, sync_playwright
 from playwright.sync_api import Page as Tab
 
@@ -13,7 +14,7 @@ from executive.page.page import Page
 DESKTOP = {"width": 1280, "height": 800}
 PHONE = {"width": 390, "height": 844}
 SMALLEST = {"width": 320, "height": 480}
-PATIENCE_MS = 60_000
+PATIENCE_MS = 1000 * PATIENCE_S
 
 expect.set_options(timeout=PATIENCE_MS)
 
@@ -32,12 +33,15 @@ def chromium() -> Iterator[Browser]:
 
 
 @contextmanager
-def opened(browser: Browser, page: Page, url: str = "", **given: Any) -> Iterator[Tab]:
+def opened(
+    browser: Browser, page: Page, url: str = "", *, first: str = "", **given: Any
+) -> Iterator[Tab]:
     """A tab of its own with the page in it; whatever goes wrong in its scripts is an error.
 
-    Another page of the same robot is given by its address.
+    Another page of the same robot is given by its address; `first` runs before its scripts.
     """
     context = browser.new_context(**{"viewport": DESKTOP, **given})
+    context.add_init_script(first)
     context.set_default_timeout(PATIENCE_MS)
     tab = context.new_page()
     wrong: list[str] = []

@@ -4,17 +4,17 @@ import os
 import socket
 import subprocess
 import sys
-import time
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from patience import PATIENCE_S, until
+
 from kb.llm.llama import embedded_model
 
 ALIAS = "smollm2"
-STARTING_S = 60.0
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ def llama_server(log: Path) -> Iterator[LlamaServer]:
         yield server
     finally:
         server.process.terminate()
-        server.process.wait(20)
+        server.process.wait(PATIENCE_S)
 
 
 def _start(port: int, log: Path) -> subprocess.Popen[bytes]:
@@ -62,12 +62,12 @@ def _start(port: int, log: Path) -> subprocess.Popen[bytes]:
 
 
 def _wait_for(server: LlamaServer) -> None:
-    deadline = time.monotonic() + STARTING_S
-    while time.monotonic() < deadline:
+    def answers() -> bool:
         assert server.process.poll() is None, "the server ended: is the test extra installed?"
         try:
-            urllib.request.urlopen(f"{server.url}/models", timeout=1).close()
-            return
+            urllib.request.urlopen(f"{server.url}/models", timeout=10).close()
         except OSError:
-            time.sleep(0.1)
-    raise AssertionError("the server did not start")
+            return False
+        return True
+
+    until(answers, "the server")

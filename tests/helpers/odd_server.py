@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
+from patience import PATIENCE_S
+
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, Replied, Result
 from kb.advice.verification import Reply
@@ -94,7 +96,7 @@ class Talk:
     def bodies(self) -> list[dict[str, Any]]:
         return self.server.bodies
 
-    def ask(self, request: ChatRequest = HELLO, patience_s: float = 60.0) -> Result:
+    def ask(self, request: ChatRequest = HELLO, patience_s: float = PATIENCE_S) -> Result:
         """Put it to the model, and wait for the end."""
         return end_of(self.inbox, self.model.chat(request), patience_s)
 
@@ -123,7 +125,7 @@ def talking(
             model.close()
 
 
-def end_of(inbox: Inbox, request: int, patience_s: float = 60.0) -> Result:
+def end_of(inbox: Inbox, request: int, patience_s: float = PATIENCE_S) -> Result:
     """The end of a request."""
     assert inbox.wait(patience_s), "the request never ended"
     (event,) = inbox.take_all()

@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from patience import PATIENCE_S
 from websockets.asyncio.client import connect
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
@@ -34,6 +35,8 @@ class OddWire:
     mischief: Mischief = field(default_factory=Mischief)
     cuts: int = 0
     port: int = 0
+    passing: int = 0
+    """So many connections pass through now."""
 
     def __enter__(self) -> "OddWire":
         self._chance = random.Random(self.seed)
@@ -42,12 +45,17 @@ class OddWire:
         self._started = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
-        assert self._started.wait(5)
+        assert self._started.wait(PATIENCE_S)
         return self
 
     def __exit__(self, *_: object) -> None:
         self._loop.call_soon_threadsafe(self._over.set)
-        self._thread.join(5)
+        self._thread.join(PATIENCE_S)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether a robot's link passes through, with both of its sockets."""
+        return self.passing >= 2
 
     @property
     def url(self) -> str:
@@ -67,11 +75,13 @@ class OddWire:
     async def _pass(self, here: ServerConnection) -> None:
         with suppress(OSError, ConnectionClosed):
             async with connect(self.to, compression=None, max_size=LARGEST, proxy=None) as there:
+                self.passing += 1
                 ways = [
                     asyncio.create_task(self._carry(here, there)),
                     asyncio.create_task(self._carry(there, here)),
                 ]
                 await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
+                self.passing -= 1
                 for way in ways:
                     way.cancel()
                 await asyncio.gather(*ways, return_exceptions=True)
@@ -81,28 +91,27 @@ class OddWire:
         """Until something cuts it."""
         kept: str | bytes | None = None
         async for packet in one:
-            for said in self._meddled(packet, kept):
+            said_now, held_back = self._meddled(packet, kept)
+            for said in said_now:
                 if said is None:
                     self.cuts += 1
                     return
                 if self._happens(self.mischief.delay):
                     await asyncio.sleep(self._chance.uniform(0, self.mischief.delay_s))
                 await other.send(said)
-            kept = packet if self._swapped else None
+            kept = packet if held_back else None
 
-    def _meddled(self, packet: Any, kept: Any) -> list[Any]:
-        """What becomes of a packet; None is a cut."""
-        self._swapped = False
+    def _meddled(self, packet: Any, kept: Any) -> tuple[list[Any], bool]:
+        """What becomes of a packet, None is a cut; and whether it comes after the next one."""
         if self._happens(self.mischief.cut):
-            return [None]
+            return [None], False
         if self._happens(self.mischief.halve):
             packet = packet[: len(packet) // 2]
         if kept is not None:
-            return [packet, kept]
+            return [packet, kept], False
         if self._happens(self.mischief.swap):
-            self._swapped = True
-            return []
-        return [packet]
+            return [], True
+        return [packet], False
 
     def _happens(self, often: float) -> bool:
         return self._chance.random() < often

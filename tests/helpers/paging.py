@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlencode, urlsplit
 
+from patience import PATIENCE_S, until
+
 from executive import Session, load_settings
 from executive.app.embodiment import Embodiment, Setup
 from executive.app.simulation import fake
@@ -21,8 +23,6 @@ from executive.page.page import Page
 from executive.types import Outcome
 
 TOKEN = "the-token"
-PATIENCE_S = 90.0
-"""How long anything may take on a busy machine."""
 
 
 @dataclass
@@ -43,10 +43,7 @@ class Robot:
 
     def ended(self, count: int) -> Outcome:
         """Wait until so many missions have ended and the robot listens again; how the last did."""
-        latest = time.monotonic() + PATIENCE_S
-        while len(self.outcomes) < count:
-            assert time.monotonic() < latest, "the mission does not end"
-            time.sleep(0.05)
+        until(lambda: len(self.outcomes) >= count, "the end of the mission")
         heard(self.page, "doing", state="ready")
         return self.outcomes[count - 1]
 
@@ -94,7 +91,7 @@ def robot(
         finally:
             page.stops()
             page.says("quit")
-            thread.join(60)
+            thread.join(PATIENCE_S)
 
 
 @contextmanager
@@ -206,7 +203,7 @@ def _sent(
 ) -> http.client.HTTPConnection:
     """Send a request; a POST with the page's own origin, unless it has other headers."""
     parts = urlsplit(page.url)
-    connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=20)
+    connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=PATIENCE_S)
     own = {"origin": f"http://{parts.netloc}"} if method == "POST" else {}
     where = f"{path}?{urlencode({**query, 'token': token})}"
     connection.request(method, where, body, own if headers is None else headers)

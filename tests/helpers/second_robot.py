@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from patience import PATIENCE_S
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
@@ -75,6 +76,10 @@ class SecondRobot:
         self.cancels = 0
         self.undiscovered = 0
         """So many cancels find no action: as by a bridge that has just begun."""
+        self.unheard = 0
+        """So many cancels are lost on their way."""
+        self.told: dict[str, dict[str, Any]] = {}
+        """Fields of a topic's messages that are told otherwise."""
         self.headers: list[dict[str, str]] = []
         self.port = 0
         self._clients: dict[ServerConnection, dict[str, Subscribe]] = {}
@@ -88,12 +93,12 @@ class SecondRobot:
 
     def __enter__(self) -> "SecondRobot":
         self._thread.start()
-        assert self._started.wait(5)
+        assert self._started.wait(PATIENCE_S)
         return self
 
     def __exit__(self, *_: object) -> None:
         self._loop.call_soon_threadsafe(self._over.set)
-        self._thread.join(5)
+        self._thread.join(PATIENCE_S)
         self._loop.close()
 
     @property
@@ -112,7 +117,12 @@ class SecondRobot:
     def say(self, packet: str | bytes) -> None:
         """Send this to whoever listens, as it is."""
         for client in tuple(self._clients):
-            asyncio.run_coroutine_threadsafe(client.send(packet), self._loop).result(5)
+            asyncio.run_coroutine_threadsafe(client.send(packet), self._loop).result(PATIENCE_S)
+
+    def call_off(self, action: str, **said: Any) -> None:
+        """Cancel its goal, as somebody else may."""
+        end = self._end(action, GoalStatus.CANCELED, **said)
+        asyncio.run_coroutine_threadsafe(end, self._loop).result(PATIENCE_S)
 
     # --- the server ---
 
@@ -138,6 +148,9 @@ class SecondRobot:
         del self._clients[client]
 
     async def _take(self, client: ServerConnection, operation: Operation) -> None:
+        if self.unheard and _cancels(operation):
+            self.unheard -= 1
+            return
         match operation:
             case Subscribe(id=id):
                 self._clients[client][id] = operation
@@ -257,7 +270,7 @@ class SecondRobot:
             for topic in (name for name in makers if name in wanted):
                 if topic in FIXED_ARRAYS and wanted[topic] == Compression.CBOR:
                     continue
-                message = made.setdefault(topic, makers[topic]())
+                message = made.setdefault(topic, makers[topic]() | self.told.get(topic, {}))
                 with suppress(ConnectionClosed):
                     await client.send(encode(Publish(topic, message), wanted[topic]))
 
@@ -320,3 +333,9 @@ class SecondRobot:
             "position": np.array([width]),
             "velocity": np.array([0.0]),
         }
+
+
+def _cancels(operation: Operation) -> bool:
+    return isinstance(operation, CancelActionGoal) or (
+        isinstance(operation, CallService) and operation.service.endswith("/_action/cancel_goal")
+    )

@@ -15,6 +15,7 @@ from itertools import count
 from typing import Any, Self
 
 import cbor2
+from patience import PATIENCE_S
 from websockets.sync.client import connect
 
 from executive.testing.bench import four_rooms
@@ -22,7 +23,6 @@ from sim.served.offered import GRAPH, MOTIONS
 from sim.served.serving import Plan, build
 from sim.served.simulation import Simulation
 
-PATIENCE_S = 60.0
 ANSWERS = ("service_response", "action_result")
 ZERO = {"goal_id": {"uuid": [0] * 16}, "stamp": {"sec": 0, "nanosec": 0}}
 """What means all goals."""

@@ -15,6 +15,7 @@ from typing import Any
 import tomli_w
 from browsing import said, say, wait_until_ready
 from paging import TOKEN
+from patience import PATIENCE_S
 from playwright.sync_api import Page as Tab
 from playwright.sync_api import expect
 
@@ -75,7 +76,9 @@ def led(
     """Lead a participant, in a thread; what is raised there is raised here."""
     with (
         data.one(code) as journal,
-        StudyPage(Address(port=0, experimenter=experimenter), TOKEN) as page,
+        StudyPage(
+            Address(port=0, experimenter=experimenter), TOKEN, speech=data.study.speech
+        ) as page,
     ):
         made = Led(page, Leader(data, journal, page))
 
@@ -89,11 +92,11 @@ def led(
         thread.start()
         try:
             yield made
-            thread.join(60 if to_the_end else 0)
+            thread.join(PATIENCE_S if to_the_end else 0)
         finally:
             if thread.is_alive():
                 made.leader.interrupt("the test")
-                thread.join(60)
+                thread.join(PATIENCE_S)
         if to_the_end and made.wrong:
             raise AssertionError("the participant was not led to the end") from made.wrong[0]
 

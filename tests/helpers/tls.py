@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from patience import PATIENCE_S
 
 
 def certificate(folder: Path) -> Path:
@@ -55,12 +56,12 @@ def tls_before(url: str, cert: Path) -> Iterator[str]:
 
     thread = threading.Thread(target=_run, args=(loop, serve), daemon=True)
     thread.start()
-    assert started.wait(30)
+    assert started.wait(PATIENCE_S)
     try:
         yield f"wss://127.0.0.1:{at[0]}"
     finally:
         loop.call_soon_threadsafe(over.set)
-        thread.join(30)
+        thread.join(PATIENCE_S)
 
 
 def _run(loop: asyncio.AbstractEventLoop, serve: object) -> None:

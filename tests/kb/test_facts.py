@@ -67,7 +67,7 @@ def believed(facts: list[Fact]) -> tuple[str, ...]:
             break
         if fact.kind == FactKind.MISSED:
             missed.add(fact.place)
-        elif fact.place not in missed:
+        elif fact.kind != FactKind.LOOKED and fact.place not in missed:
             places.append(fact.place)
             if fact.kind != FactKind.SAID:
                 break

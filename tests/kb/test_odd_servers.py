@@ -28,16 +28,17 @@ from odd_server import (
     talking,
     word,
 )
+from patience import PATIENCE_S, until
 
 from executive.config import load_settings
 from executive.errors import InputError
 from executive.events import Inbox
+from executive.servers.address import bases_of
+from executive.servers.key import Key
+from executive.servers.refusal import Refused, refusal
 from executive.types import ChatRequest, Failed, Message, RankRequest
-from kb.llm.key import Key
 from kb.llm.server import asking, lines, wire
-from kb.llm.server.address import bases_of
 from kb.llm.server.dialect import Dialect
-from kb.llm.server.refusal import Refused, refusal
 from kb.llm.server.server import Server
 from kb.llm.thinking import answer_of
 
@@ -382,7 +383,7 @@ def test_an_address_may_be_written_in_several_ways(end: str) -> None:
     with serving(THE_DESK) as odd:
         model = Server(odd.url + end, inbox := Inbox())
         model.chat(HELLO)
-        assert inbox.wait(20)
+        assert inbox.wait(PATIENCE_S)
         model.close()
     assert odd.bodies
 
@@ -534,8 +535,7 @@ def test_a_server_that_stays_busy_has_failed() -> None:
 def test_waiting_for_a_busy_server_ends_at_once_when_it_is_called_off() -> None:
     with talking(refuses(429, "", Retry_After="30"), THE_DESK) as talk:
         number = talk.model.chat(HELLO)
-        while not talk.bodies:
-            time.sleep(0.01)
+        until(lambda: talk.bodies, "the request")
         talk.model.cancel(number)
         assert talk.reply().text == "desk"
         assert not talk.inbox.awaits_anything
@@ -546,7 +546,7 @@ def test_a_server_that_is_not_there_has_failed() -> None:
         pass
     model = Server(odd.url, inbox := Inbox())
     model.chat(HELLO)
-    assert inbox.wait(20)
+    assert inbox.wait(PATIENCE_S)
     (event,) = inbox.take_all()
     model.close()
     assert event.result == Failed(f"{odd.url} cannot be reached: Connection refused")  # type: ignore[union-attr]
@@ -556,7 +556,7 @@ def test_a_server_that_does_not_speak_https_is_told() -> None:
     with serving(THE_DESK) as odd:
         model = Server(odd.url.replace("http", "https"), inbox := Inbox())
         model.chat(HELLO)
-        assert inbox.wait(20)
+        assert inbox.wait(PATIENCE_S)
         (event,) = inbox.take_all()
         model.close()
     assert "it does not speak HTTPS; try http://" in event.result.reason  # type: ignore[union-attr]
@@ -564,7 +564,7 @@ def test_a_server_that_does_not_speak_https_is_told() -> None:
 
 def test_a_silent_server_fails_after_the_time_out() -> None:
     over = threading.Event()
-    with talking(lambda *_: over.wait(5), timeout_s=0.2) as talk:
+    with talking(lambda *_: over.wait(PATIENCE_S), timeout_s=0.2) as talk:
         reason = talk.reason()
         over.set()
     assert "did not answer within 0.2 s" in reason
@@ -584,10 +584,9 @@ def test_a_cancelled_request_is_hung_up_on_and_the_next_is_served() -> None:
 
     with talking(talks_on, THE_DESK) as talk:
         first = talk.model.chat(HELLO)
-        while not talk.bodies:
-            time.sleep(0.01)
+        until(lambda: talk.bodies, "the request")
         talk.model.cancel(first)
-        assert hung_up.wait(5)
+        assert hung_up.wait(PATIENCE_S)
         assert talk.reply().text == "desk"
 
 
@@ -602,7 +601,7 @@ def test_a_server_cannot_score_and_says_so() -> None:
 
 def test_closing_in_the_middle_of_a_reply_ends_the_thread() -> None:
     over = threading.Event()
-    with talking(lambda *_: over.wait(5)) as talk:
+    with talking(lambda *_: over.wait(PATIENCE_S)) as talk:
         talk.model.chat(HELLO)
         talk.model.close()
         over.set()

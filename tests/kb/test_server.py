@@ -9,6 +9,7 @@ from typing import Any
 import httpx2
 import pytest
 from llama_server import ALIAS, llama_server
+from patience import PATIENCE_S
 
 from executive.app.session import Session
 from executive.config import load_settings
@@ -35,7 +36,7 @@ def lister(model: Server) -> Lister:
 
 def answer(model: Server, inbox: Inbox, *among: str) -> Result:
     request = model.chat(lister(model).inquiry("mug", among))
-    assert inbox.wait(120)
+    assert inbox.wait(PATIENCE_S)
     [event] = inbox.take_all()
     assert isinstance(event, Ended)
     assert event.request == request
@@ -79,7 +80,7 @@ def test_a_prompt_that_is_too_long_for_a_real_server_fails_in_words(url: str) ->
     inbox = Inbox()
     model = Server(url, inbox)
     model.chat(ChatRequest("long", (Message("user", "word " * 6000),)))
-    assert inbox.wait(120)
+    assert inbox.wait(PATIENCE_S)
     [event] = inbox.take_all()
     model.close()
     assert isinstance(event, Ended)
@@ -114,10 +115,10 @@ def test_a_real_server_that_dies_in_the_middle_of_its_reply_fails_in_words(
     with llama_server(tmp_path / "log") as dying:
         model = Server(dying.url, inbox, max_tokens=2000, temperature=0)
         model.chat(ChatRequest("count", (Message("user", "Count to 500, as 1, 2, 3, ..."),)))
-        assert begun.wait(60)
+        assert begun.wait(PATIENCE_S)
         assert not inbox.has_events, "the reply was too short for this test"
         dying.process.kill()
-    assert inbox.wait(60)
+    assert inbox.wait(PATIENCE_S)
     [event] = inbox.take_all()
     model.close()
     assert isinstance(event, Ended)

@@ -4,7 +4,6 @@ import os
 import shutil
 import struct
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from patience import PATIENCE_S
 
 from executive.__main__ import main
 from executive.errors import ModelError
@@ -320,19 +320,20 @@ def test_what_is_no_file_is_refused(tmp_path: Path, name: str) -> None:
 
 
 def test_a_stuck_worker_is_left_behind_and_its_tasks_are_called_off() -> None:
-    over = threading.Event()
+    begun, over = threading.Event(), threading.Event()
     worker = Worker("stuck")
-    first, second = worker.submit(lambda: over.wait(5)), worker.submit(lambda: 1)
-    time.sleep(0.05)
+    first = worker.submit(lambda: begun.set() or over.wait(PATIENCE_S))
+    second = worker.submit(lambda: 1)
+    assert begun.wait(PATIENCE_S)
     assert not worker.end(0.01)
     assert second.cancelled()
     over.set()
-    assert first.result(5)
+    assert first.result(PATIENCE_S)
 
 
 def test_a_worker_goes_on_after_a_task_that_fails() -> None:
     worker = Worker("busy")
     failed, done = worker.submit(lambda: 1 / 0), worker.submit(lambda: os.getpid())
-    assert isinstance(failed.exception(5), ZeroDivisionError)
-    assert done.result(5)
-    assert worker.end(5)
+    assert isinstance(failed.exception(PATIENCE_S), ZeroDivisionError)
+    assert done.result(PATIENCE_S)
+    assert worker.end(PATIENCE_S)

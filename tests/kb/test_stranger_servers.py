@@ -20,8 +20,8 @@ from odd_server import (
     word,
 )
 
+from executive.servers.key import Key
 from executive.types import ChatRequest
-from kb.llm.key import Key
 from kb.llm.server import asking
 from kb.llm.thinking import answer_of
 

@@ -5,6 +5,7 @@ import threading
 import time
 
 import pytest
+from patience import until
 from sample_mission import STARTED
 
 from executive.records import Note, Record
@@ -112,9 +113,7 @@ def test_what_was_written_is_flushed_even_if_nothing_more_happens(
     sink = ListSink()
     fan_out = FanOut(lambda: 0.0)
     fan_out.open([sink], STARTED)
-    deadline = time.monotonic() + 5
-    while not sink.flushes and time.monotonic() < deadline:
-        time.sleep(0.01)
+    until(lambda: sink.flushes, "the flush")
     time.sleep(0.1)
     assert sink.flushes == 1
     fan_out.close()
@@ -129,16 +128,16 @@ def test_who_is_watched_is_flushed_soon_and_the_others_as_ever(
     vars(watched)["live"] = True
     fan_out = FanOut(lambda: 0.0)
     fan_out.open([watched, other], STARTED)
-    while watched.flushes < 5:
+
+    def moved() -> bool:
         fan_out.record(Note("info", "moved"))
-        time.sleep(0.001)
-    assert other.flushes < watched.flushes
-    written, latest = len(other.entries), time.monotonic() + 60
-    while other.flushes < 2 and time.monotonic() < latest:  # though nothing more happens
-        time.sleep(0.01)
+        return watched.flushes >= other.flushes + 4
+
+    until(moved, "what is watched")
+    flushed = other.flushes
+    assert other.entries
+    until(lambda: other.flushes > flushed, "the flush")  # though nothing more happens
     fan_out.close()
-    assert written
-    assert other.flushes >= 2
 
 
 def test_records_that_come_fast_are_written_before_the_rest_is_over(
@@ -160,15 +159,22 @@ def test_a_sink_that_hangs_delays_the_mission_once_and_costs_records_that_are_co
 ) -> None:
     monkeypatch.setattr(recorder, "CAPACITY", 10)
     monkeypatch.setattr(recorder, "PATIENCE_S", 0.1)
+    waited = list[float]()
+    has_room = recorder._Writer._has_room
+
+    def noted(writer: recorder._Writer, patience_s: float) -> bool:
+        waited.append(patience_s)
+        return has_room(writer, patience_s)
+
+    monkeypatch.setattr(recorder._Writer, "_has_room", noted)
     sink = HangingSink()
     fan_out = FanOut(lambda: 0.0)
     fan_out.open([sink], STARTED)
-    began = time.monotonic()
     for number in range(50):
         fan_out.record(Note("info", str(number)))
-    assert time.monotonic() - began < 1.0
+    assert set(waited[-30:]) == {0.0}
     sink.released.set()
-    time.sleep(0.1)
+    until(lambda: fan_out._writer and not fan_out._writer._queue.qsize(), "all that waited")
     fan_out.record(Note("info", "and on"))
     fan_out.close()
     assert sink.texts[-1] == "and on"

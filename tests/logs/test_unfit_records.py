@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from patience import PATIENCE_S
 from rerun.chunk import RrdReader
 from sample_mission import STARTED, TREE, chat_call, frame, outcome, tick
 
@@ -160,7 +161,7 @@ def test_a_mission_on_a_full_disk_goes_on_and_its_log_is_recovered_up_to_there(
         capture_output=True,
         text=True,
         check=False,
-        timeout=120,
+        timeout=PATIENCE_S,
     )
     assert mission.stdout == "done\n", mission.stderr
     assert "McapSink" in mission.stderr

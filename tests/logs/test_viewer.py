@@ -14,6 +14,7 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from patience import PATIENCE_S
 from rerun.experimental import ViewerClient
 from sample_mission import STARTED, frame, mission
 
@@ -33,7 +34,6 @@ pytestmark = [
     ),
 ]
 
-SETTLE_S = 30.0
 NOTICES_PX = 80
 """Height of the strip at the top in which the viewer shows notices of its own for a while."""
 
@@ -76,7 +76,7 @@ def screenshot(client: ViewerClient, mission_s: float) -> NDArray[np.uint8]:
 
 def settled(client: ViewerClient, name: str) -> NDArray[np.uint8]:
     """What the viewer shows once three pictures in a row agree."""
-    latest = time.monotonic() + SETTLE_S
+    latest = time.monotonic() + PATIENCE_S
     pictures = [b"", client.take_screenshot()]
     while client.get_state().loading or len(set(pictures[-3:])) > 1:
         assert time.monotonic() < latest, "the view does not settle"

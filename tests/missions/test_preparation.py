@@ -2,11 +2,11 @@
 
 import io
 import threading
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from patience import PATIENCE_S, until
 
 from executive.app.session import Session
 from executive.config import load_settings
@@ -68,7 +68,7 @@ def fresh(no_cache: None) -> Iterator[tuple[LlamaCpp, Inbox]]:
 
 
 def end_of(inbox: Inbox, request: int) -> Replied | Scored:
-    assert inbox.wait(60)
+    assert inbox.wait(PATIENCE_S)
     [event] = inbox.take_all()
     assert isinstance(event, Ended)
     assert event.request == request
@@ -80,8 +80,7 @@ def prepare(model: LlamaCpp, request: ChatRequest | RankRequest, caplog) -> None
     """To its end."""
     caplog.set_level("INFO", logger="kb.llm.llama")
     model.prepare(request)
-    while "ahead" not in caplog.text:
-        time.sleep(0.01)
+    until(lambda: "ahead" in caplog.text, "what is prepared")
 
 
 def whole(usage: Usage) -> int:
@@ -131,8 +130,7 @@ def test_a_request_takes_over_after_one_batch_what_was_prepared(fresh, monkeypat
 
     monkeypatch.setattr(Context, "append", read_and_ask)
     model.prepare(ranker.ranking("thing", ()))
-    while not requests:
-        time.sleep(0.01)
+    until(lambda: requests, "the request")
     usage = end_of(inbox, requests[0]).usage
     assert 0 < usage.prepared_tokens <= 128
     monkeypatch.setattr(Context, "append", read)
@@ -148,19 +146,21 @@ def test_what_cannot_be_prepared_fails_when_it_is_asked_for(fresh):
     request = ChatRequest("long", (Message("system", "word " * 2000), Message("user", "Hello")))
     model.prepare(request)
     number = model.chat(request)
-    assert inbox.wait(60)
+    assert inbox.wait(PATIENCE_S)
     [event] = inbox.take_all()
     assert event.request == number
     assert "but the context window has 1024" in event.result.reason
 
 
 @pytest.mark.llm
-def test_closing_while_it_prepares_ends_the_models_thread():
+def test_closing_while_it_prepares_ends_the_models_thread(no_cache, monkeypatch):
+    batches, read = [], Context.append
+    monkeypatch.setattr(Context, "append", lambda *given: batches.append(read(*given)) or None)
     before = threading.enumerate()
     model = LlamaCpp(embedded_model(), Inbox(), n_ctx=1024)
     model.prepare(Ranker(ontology(True)).ranking("thing", ()))
-    time.sleep(0.3)
-    began = time.monotonic()
+    until(lambda: batches, "the preparation")
+    by_then = len(batches)
     model.close()
-    assert time.monotonic() - began < 2.0
+    assert len(batches) <= by_then + 2
     assert threading.enumerate() == before

@@ -6,6 +6,7 @@ from threading import Event, Thread
 import numpy as np
 import pytest
 from kitchen import Kitchen
+from patience import PATIENCE_S
 
 from executive.clock import SimulatedClock
 from executive.events import Ended, StopRequested
@@ -129,11 +130,11 @@ def test_a_stop_is_heard_while_a_pose_is_fitted(
 
     def slowly(*args: object) -> object:
         begun.set()
-        go_on.wait(20.0)
+        go_on.wait(PATIENCE_S)
         return fit(*args)  # type: ignore[arg-type]
 
     def stop() -> None:
-        begun.wait(20.0)
+        begun.wait(PATIENCE_S)
         kitchen.inbox.post(StopRequested("the person"))
 
     seen = kitchen.detection_of("sugar_box")

@@ -69,6 +69,29 @@ def test_a_place_of_which_a_part_was_seen_is_said_to_be_seen_in_part(three_views
     assert "missed" not in {fact.kind for fact in facts.all()}
 
 
+def looked_all_over(command: str) -> set[str]:
+    facts = FactStore()
+    run_mission(command, answers=[], llm=False, facts=facts)
+    return {fact.place for fact in facts.all() if fact.kind == "looked"}
+
+
+@pytest.mark.parametrize("command", ["Find a power_drill", "What is on the shelf in the lobby?"])
+def test_a_place_that_one_look_shows_was_looked_at_all_over(command: str) -> None:
+    assert looked_all_over(command) == {PLACE}
+
+
+def test_a_place_where_the_thing_was_seen_before_all_parts_were_was_not(three_views: None) -> None:
+    assert looked_all_over("Find a power_drill") == set()
+
+
+def test_a_place_where_the_thing_is_in_the_last_part_was_looked_at_all_over() -> None:
+    looks = Looks()
+    looks.begin(PLACE, 2)
+    assert not looks.all_but(PLACE, 0)
+    looks.without(PLACE, 0)
+    assert looks.all_but(PLACE, 1)
+
+
 def test_a_place_that_was_seen_wholly_at_the_second_visit_is_known(three_views: None) -> None:
     stiff = iter([True])
     run = run_mission(

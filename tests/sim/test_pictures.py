@@ -1,4 +1,4 @@
-"""Pictures for the log, drawn by a process of their own."""
+"""Pictures that are drawn by a process of their own."""
 
 import multiprocessing
 import os
@@ -9,20 +9,21 @@ from typing import Any
 
 import numpy as np
 import pytest
+from patience import PATIENCE_S
 
 from executive.events import Ended, Inbox
 from executive.perception.pipeline import CameraPerception
 from executive.records import Note, Picture, Seen
 from executive.testing.bench import Notebook, four_rooms
-from executive.types import DriveTo, Frame, Pose, Saw
-from sim.bullet.camera import GLANCING, view_from
+from executive.types import FLOOR, DriveTo, Frame, LookAt, Pose, Saw
+from sim.bullet.camera import GLANCING, SimulatedCamera, view_from
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_fault
 from sim.objects.objects import load_objects
 from sim.pictures import process
 from sim.pictures.beside import worthwhile
+from sim.pictures.coming import NotDrawnError
 from sim.pictures.painter import Asked, Stage
-from sim.pictures.process import NotDrawnError
 from sim.pictures.scene import Moment
 from sim.world import PhysicsWorld
 
@@ -104,6 +105,20 @@ def test_pictures_drawn_beside_the_physics_are_the_same_to_the_bit(
 
 
 @physics
+def test_what_a_served_robot_looks_at_is_drawn_beside_the_same_to_the_bit():
+    world = PhysicsWorld(four_rooms(), MODELS, Inbox(), Notebook(), camera_hz=0, looks_beside=True)
+    world.robot.start(LookAt(FLOOR, 1))
+    while world.busy:
+        world.advance(1.0)
+    beside_it = world.camera.capture()
+    here = SimulatedCamera(world._client, world._camera_pose).capture()
+    assert type(beside_it) is not Frame
+    assert np.array_equal(beside_it.color, here.color)
+    assert np.array_equal(beside_it.depth, here.depth)
+    world.close()
+
+
+@physics
 def test_what_the_robot_looks_at_is_drawn_beside_and_the_same_to_the_bit():
     world = Filmed()
     beside_it, at_once = world.eyes.capture(), world.camera.capture()
@@ -180,7 +195,7 @@ def test_no_process_is_started_for_no_pictures_nor_for_spoilt_ones(
 
 def test_the_process_ends_when_whoever_asks_is_gone():
     painter = subprocess.Popen(process.command(), stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-    painter.communicate(timeout=60)
+    painter.communicate(timeout=PATIENCE_S)
     assert painter.returncode == 0
 
 

@@ -5,6 +5,7 @@ import { address } from "./robot.js";
 import { spoken, text } from "./texts.js";
 
 const box = document.getElementById("answers");
+const back = document.getElementById("asked-back");
 const suggestions = document.getElementById("suggestions");
 const SUGGESTED = 4;
 const PLACES = ["where_is", "where_to_put", "where_to_go"];
@@ -23,6 +24,20 @@ export function showAnswers(question, things, home, say) {
   if (question) {
     box.setAttribute("aria-label", text("answers", { text: question.text }));
     box.append(...buttons(question, things, home, say));
+  }
+  return had;
+}
+
+/** Yes and no to what the robot has heard, beside whatever else it asks. */
+export function showAskedBack(asked, settle) {
+  const had = back.contains(document.activeElement);
+  back.replaceChildren();
+  back.hidden = !asked;
+  if (asked) {
+    back.append(
+      element("p", { id: "asked-back-text" }, asked.text),
+      button(text("yes"), () => settle(true)),
+      button(text("no"), () => settle(false)));
   }
   return had;
 }
@@ -87,5 +102,5 @@ function labelOf(name, things) {
 function pictureOf(name, things) {
   if (!things[name]?.picture) return null;
   const source = address(`/thing/${encodeURIComponent(name)}.png`);
-  return element("img", { src: source, alt: "", width: 160, height: 160, loading: "lazy" });
+  return element("img", { src: source, alt: "", width: 160, height: 160 });
 }

@@ -2,7 +2,7 @@
 
 import { element } from "./elements.js";
 import { why } from "./robot.js";
-import { text, textOr } from "./texts.js";
+import { spoken, text, textOr } from "./texts.js";
 
 const list = document.getElementById("said");
 const scroll = document.getElementById("scroll");
@@ -10,12 +10,22 @@ const MOST = 500;
 const NEAR_END_PX = 80;
 const FIRST = 3; // reasons that are shown at once
 
+let atEnd = true;
+
+/** Whoever has not scrolled up keeps seeing the end, whatever takes room below. */
+scroll.addEventListener("scroll", () => { atEnd = isNearEnd(); });
+new ResizeObserver(() => atEnd && toEnd()).observe(scroll);
+
+function isNearEnd() {
+  return scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < NEAR_END_PX;
+}
+
 export function forget() {
   list.replaceChildren();
 }
 
 export function add(entry) {
-  const follows = scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < NEAR_END_PX;
+  const follows = atEnd;
   list.append(item(entry));
   while (list.children.length > MOST) list.firstElementChild.remove();
   if (follows || entry.who === "person") toEnd();
@@ -84,9 +94,9 @@ function reasons(decisions) {
 function reason(decision) {
   const source = decision.source && textOr(`said_by.${decision.source}`, decision.source);
   const others = decision.alternatives.map((other) =>
-    element("li", {}, text("why_not", { what: other.what, why_not: other.why_not })));
+    element("li", {}, text("why_not", { what: spoken(other.what), why_not: other.why_not })));
   return element("li", {},
-    element("strong", {}, `${decision.question}: `), decision.answer,
+    element("strong", {}, `${decision.question}: `), spoken(decision.answer),
     source ? element("em", {}, ` (${source})`) : null,
     others.length ? element("ul", {}, ...others) : null);
 }

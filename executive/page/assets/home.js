@@ -8,6 +8,7 @@ const list = document.getElementById("places");
 const MARGIN_M = 0.1;
 const LETTER_M = 0.15;
 const ABOVE_M = 0.36;
+const LEAST = 0.005; // who says less, of several, says nothing
 const MARKS = { open: "?", current: "→", empty: "✕", unreached: "!", found: "✓" };
 const layers = {};
 let home = null;
@@ -146,7 +147,7 @@ function sign(state, turn) {
 
 function table({ thing, places }) {
   const chances = places.some((place) => place.chance !== null);
-  const heads = ["place", "state", ...(chances ? ["chance"] : []), "source"];
+  const heads = ["place", ...(chances ? ["chance"] : []), "source"];
   return element("table", {},
     element("caption", {}, text("where", { thing: spoken(thing) })),
     element("thead", {}, element("tr", {},
@@ -164,23 +165,25 @@ function plan({ places, ask_after: askAfter }) {
 }
 
 function said(sources) {
-  const named = Object.entries(sources).filter(([source]) => source);
-  return named.map(([source, share]) => {
+  const all = Object.entries(sources).filter(([source]) => source);
+  const named = all.filter(([, share]) => share === null || share >= LEAST || all.length === 1);
+  return named.map(([source, share], at) => {
     const name = textOr(`sources.${source}`, source);
-    return share !== null && named.length > 1 ? `${name} ${percent(share)}` : name;
-  }).join(", ");
+    const one = share !== null && named.length > 1 ? `${name} ${percent(share)}` : name;
+    return at < named.length - 1 ? `${one}, ` : one;
+  });
 }
 
 function percent(share) {
-  return share > 0 && share < 0.01 ? "< 1 %" : `${Math.round(share * 100)} %`;
+  return share > 0 && share < 0.01 ? "<\u00a01\u00a0%" : `${Math.round(share * 100)}\u00a0%`;
 }
 
 function row({ place, state, chance, sources, why, turn }, chances) {
   const likely = chance === null ? "" : percent(chance);
   return element("tr", { class: state },
-    element("th", { scope: "row" }, `${sign(state, turn)} ${labelOf(place)}`),
-    element("td", {}, textOr(`states.${state}`, state), why ? element("small", {}, why) : null),
+    element("th", { scope: "row" }, `${sign(state, turn)} ${labelOf(place)}`,
+      element("small", {}, [textOr(`states.${state}`, state), why].filter(Boolean).join(": "))),
     chances ? element("td", {}, chance === null ? "" : element("meter", {
       value: chance, max: 1, "aria-label": likely }), ` ${likely}`) : null,
-    element("td", {}, said(sources)));
+    element("td", {}, ...said(sources).map((one) => element("span", { class: "source" }, one))));
 }

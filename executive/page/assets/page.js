@@ -1,11 +1,13 @@
 // The person's page: shows the board of the robot, and sends what the person says.
 
-import { mayBe, showAnswers, showSuggestions } from "./answers.js";
+import { mayBe, showAnswers, showAskedBack, showSuggestions } from "./answers.js";
 import { showCamera } from "./camera.js";
 import * as conversation from "./conversation.js";
+import * as ears from "./ears.js";
 import { offerPlaces, showHome, showPlaces, showRobot, showWay } from "./home.js";
-import { OVER, answer, follow, say as send, stop as sendStop } from "./robot.js";
+import { OVER, answer, follow, say as send, settle, stop as sendStop } from "./robot.js";
 import { load, spoken, text, textOr } from "./texts.js";
+import * as voice from "./voice.js";
 
 const doing = document.getElementById("doing");
 const progress = document.getElementById("progress");
@@ -14,7 +16,10 @@ const trouble = document.getElementById("trouble");
 const form = document.getElementById("form");
 const words = document.getElementById("words");
 const stopButton = document.getElementById("stop");
+const views = document.querySelectorAll(".views button");
+const HOME = "#home";
 const troubles = new Map();
+const TROUBLES = ["stop", "wire", "choice", "say"]; // what matters most comes first
 const LONGEST = 1000;
 const TWO_TAPS_MS = 400;
 let board = {};
@@ -30,14 +35,30 @@ const show = {
     showPlaces(null);
     showCamera(null);
     showQuestion(null);
+    askBack(null);
+    voice.saysNews(false);
   },
+  caught_up: () => voice.saysNews(true),
   said(entry) {
     conversation.add(entry);
     suggest();
+    if (entry.who === "robot") voice.say(entry.text);
+    else voice.hush();
   },
   doing: showDoing,
   outcome: () => showDoing(board.doing),
-  question: showQuestion,
+  question(question) {
+    setTrouble("choice", ""); // it was about another one
+    showQuestion(question);
+  },
+  asked_back(asked) {
+    setTrouble("choice", "");
+    askBack(asked);
+  },
+  speech(may) {
+    voice.offer(may);
+    ears.offer(may);
+  },
   home(plan) {
     showHome(plan);
     showRobot(board.robot);
@@ -53,7 +74,11 @@ const show = {
   path: showWay,
   places: showPlaces,
   camera: showCamera,
-  study: (step) => document.dispatchEvent(new CustomEvent("study", { detail: step })),
+  study(step) {
+    ears.drop();
+    voice.hush();
+    document.dispatchEvent(new CustomEvent("study", { detail: step }));
+  },
 };
 
 function showDoing(state) {
@@ -107,13 +132,38 @@ function offer(question) {
 /** What can be chosen is taken away at once; it comes back if the choice did not reach the robot. */
 async function chosen(said, question) {
   chosenAt = performance.now();
+  setTrouble("choice", "");
   offer(null);
   try {
     await answer(said, question.id);
     setTrouble("say", "");
   } catch (error) {
-    setTrouble("say", text(error === OVER ? "too_late" : "not_chosen", { text: said }));
+    notChosen(error, said);
     if (error !== OVER) showQuestion(board.question);
+  }
+}
+
+function notChosen(error, said) {
+  if (error === OVER) setTrouble("say", text("too_late", { text: said }));
+  else setTrouble("choice", text("not_chosen"));
+}
+
+function askBack(asked) {
+  const had = showAskedBack(asked, (agrees) => settled(asked, agrees));
+  if (had && !asked) focusWords();
+  conversation.toEnd();
+}
+
+async function settled(asked, agrees) {
+  chosenAt = performance.now();
+  setTrouble("choice", "");
+  askBack(null);
+  try {
+    await settle(asked.id, agrees);
+    setTrouble("say", "");
+  } catch (error) {
+    notChosen(error, text(agrees ? "yes" : "no"));
+    if (error !== OVER) askBack(board.asked_back);
   }
 }
 
@@ -130,7 +180,7 @@ function focusWords() {
 function setTrouble(name, message) {
   if (message) troubles.set(name, message);
   else troubles.delete(name);
-  const shown = [...troubles.values()].join(" ");
+  const shown = TROUBLES.map((one) => troubles.get(one)).filter(Boolean).join(" ");
   trouble.hidden = !shown;
   if (trouble.textContent !== shown) trouble.textContent = shown;
 }
@@ -147,6 +197,8 @@ async function say(said) {
 }
 
 async function stop() {
+  ears.drop();
+  voice.hush();
   if (stopping) return;
   stopping = true;
   stopButton.classList.add("sent");
@@ -170,15 +222,21 @@ document.addEventListener("keydown", (event) => {
     stop();
   }
 }, true);
-for (const button of document.querySelectorAll(".views button")) {
+/** On a small screen: what the address says is shown, so that one goes back with the browser's button. */
+function showView() {
+  const view = location.hash === HOME ? "home" : "talk";
+  document.body.dataset.view = view;
+  for (const button of views) button.setAttribute("aria-pressed", String(button.dataset.view === view));
+  conversation.toEnd();
+}
+
+for (const button of views) {
   button.addEventListener("click", () => {
-    document.body.dataset.view = button.dataset.view;
-    for (const other of document.querySelectorAll(".views button")) {
-      other.setAttribute("aria-pressed", String(other === button));
-    }
-    conversation.toEnd();
+    location.hash = button.dataset.view === "home" ? HOME : "";
   });
 }
+addEventListener("hashchange", showView);
+showView();
 
 const connection = {
   open: () => setTrouble("wire", ""),

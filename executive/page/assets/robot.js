@@ -50,6 +50,7 @@ export function post(path, body) {
 async function send(path, body) {
   const answer = await post(path, body);
   if (!answer.ok) throw answer.status === 409 ? OVER : new Error(answer.status);
+  return answer.json();
 }
 
 export function say(words) {
@@ -59,6 +60,16 @@ export function say(words) {
 /** Answers the question with this number, and no other; throws OVER if it is over. */
 export function answer(words, question) {
   return send("/say", { words, question });
+}
+
+/** What the browser heard, as recognisers have it: what became of it. */
+export async function hears(alternatives, utterance, final) {
+  return (await send("/heard", { alternatives, utterance, final })).became;
+}
+
+/** Says yes or no to what the robot has heard, and to nothing else; throws OVER if it is over. */
+export function settle(asked, agrees) {
+  return send("/settle", { asked, agrees });
 }
 
 /** Stop, until it has reached the robot; `lost` is called each time that it has not. */

@@ -127,7 +127,11 @@ def lead(data: StudyData, code: str, address: Any) -> int:
     with all_is_kept():
         from executive.page.study.leading import Leader  # heavy
         from executive.page.study.page import StudyPage
-    with data.one(code) as journal, data.if_only_begun(journal), StudyPage(address) as page:
+    with (
+        data.one(code) as journal,
+        data.if_only_begun(journal),
+        StudyPage(address, speech=data.study.speech) as page,
+    ):
         if any(entry["kind"] == "finished" for entry in journal.entries()):
             right = f"the next one is {data.next()}"
             raise InputError("--participant", f"{code} has come to the end", right)

@@ -130,7 +130,9 @@ class StudyData:
             return
         try:
             theirs = json.loads(read_text(file))
-            differs = [k for k, v in json.loads(mine).items() if theirs.get(k) != v]
+            fields = type(self.study).model_fields  # what was unknown then is as by default
+            said = json.loads(mine).items()
+            differs = [k for k, v in said if theirs.get(k, fields[k].default) != v]
         except (ValueError, AttributeError, RecursionError):
             right = "name another folder"
             raise InputError(f"--data {self.folder}", f"{file.name} is damaged", right) from None

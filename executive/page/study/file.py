@@ -59,6 +59,8 @@ class Study(Table):
     thanks: Prose = THANKS
     order: Literal["balanced", "as written"] = "balanced"
     task_order: Literal["as written", "rotated"] = "as written"
+    speech: bool = False
+    """Whether participants may have their browser listen and speak."""
     settings: dict[str, Any] = {}
     """Of all conditions."""
     conditions: tuple[Condition, ...] = Field(min_length=1, max_length=12)

@@ -32,7 +32,9 @@ class StudyPage(Page):
 
     person: Participant
 
-    def __init__(self, address: Address | None = None, token: str = "") -> None:
+    def __init__(
+        self, address: Address | None = None, token: str = "", *, speech: bool = False
+    ) -> None:
         """Serve at once; there is nothing to do yet.
 
         Raises:
@@ -44,7 +46,7 @@ class StudyPage(Page):
         self._fault: Fault = _nothing_wrong
         self._take: Callable[[Any], None] = self._sent.put
         self._shown: Shown = {}
-        super().__init__(Inbox(), address, token)
+        super().__init__(Inbox(), address, token, speech=speech)
         self.converse(Inbox())
 
     def converse(self, inbox: Inbox) -> Participant:

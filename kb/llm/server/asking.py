@@ -3,9 +3,6 @@
 import asyncio
 import json
 import logging
-import os
-import socket
-import ssl
 import time
 from contextlib import aclosing
 from copy import deepcopy
@@ -14,14 +11,15 @@ from typing import Any
 
 import httpx2
 
+from executive.servers.address import bases_of, is_this_machine, without_secrets
+from executive.servers.key import LLM_KEY, Key
+from executive.servers.network import why
+from executive.servers.refusal import MOST_BYTES, MOST_CHARACTERS, Refused, refusal
 from executive.text import printable, writable
 from executive.types import ChatRequest, Failed
-from kb.llm.key import VARIABLE, Key
-from kb.llm.server.address import bases_of, is_this_machine, without_secrets
 from kb.llm.server.dialect import Dialect
 from kb.llm.server.listing import chat_models, is_about_the_model
 from kb.llm.server.packed import NotUnpacked, unpacked
-from kb.llm.server.refusal import MOST_BYTES, MOST_CHARACTERS, Refused, refusal
 from kb.llm.server.wire import BrokenOff, NotJson, Written, objects
 
 PAUSE_S = 0.5
@@ -36,8 +34,6 @@ LOOKING_S = 10.0
 """How long a server may take to list its models."""
 MOST_OF_A_LISTING = 4 << 20
 """Bytes."""
-DEEPEST = 16
-"""Errors behind an error."""
 BUSY = (429, 503, 529)
 NOT_HERE = (404, 405, 501)
 DENIED = (401, 403, 407)
@@ -241,11 +237,11 @@ class Asking:
             case NotJson():
                 return f"the reply of {self._shown} is not JSON: {self._shortly(str(error))}"
             case _:
-                return f"{self._shown} cannot be reached: {self._shortly(_why(error))}"
+                return f"{self._shown} cannot be reached: {self._shortly(why(error))}"
 
     def _advice(self, refused: Refused) -> str:
         if refused.status in DENIED:
-            return f"; check {VARIABLE}" if self._key else f"; set {VARIABLE}"
+            return f"; check {LLM_KEY}" if self._key else f"; set {LLM_KEY}"
         if self._named and self._listed and is_about_the_model(refused):
             return f"; the server has {self._shortly(', '.join(self._listed))}"
         return ""
@@ -289,21 +285,3 @@ async def _read(response: httpx2.Response, most: int) -> bytes:
     except NotUnpacked as error:
         return str(error).encode()
     return bytes(read[:most])
-
-
-def _why(error: BaseException) -> str:
-    """What lies at the root of an error of the network, in words."""
-    root, seen = error, 0
-    while (under := root.__cause__ or root.__context__) and seen < DEEPEST:
-        root, seen = under, seen + 1
-    match root:
-        case ssl.SSLCertVerificationError():
-            return f"its certificate is not trusted ({root.verify_message})"
-        case ssl.SSLError():
-            return "it does not speak HTTPS; try http://"
-        case socket.gaierror():
-            return "there is no such host"
-        case OSError() if root.errno:
-            return os.strerror(root.errno)
-        case _:
-            return str(error) or type(error).__name__

@@ -4,8 +4,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from executive.servers.refusal import Refused
 from executive.types import ChatRequest
-from kb.llm.server.refusal import Refused
 from kb.llm.turns import without_system
 
 OPTIONAL = ("stream_options", "seed", "top_p", "temperature", "stream")

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from kb.llm.server.refusal import Refused
+from executive.servers.refusal import Refused
 
 MOST_MODELS = 1000
 LONGEST_NAME = 200

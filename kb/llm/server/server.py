@@ -5,10 +5,10 @@ import logging
 import threading
 
 from executive.events import Inbox
+from executive.servers.address import refuse_secrets
+from executive.servers.key import LLM_KEY, Key
 from executive.text import printable
 from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, Usage
-from kb.llm.key import Key
-from kb.llm.server.address import refuse_secrets
 from kb.llm.server.asking import Asked, Asking
 from kb.llm.server.dialect import Dialect
 from kb.llm.server.wire import Written
@@ -64,7 +64,7 @@ class Server:
         Raises:
             InputError: if the address has a user or a password in it.
         """
-        refuse_secrets(url)
+        refuse_secrets(url, LLM_KEY)
         self._inbox = inbox
         self._n_ctx = n_ctx
         self._max_tokens = max_tokens

@@ -8,9 +8,9 @@ from typing import Any
 
 import httpx2
 
+from executive.servers.refusal import refusal_in
 from kb.llm.server.lines import TooLong, lines
 from kb.llm.server.packed import NotUnpacked
-from kb.llm.server.refusal import refusal_in
 
 MOST_TOKENS = 10**9
 """Of what a server may say that it counted."""

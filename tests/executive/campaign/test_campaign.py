@@ -6,12 +6,12 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterable
 from io import StringIO
 from pathlib import Path
 
 import pytest
+from patience import PATIENCE_S, until
 
 from executive.app.session import Session
 from executive.campaign import blocks
@@ -185,11 +185,9 @@ def test_a_signal_to_all_ends_the_workers_and_keeps_their_missions(
     command = [sys.executable, "-m", "executive.campaign", *grid, "--workers", "2", "--seeds", "40"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
     journal = tmp_path / "out" / "journal.jsonl"
-    latest = time.monotonic() + 60
-    while not (journal.exists() and journal.stat().st_size) and time.monotonic() < latest:
-        time.sleep(0.05)
+    until(lambda: journal.exists() and journal.stat().st_size, "the first mission")
     os.killpg(process.pid, number)
-    said = process.communicate(timeout=60)[1]
+    said = process.communicate(timeout=PATIENCE_S)[1]
     assert process.returncode == 130
     assert b"Traceback" not in said
     assert b"leak" not in said

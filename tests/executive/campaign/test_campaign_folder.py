@@ -191,7 +191,7 @@ def test_a_lock_ends_with_its_process_even_if_that_is_killed(tmp_path: Path) -> 
         "import sys, time; from pathlib import Path; "
         "from executive.campaign.claim import lock_folder; "
         "lock = lock_folder(Path(sys.argv[1]), '--out'); print('locked', flush=True); "
-        "time.sleep(60)"
+        "time.sleep(600)"
     )
     with subprocess.Popen(
         [sys.executable, "-c", program, str(tmp_path)], stdout=subprocess.PIPE, text=True

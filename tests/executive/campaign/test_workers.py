@@ -6,6 +6,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import pytest
+from patience import PATIENCE_S
 
 from executive.campaign import workers
 from executive.campaign.workers import start_loading
@@ -46,7 +47,7 @@ def test_workers_import_nothing_from_the_folder_that_they_are_run_in(tmp_path: P
         cwd=tmp_path,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=PATIENCE_S,
     )
     assert run.stdout.strip().endswith("sim/__init__.py")
     assert str(tmp_path) not in run.stdout

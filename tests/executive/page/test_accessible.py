@@ -99,5 +99,6 @@ def test_what_is_pressed_is_large_enough_for_a_finger(browser: Browser, found: R
 def test_what_is_said_is_announced_and_the_stop_has_its_key(browser: Browser, found: Robot) -> None:
     with asked(browser, found) as tab:
         assert tab.get_by_role("log").get_by_text("Where is the").count()
-        expect(tab.get_by_role("status")).to_have_text("I am waiting for your answer.")
+        doing = tab.get_by_role("status").filter(has=tab.locator("#doing"))
+        expect(doing).to_have_text("I am waiting for your answer.")
         assert tab.locator("#stop").get_attribute("aria-keyshortcuts") == "Escape"

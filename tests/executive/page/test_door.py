@@ -11,6 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from paging import heard, post
+from patience import PATIENCE_S
 
 
 @contextmanager
@@ -39,7 +40,7 @@ def test_a_conversation_by_page_ends_as_one_at_the_terminal(tmp_path: Path) -> N
         post(page, "/say", {"words": "high_table"}, **token)
         heard(page, "doing", state="ready", **token)
         post(page, "/say", {"words": "quit"}, **token)
-        printed, _ = process.communicate(timeout=60)
+        printed, _ = process.communicate(timeout=PATIENCE_S)
     assert printed.startswith("done: The peach is on the high table in the kitchen.")
     assert process.returncode == 0
 
@@ -48,7 +49,7 @@ def test_a_signal_stops_what_runs_and_tells_the_pages(tmp_path: Path) -> None:
     with begun(tmp_path, "Find", "the", "peach") as (process, page, token):
         heard(page, "question", kind="where_is", **token)
         process.send_signal(signal.SIGTERM)
-        assert process.wait(60) == 130
+        assert process.wait(PATIENCE_S) == 130
 
 
 def test_the_page_is_the_person_and_nobody_else(tmp_path: Path) -> None:

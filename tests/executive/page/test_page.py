@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from paging import Robot, ask, heard, page_alone, post, robot, told
+from patience import PATIENCE_S, until_still
 
 from executive.events import Inbox
 from executive.page.board import Board
@@ -49,7 +50,7 @@ def test_who_is_listened_to_is_busy_as_soon_as_they_spoke() -> None:
     person = PagePerson(inbox := Inbox(), board := Board())
     person.listen()
     person.says("Find a fruit")
-    assert inbox.wait(20)
+    assert inbox.wait(PATIENCE_S)
     assert {one.name: json.loads(one.json) for one in board.since(0)}["doing"] == {"state": "busy"}
 
 
@@ -166,8 +167,7 @@ def test_a_page_that_is_closed_is_no_answer_and_no_stop(talking: Robot) -> None:
 def test_while_nothing_happens_nothing_is_ticked_and_nothing_told(talking: Robot) -> None:
     post(talking.page, "/say", {"words": "Find a fruit"})
     heard(talking.page, "question")
-    time.sleep(0.3)
-    before = talking.page.board.since(0)[-1].number
+    before = until_still(lambda: talking.page.board.since(0)[-1].number, for_s=0.3)
     time.sleep(0.5)
     assert talking.page.board.since(0)[-1].number == before
 

@@ -235,20 +235,24 @@ def test_a_file_on_which_opencv_breaks_down_takes_only_a_process_of_its_own(
 
 
 @pytest.mark.parametrize(
-    ("program", "sentence"),
+    ("program", "longest_s", "sentence"),
     [
-        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "OpenCV breaks down on it"),
-        ("import time; time.sleep(60)", "takes longer than 1 s"),
-        ("print('OpenCV cannot run it: so it is', end='')", "cannot run it: so it is"),
+        (
+            "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)",
+            180,
+            "OpenCV breaks down on it",
+        ),
+        ("import time; time.sleep(600)", 1, "takes longer than 1 s"),
+        ("print('OpenCV cannot run it: so it is', end='')", 180, "cannot run it: so it is"),
     ],
 )
 def test_how_a_trial_can_end_badly_is_said(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, program: str, sentence: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, program: str, longest_s: float, sentence: str
 ) -> None:
     trial = tmp_path / "trial.py"
     trial.write_text(program)
     monkeypatch.setattr(onnx_trial, "__file__", str(trial))
-    monkeypatch.setattr(onnx_trial, "LONGEST_S", 1.0)
+    monkeypatch.setattr(onnx_trial, "LONGEST_S", longest_s)
     path = write_model(tmp_path, v8([(1.0, 2.0, 3.0, 4.0, 0, len(program) / 100)]))
     with pytest.raises(InputError, match=f"tiny.onnx: .*{sentence}"):
         OnnxDetector(path, known)

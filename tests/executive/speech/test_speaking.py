@@ -4,6 +4,7 @@ import io
 from pathlib import Path
 
 import pytest
+from audio_server import hearing, says
 from speaking import needs_espeak, say
 
 from executive import Session, load_settings
@@ -43,6 +44,37 @@ def test_what_files_say_and_confirm_is_the_next_command_and_is_recorded(tmp_path
     assert replay(mission / "mission.mcap").parting is None
 
 
+@needs_espeak
+def test_what_a_server_heard_is_done_when_the_local_ears_hear_the_yes_too(tmp_path: Path) -> None:
+    pytest.importorskip("pocketsphinx", reason="needs the extra speech")
+    said = tmp_path / "said"
+    said.mkdir()
+    for number, words in enumerate(("tell me what is on the bed", "yes")):
+        (said / f"{number}.wav").write_bytes(to_wav(say(words)))
+    with hearing(says({"text": "What's on the bed?"}), says({"text": "Yes."})) as server:
+        given = {"ears": server.url, "microphone": str(said), "runs": tmp_path, **FAKE}
+        console = Console(inbox := Inbox(), io.StringIO(), out := io.StringIO())
+        with Session(load_settings(**given), inbox=inbox, user=console) as session:
+            assert session.next_command(console) == "What's on the bed?"
+            assert session.next_command(console) is None
+    assert out.getvalue().splitlines() == ["Did you say: What's on the bed?"]
+
+
+@needs_espeak
+def test_a_pipe_of_sound_is_heard_whole_and_is_not_typed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("pocketsphinx", reason="needs the extra speech")
+    sound = io.BytesIO(say("what is on the bed").astype("<i2").tobytes())
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(sound))
+    settings = load_settings(ears="pocketsphinx", microphone="-", runs=tmp_path, **FAKE)
+    with Session(settings, out=(out := io.StringIO())) as session:
+        person = session.parts.user
+        assert isinstance(person, Console)
+        assert session.next_command(person) is None
+    assert out.getvalue().splitlines() == ["Did you say: what is on the bed?"]
+
+
 def test_what_the_robot_says_is_said_aloud(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = tmp_path / "said"
     program = tmp_path / "espeak-ng"
@@ -54,7 +86,7 @@ def test_what_the_robot_says_is_said_aloud(tmp_path: Path, monkeypatch: pytest.M
     with Session(settings, inbox=inbox, user=console) as session:
         session.run("Find the mug")
         voice = console.aloud.__self__  # type: ignore[attr-defined]
-        while voice.speaks:
+        while voice.saying:
             pass
     assert "mug" in said.read_text()
 

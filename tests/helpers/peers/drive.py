@@ -11,7 +11,7 @@ from typing import Any
 
 import roslibpy
 
-PATIENCE_S = 20.0
+PATIENCE_S = 120.0
 
 
 def pursue(ros: Any, goal: dict[str, Any], cancel_at_first: bool) -> dict[str, Any]:

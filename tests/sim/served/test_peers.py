@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from patience import PATIENCE_S
 from served import place_goal, served
 
 from sim.served.offered import GRAPH
 
 pytestmark = pytest.mark.peers
 PEERS = Path(__file__).parents[2] / "helpers" / "peers"
-PATIENCE_S = 60.0
 
 
 def driven_by(command: list[str], whole_address: bool) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from importlib.resources import files
 
 import pytest
+from patience import PATIENCE_S
 from served import Raw, look_goal, pick_goal, place_goal, pose_goal, served
 
 from executive.errors import InputError
@@ -163,4 +164,4 @@ def test_it_is_served_from_the_command_line_until_somebody_says_stop(
         r"the robot of four_rooms is at ws://127\.0\.0\.1:\d+ \(Ctrl-C ends that\)\n", line
     )
     process.send_signal(signal.SIGINT)
-    assert process.wait(20) == 130
+    assert process.wait(PATIENCE_S) == 130

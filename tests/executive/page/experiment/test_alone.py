@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from browsing import chromium
 from paging import ask, heard, post
+from patience import PATIENCE_S
 from playwright.sync_api import expect
 from talking import session_of
 
@@ -75,7 +76,7 @@ def test_the_command_serves_until_it_is_stopped(tmp_path: Path) -> None:
         page = SimpleNamespace(url=found[1])
         assert json.loads(ask(page, "/experiment/runs", token=found[2]).body)["all"] == 0
         process.send_signal(signal.SIGINT)
-        assert process.wait(60) == 130
+        assert process.wait(PATIENCE_S) == 130
 
 
 @pytest.mark.browser

@@ -244,3 +244,14 @@ def test_a_line_that_is_none_of_ours_is_told_and_erases_nobody(
     assert (data.folder / "P02").exists()
     withdraw(data, "P01")
     assert tables(data).results == ()
+
+
+def test_what_a_study_did_not_know_of_when_it_began_is_as_by_default(data: StudyData) -> None:
+    begin(data, "P01")
+    file = data.folder / "study.json"
+    kept = json.loads(file.read_text())
+    del kept["speech"]
+    file.write_text(json.dumps(kept))
+    assert StudyData(data.folder, STUDY).journals()
+    with pytest.raises(InputError, match="has changed since its data began: speech"):
+        StudyData(data.folder, STUDY.model_copy(update={"speech": True}))

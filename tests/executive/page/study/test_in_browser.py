@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from browsing import DESKTOP, SMALLEST, opened, say, wait_until_ready
+from patience import PATIENCE_S
 from playwright.sync_api import Browser, expect
 from playwright.sync_api import Page as Tab
+from speaking_browser import STUBS
 from studying import begun, data_in, end_task, led, next_step, study_of, take_part, written
 
 from executive.page.study.tables import read_rows, tables
@@ -58,6 +60,21 @@ def test_who_declines_sees_no_robot(browser: Browser, tmp_path: Path) -> None:
         expect(tab.locator("#sheet")).to_contain_text("Nothing of you is kept.")
     assert one.took_part is False
     assert not tables(data).results
+
+
+@pytest.mark.parametrize("speech", [False, True])
+def test_participants_may_speak_if_the_study_says_so(
+    browser: Browser, tmp_path: Path, speech: bool
+) -> None:
+    data = data_in(tmp_path, study_of(1, speech=speech))
+
+    def try_to_speak(tab: Tab, chance: random.Random) -> None:
+        expect(tab.locator("#map")).to_be_visible()
+        expect(tab.locator("#speak")).to_be_visible(visible=speech)
+        end_task(tab, "I give up")
+
+    with led(data, "P01") as one, opened(browser, one.page, first=STUBS) as tab:
+        take_part(tab, random.Random(0), try_to_speak)
 
 
 def test_a_task_is_given_up_while_the_robot_asks_and_the_next_one_begins(
@@ -163,7 +180,7 @@ def test_one_who_is_killed_in_the_middle_goes_on_and_no_row_is_lost(
         opened(browser, page) as tab,
     ):
         steps = take_part(tab, chance)
-        assert process.wait(60) == 0
+        assert process.wait(PATIENCE_S) == 0
     assert steps == ["questionnaire/1/sus", "part/2/", "task/2/t0", "questionnaire/2/sus"]
     made = read_rows(tmp_path / "data/results.parquet")
     assert [(row["condition"], row["attempts"]) for row in made] == [("a", 1), ("b", 1)]

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from paging import TOKEN, ask, heard, notice, post, step_in, told
+from patience import PATIENCE_S
 from studying import COMMAND, Led, begun, data_in, led, study_of, written
 
 from executive.page.study.data import StudyData
@@ -160,7 +161,7 @@ def test_who_declines_leaves_nothing(tmp_path: Path) -> None:
     file = written(study_of(1), tmp_path)
     with begun(file, tmp_path / "data") as (process, page):
         assert does(page, "consent/0/", "declined", page.token) == 200
-        assert process.wait(60) == 1
+        assert process.wait(PATIENCE_S) == 1
     assert not (tmp_path / "data/P01").exists()
     assert not read_rows(tmp_path / "data/results.parquet")
 
@@ -176,7 +177,7 @@ def test_a_signal_in_the_middle_of_a_mission_brings_the_robot_to_rest(tmp_path: 
         post(page, "/say", {"words": "Bring a fruit"}, token=page.token)
         heard(page, "question", token=page.token)
         process.send_signal(signal.SIGTERM)
-        assert process.wait(60) == 130
+        assert process.wait(PATIENCE_S) == 130
     entries = StudyData(tmp_path / "data", study).journals()[0].entries()
     assert [entry["kind"] for entry in entries[-3:]] == ["task_began", "intervention", "mission"]
     assert (entries[-1]["status"], entries[-2]["by"]) == ("stopped", "SIGTERM")
@@ -184,7 +185,7 @@ def test_a_signal_in_the_middle_of_a_mission_brings_the_robot_to_rest(tmp_path: 
 
 def command(*words: str) -> "subprocess.CompletedProcess[str]":
     line = [sys.executable, "-m", "executive.page", "study", *words]
-    return subprocess.run(line, capture_output=True, text=True, check=False, timeout=60)
+    return subprocess.run(line, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
 
 
 def test_the_command_tells_orders_and_erases_and_says_who_is_left(tmp_path: Path) -> None:

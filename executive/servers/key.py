@@ -1,10 +1,11 @@
-"""The key of a language model's server: from the environment only, and never anywhere else."""
+"""The key of a model's server: from the environment only, and never anywhere else."""
 
 import os
 
 from executive.errors import InputError
 
-VARIABLE = "EXECUTIVE_LLM_API_KEY"
+LLM_KEY, EARS_KEY = "EXECUTIVE_LLM_API_KEY", "EXECUTIVE_EARS_API_KEY"
+"""The variables of the environment."""
 SHORTEST = 6
 """Characters of what is taken for a secret: a shorter one could be any word."""
 HIDDEN = "***"
@@ -13,21 +14,21 @@ HIDDEN = "***"
 class Key:
     """A key, or none. It shows itself in the header of a request only."""
 
-    def __init__(self, secret: str | None = None) -> None:
-        """Keep it.
+    def __init__(self, secret: str | None = None, variable: str = LLM_KEY) -> None:
+        """Keep it; it came from this variable of the environment.
 
         Raises:
             InputError: if it cannot be sent; what it is, is not said.
         """
         secret = (secret or "").strip()
         if not all("!" <= character <= "~" for character in secret):
-            raise InputError(VARIABLE, "has characters that no key has", "give the key alone")
+            raise InputError(variable, "has characters that no key has", "give the key alone")
         self.__secret = secret
 
     @classmethod
-    def from_environment(cls) -> "Key":
-        """The one that EXECUTIVE_LLM_API_KEY holds, or none."""
-        return cls(os.environ.get(VARIABLE))
+    def from_environment(cls, variable: str = LLM_KEY) -> "Key":
+        """The one that this variable holds, or none."""
+        return cls(os.environ.get(variable), variable)
 
     def __bool__(self) -> bool:
         """Whether there is one."""

@@ -1,18 +1,17 @@
-"""Where a language model's server is, as people write it."""
+"""Where a model's server is, as people write it."""
 
 import ipaddress
 import re
 from urllib.parse import SplitResult, urlsplit
 
 from executive.errors import InputError
-from kb.llm.key import VARIABLE
 
-ENDPOINT = re.compile(r"/(?:chat/)?completions/*$|/models/*$")
+ENDPOINT = re.compile(r"/(?:chat/)?completions/*$|/models/*$|/audio/transcriptions/*$")
 _VERSION = re.compile(r"/v\d[^/]*(?:/openai)?$")
 
 
 def bases_of(url: str) -> tuple[str, ...]:
-    """What `/chat/completions` may follow, the likeliest first: `http://host` -> `http://host/v1`.
+    """What an endpoint (`/chat/completions`) may follow, the likeliest first: `http://host` -> `http://host/v1`.
 
     A slash at the end does no harm, nor does an address that goes on to an endpoint.
     """
@@ -31,14 +30,14 @@ def is_this_machine(url: str) -> bool:
         return host == "localhost" or host.endswith(".localhost")
 
 
-def refuse_secrets(url: str) -> None:
+def refuse_secrets(url: str, variable: str) -> None:
     """See that an address can be shown and written down.
 
     Raises:
         InputError: if it has a user or a password in it, which is not said.
     """
     if "@" in url:
-        right = f"put the key into {VARIABLE}"
+        right = f"put the key into {variable}"
         raise InputError(without_secrets(url), "is given with user and password", right)
 
 
