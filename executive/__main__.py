@@ -9,7 +9,7 @@ import argparse
 import logging
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.metadata import version
 from io import StringIO
 from pathlib import Path
@@ -133,6 +133,8 @@ def serve(
             gui=gui,
             sinks=page.sinks if page else (),
         )
+        with suppress(ImportError):  # which is told when the logs are opened
+            import logs.viewer.sink  # noqa: F401 - what is imported now is looked through no more
     with session:
         if page:
             page.follow(session)

@@ -385,6 +385,11 @@ class Frame:
     intrinsics: Intrinsics
     pose: Pose
 
+    @property
+    def coming(self) -> bool:
+        """Whether its pixels are still drawn elsewhere: who reads them waits for them."""
+        return False
+
 
 @dataclass(frozen=True, slots=True)
 class Box:

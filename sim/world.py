@@ -40,7 +40,7 @@ from sim.navigation.durations import durations_in
 from sim.navigation.grid import OccupancyGrid
 from sim.navigation.navigator import Navigator
 from sim.objects.objects import ObjectModel
-from sim.pictures.beside import CameraBeside
+from sim.pictures.beside import CameraBeside, OtherCamera
 from sim.pictures.scene import Actors, Blueprint
 from sim.robot import SimulatedRobot
 from sim.transforms import FrameTree
@@ -146,6 +146,10 @@ class PhysicsWorld:
             if self.draws_looks_beside:
                 self.camera = CameraBeside(camera, actors, blueprint, recorder, "pictures")
                 self._beside.append(self.camera)
+        self.eyes: Camera = self.camera
+        """The same camera; a detector that needs no more than the picture need not draw it here."""
+        if isinstance(self._log_camera, CameraBeside) and not (injector or looks_beside):
+            self.eyes = OtherCamera(camera, self._log_camera)
 
     # --- SimulatedHome ---
 

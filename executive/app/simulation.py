@@ -75,10 +75,11 @@ def physics(setup: Setup) -> Embodiment:
         beside=worthwhile(),
     )
     clock = SimulatedClock(setup.inbox, world)
-    detector = world.detector if settings.detector == "simulated" else setup.detector()
+    simulated = settings.detector == "simulated"
+    detector = world.detector if simulated else setup.detector()
     return Embodiment(
         world.robot,
-        _perception(setup, world.camera, detector, injector),
+        _perception(setup, world.camera if simulated else world.eyes, detector, injector),
         clock,
         truth=world,
         keeps=world,

@@ -26,7 +26,7 @@ class CameraPerception:
     """A camera and a detector: takes a picture, recognises, and finds where things are by depth.
 
     The picture is taken within `see`, unless the camera is far away. What takes longer is computed
-    meanwhile nothing moves.
+    meanwhile nothing moves, and so is a picture whose pixels are still coming.
     """
 
     def __init__(
@@ -57,8 +57,27 @@ class CameraPerception:
         except Exception as error:
             self._fail(request, "my camera failed", error)
             return request
-        self._look_at(request, frame)
+        self._recorder.record(Picture(frame))
+        if frame.coming:
+            come = partial(self._come, request, frame)
+            self._inbox.compute(self._worker, lambda: frame.color, come, request)
+        else:
+            self._look_at(request, frame)
         return request
+
+    def _come(self, request: int, frame: Frame, pixels: Computation[object]) -> None:
+        """A picture's pixels are there; if they never will be, another is taken, with no wait."""
+        try:
+            pixels.result()
+        except Exception as error:
+            log.debug("a picture did not come", exc_info=error)
+            try:
+                frame = self._camera.capture()
+            except Exception as again:
+                self._fail(request, "my camera failed", again)
+                return
+            self._recorder.record(Picture(frame))
+        self._look_at(request, frame)
 
     def _take(self, request: int, computation: Computation[Frame]) -> None:
         """A picture has come from afar."""
@@ -67,10 +86,10 @@ class CameraPerception:
         except Exception as error:
             self._fail(request, "my camera failed", error)
             return
+        self._recorder.record(Picture(frame))
         self._look_at(request, frame)
 
     def _look_at(self, request: int, frame: Frame) -> None:
-        self._recorder.record(Picture(frame))
         if not frame.color.any():
             self._inbox.end(request, Failed("my camera shows nothing"))
             return

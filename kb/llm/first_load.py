@@ -9,25 +9,19 @@ not is never loaded here.
 import hashlib
 import logging
 import os
-import resource
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
-
-import llama_cpp
 
 from executive.cache import cache_folder
 from executive.errors import ModelError
 from executive.servers.key import EARS_KEY, LLM_KEY
 from executive.text import printable, writable
-from executive.types import Message
-from kb.llm.context import Context
-from kb.llm.gguf import Gguf, check_file
-from kb.llm.gguf_header import TEMPLATE, read_header, refuse_what_does_not_chat
-from kb.llm.template import Template
+from kb.llm.gguf_header import RANKS, WRITES, check_file
 
 PATIENCE_S = 60.0
 """For a small file, and ..."""
@@ -35,15 +29,9 @@ SLOWEST_DISK = 20e6
 """... as much longer as reading the file from such a disk takes (bytes/s), but ..."""
 MOST_PATIENCE_S = 900.0
 """... no longer than this."""
-SPARE_MEMORY = 8 << 30
-"""Bytes that loading a file may take beside twice its size."""
-TEMPLATE_S = 10
-"""How long a chat template may take."""
 SAMPLE = 1 << 20
 """Bytes of the beginning and of the end that a file is known by."""
 LONGEST_FAULT = 500
-WRITES, RANKS = "writes", "ranks"
-CHAT = (Message("system", "You know a home."), Message("user", "Where is the mug?"))
 
 log = logging.getLogger(__name__)
 
@@ -74,7 +62,7 @@ def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
     environment["PYTHONPATH"] = os.pathsep.join(part or os.getcwd() for part in sys.path)
     for secret in (LLM_KEY, EARS_KEY):
         environment.pop(secret, None)
-    command = "from kb.llm.first_load import main; main()"
+    command = "from kb.llm.trial import main; main()"
     with subprocess.Popen(
         [sys.executable, "-P", "-c", command, path.absolute()],
         stdin=subprocess.DEVNULL,
@@ -139,7 +127,7 @@ def mark_of(path: Path) -> str:
             ends = file.read(SAMPLE)
     except OSError as error:
         raise ModelError(f"model {printable(path)} cannot be read: {error.strerror}") from None
-    facts = (llama_cpp.__version__, about.st_size, about.st_mtime_ns)
+    facts = (version("llama-cpp-python"), about.st_size, about.st_mtime_ns)
     return hashlib.sha256(repr(facts).encode() + begins + ends).hexdigest()
 
 
@@ -167,53 +155,3 @@ def _remember(mark: str, known: list[str]) -> None:
         (_folder() / mark).write_text("\n".join(known))
     except OSError as error:
         log.info("it is not remembered that the model can be loaded: %s", error)
-
-
-# --- from here on in the child ---
-
-
-def main() -> None:
-    """Load the file that is named on the command line; say what can be done with it, or why not."""
-    path = Path(sys.argv[1])
-    memory = 2 * path.stat().st_size + SPARE_MEMORY
-    resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    try:
-        header = read_header(path)
-        refuse_what_does_not_chat(path, header)
-        _try_template(path, str(header.values[TEMPLATE]))
-        model = Gguf(path)
-        _try_to_write(model)
-        print(WRITES, flush=True)
-        _try_to_rank(model)
-        print(RANKS, flush=True)
-    except (ModelError, MemoryError) as error:
-        print(printable(error) or "there is not enough memory", flush=True)
-    finally:
-        os._exit(0)
-
-
-def _try_template(path: Path, text: str) -> None:
-    signal.alarm(TEMPLATE_S)
-    try:
-        Template(text, "<s>", "</s>")
-    except ModelError as error:
-        raise ModelError(f"model {printable(path)}: {error}") from None
-    signal.alarm(0)
-
-
-def _try_to_write(model: Gguf) -> None:
-    tokens, head = model.prompt(CHAT)
-    context = Context(model, max(512, 2 * len(tokens)))
-    context.read(tokens, head, lambda: None)
-    context.append([int(context.log_probabilities().argmax())])
-
-
-def _try_to_rank(model: Gguf) -> None:
-    tokens, head = model.prompt(CHAT)
-    context = Context(model, max(512, 2 * len(tokens)), sequences=3)
-    context.read(tokens, head, lambda: None)
-    context.state()
-    context.continuations(
-        [model.tokenize("on the desk"), model.tokenize("here it is")], lambda: None
-    )

@@ -7,7 +7,6 @@ tokens only, while scoring continues one prompt in many ways at once.
 import ctypes
 import operator
 import os
-import stat
 from collections import deque
 from collections.abc import Callable, Sequence
 from itertools import takewhile
@@ -19,10 +18,8 @@ import llama_cpp
 from executive.errors import ModelError
 from executive.text import printable
 from executive.types import Message
-from kb.llm.gguf_header import LONGEST_TEMPLATE, TEMPLATE
+from kb.llm.gguf_header import LONGEST_TEMPLATE, TEMPLATE, check_file
 from kb.llm.template import Template
-
-MAGIC = b"GGUF"
 
 Tokens = list[int]
 Checkpoint = Callable[[], None]
@@ -36,24 +33,6 @@ def _keep_complaints(level: int, text: bytes, user_data: ctypes.c_void_p) -> Non
     """Keep llama.cpp from writing to stderr, but remember its last errors (level 4)."""
     if level == 4 and text.strip():
         _complaints.append(text.decode(errors="replace").strip())
-
-
-def check_file(path: Path) -> None:
-    """See whether this can be a model file.
-
-    Raises:
-        ModelError: if it is missing or is no GGUF file.
-    """
-    try:
-        if not stat.S_ISREG(path.stat().st_mode):
-            raise ModelError(f"model {printable(path)} cannot be read: it is no file")
-        with path.open("rb") as file:
-            begins = file.read(len(MAGIC))
-    except OSError as error:
-        raise ModelError(f"model {printable(path)} cannot be read: {error.strerror}") from None
-    if begins != MAGIC:
-        where = printable(path)
-        raise ModelError(f"model {where} is no GGUF file: it does not begin with the letters GGUF")
 
 
 class Gguf:

@@ -5,6 +5,7 @@ bounded, so that reading takes time and memory in proportion to a sound file's.
 """
 
 import mmap
+import stat
 import struct
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from typing import NoReturn
 from executive.errors import ModelError
 from executive.text import printable
 
+MAGIC = b"GGUF"
 VERSIONS = (2, 3)
 MOST_VALUES = 10_000
 MOST_TENSORS = 100_000
@@ -25,6 +27,9 @@ LONGEST_TEMPLATE = 1 << 16
 MOST_NUMBERS = 1 << 44
 """Of a tensor."""
 
+WRITES, RANKS = "writes", "ranks"
+"""What a model can do."""
+
 TEMPLATE = "tokenizer.chat_template"
 ENCODERS = ("bert", "embedding", "t5encoder", "clip", "wavtokenizer")
 """Parts of the names of architectures that write nothing."""
@@ -35,6 +40,24 @@ _TEXT, _LIST = 8, 9
 
 Value = int | float | str | None
 """Lists are not kept."""
+
+
+def check_file(path: Path) -> None:
+    """See whether this can be a model file.
+
+    Raises:
+        ModelError: if it is missing or is no GGUF file.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise ModelError(f"model {printable(path)} cannot be read: it is no file")
+        with path.open("rb") as file:
+            begins = file.read(len(MAGIC))
+    except OSError as error:
+        raise ModelError(f"model {printable(path)} cannot be read: {error.strerror}") from None
+    if begins != MAGIC:
+        where = printable(path)
+        raise ModelError(f"model {where} is no GGUF file: it does not begin with the letters GGUF")
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,7 @@ from executive.cache import cache_folder
 from executive.errors import InputError
 from executive.files import read_bytes, write_whole
 
-VERSION = 2
+VERSION = 3
 """To be counted on when what is kept is worked out in another way."""
 MOST_BYTES = 64 << 20
 """What is larger is not kept."""
@@ -80,15 +80,15 @@ class Kept:
         if self._written % LOOKED_OVER_AFTER == 0:
             _drop_what_is_too_much(self._folder)
 
-    def numbers(self, count: int, *asked: object) -> NDArray[np.float64] | None:
-        """So many finite numbers; None if they are not known."""
+    def numbers(self, count: int | None, *asked: object) -> NDArray[np.float64] | None:
+        """So many finite numbers, or however many were kept; None if they are not known."""
         content = self.get(*asked)
-        if content is None or len(content) != count * 8:
+        if content is None or len(content) != (len(content) // 8 if count is None else count) * 8:
             return None
         numbers = np.frombuffer(content, np.float64)
         return numbers.copy() if np.isfinite(numbers).all() else None
 
-    def put_numbers(self, numbers: Sequence[float], *asked: object) -> None:
+    def put_numbers(self, numbers: Sequence[float] | NDArray[np.float64], *asked: object) -> None:
         """Keep numbers."""
         self.put(np.asarray(numbers, np.float64).tobytes(), *asked)
 

@@ -1,18 +1,15 @@
 """A language model in this process: a GGUF file run by llama.cpp in a thread of its own."""
 
 import importlib.util
-import json
 import logging
 import os
 import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
-
-import llama_cpp
-from llama_cpp.llama_grammar import json_schema_to_gbnf
+from typing import TYPE_CHECKING
 
 from executive.errors import ModelError
 from executive.events import Inbox
@@ -26,14 +23,19 @@ from executive.types import (
     Scored,
     Usage,
 )
-from kb.llm.context import Context
 from kb.llm.first_load import mark_of, tried
-from kb.llm.gguf import Checkpoint, Gguf, Tokens, check_file
+from kb.llm.gguf_header import check_file
 from kb.llm.kept import Kept
-from kb.llm.sampling import Sampler, Sampling
+from kb.llm.machine import machine
+from kb.llm.sampling import Sampling
 from kb.llm.scoring import Scorer
 from kb.llm.thinking import answer_of, used_up
 from kb.llm.threads import Worker
+
+if TYPE_CHECKING:  # llama.cpp is loaded with them, and often nothing is evaluated
+    from kb.llm.gguf import Checkpoint, Tokens
+    from kb.llm.loaded import Loaded
+    from kb.llm.sampler import Sampler
 
 CLOSING_S = 2.0
 """How long the model's thread may take to end what it is at."""
@@ -65,7 +67,7 @@ class Cancelled(Exception):  # noqa: N818 - it is no error
     """The request was called off."""
 
 
-def until(stop: threading.Event) -> Checkpoint:
+def until(stop: threading.Event) -> "Checkpoint":
     """Make a checkpoint that lets pass until this happens, and then raises Cancelled."""
 
     def checkpoint() -> None:
@@ -75,23 +77,11 @@ def until(stop: threading.Event) -> Checkpoint:
     return checkpoint
 
 
-@dataclass(slots=True)
-class _Loaded:
-    model: Gguf
-    kept: Kept
-    writing: Context | None = None
-    scorer: Scorer | None = None
-
-    @property
-    def evaluated(self) -> int:
-        """Tokens that were evaluated so far."""
-        return sum(one.evaluated for one in (self.writing, self.scorer) if one)
-
-
 class LlamaCpp:
     """Implements `LanguageModel`. Requests are served one after the other, in their order.
 
-    The model is loaded in the background; requests wait for it. What a prompt shares with the one
+    The model is loaded in the background, when something has to be evaluated: a question that was
+    answered before, to this process or another, needs none. What a prompt shares with the one
     before it is not evaluated again; writing and scoring have a KV cache each, made when it is
     needed.
     """
@@ -110,7 +100,7 @@ class LlamaCpp:
         gpu_layers: int = 0,
         grammar: bool = False,
     ) -> None:
-        """Begin to load the file; the sampling defaults are the paper's.
+        """See whether the file is a model; the sampling defaults are the paper's.
 
         Args:
             path: the GGUF file of an instruction-tuned model.
@@ -125,8 +115,8 @@ class LlamaCpp:
             grammar: hold replies to the request's JSON schema.
 
         Raises:
-            ModelError: if the file cannot be loaded, or its model does not chat. A file that is
-                seen for the first time is tried before (`first_load`).
+            ModelError: if the file cannot be read, or, as far as a trial told (`first_load`), not
+                be loaded, or its model does not chat.
             KeyboardInterrupt: if someone said stop meanwhile.
         """
         check_file(path)
@@ -145,7 +135,8 @@ class LlamaCpp:
         """Tokens and seconds that preparation took since the last call."""
         self._closing = threading.Event()
         self._worker = Worker("language model")
-        self._loading = self._worker.submit(lambda: self._load(gpu_layers))
+        self._loaded: Loaded | None = None
+        self._opening = self._worker.submit(self._open)
 
     @property
     def name(self) -> str:
@@ -183,7 +174,8 @@ class LlamaCpp:
         Raises:
             ModelError: if it could not be loaded.
         """
-        return len(self._loading.result().model.tokenize(text))
+        loaded = self._loaded or self._worker.submit(self._load).result()
+        return len(loaded.model.tokenize(text))
 
     def close(self) -> None:
         """Stop whatever is under way, end the thread and free the model.
@@ -195,14 +187,10 @@ class LlamaCpp:
         if not self._worker.end(CLOSING_S):
             log.warning("the language model is stuck; it is left behind")
             return
-        if self._loading.cancelled() or self._loading.exception():
-            return
-        loaded = self._loading.result()
-        for one in (loaded.scorer, loaded.writing, loaded.model):
-            if one:
-                one.close()
+        if self._loaded:
+            self._loaded.close()
 
-    def _start(self, work: Callable[[Checkpoint], Result]) -> int:
+    def _start(self, work: "Callable[[Checkpoint], Result]") -> int:
         self._prepared_enough.set()
         request = self._inbox.open(real=True)
         stop = self._stops[request] = threading.Event()
@@ -212,7 +200,7 @@ class LlamaCpp:
     # --- from here on in the model's thread ---
 
     def _serve(
-        self, request: int, work: Callable[[Checkpoint], Result], checkpoint: Checkpoint
+        self, request: int, work: "Callable[[Checkpoint], Result]", checkpoint: "Checkpoint"
     ) -> None:
         try:
             checkpoint()
@@ -224,49 +212,60 @@ class LlamaCpp:
         self._stops.pop(request, None)
         self._inbox.end(request, result)
 
-    def _read_ahead(self, request: ChatRequest | RankRequest, checkpoint: Checkpoint) -> None:
+    def _read_ahead(self, request: ChatRequest | RankRequest, checkpoint: "Checkpoint") -> None:
         """What fails here fails again, and is heard of, when it is asked for."""
-        began = time.monotonic()
-        loaded = self._loading.result()
-        before = loaded.evaluated
+        began, before = time.monotonic(), self._evaluated
         with suppress(Cancelled):
             checkpoint()
             if isinstance(request, RankRequest):
-                self._scorer().prepare(request, checkpoint)
+                self._opening.result()[1].prepare(request, checkpoint)
             else:
                 prompt, head = self._prompt(request)
-                self._writing().begin(prompt[:head], checkpoint)
-        tokens, seconds = loaded.evaluated - before, time.monotonic() - began
+                self._load().writing.begin(prompt[:head], checkpoint)
+        tokens, seconds = self._evaluated - before, time.monotonic() - began
         self._prepared = self._prepared[0] + tokens, self._prepared[1] + seconds
         log.info("read %d tokens ahead in %.2f s", tokens, seconds)
 
-    def _load(self, gpu_layers: int) -> _Loaded:
-        model = Gguf(self._path, gpu_layers, until(self._closing))
-        try:
-            mark = mark_of(self._path)
-        except ModelError:
-            model.close()
-            raise
-        processor = llama_cpp.llama_print_system_info()
-        return _Loaded(model, Kept(mark, processor, self._settings()))
+    @property
+    def _evaluated(self) -> int:
+        """Tokens that were evaluated so far."""
+        return self._loaded.evaluated if self._loaded else 0
+
+    def _open(self) -> tuple[Kept, Scorer]:
+        """What was worked out before, and who scores by it."""
+        kept = Kept(mark_of(self._path), *machine(), self._settings())
+        return kept, Scorer(self._load, kept)
+
+    def _load(self) -> "Loaded":
+        if self._loaded is None:
+            from kb.llm.loaded import Loaded
+
+            self._loaded = Loaded(
+                self._path,
+                self._n_ctx,
+                threads=self._threads,
+                gpu_layers=self._gpu_layers,
+                kept=self._opening.result()[0],
+                checkpoint=until(self._closing),
+            )
+        return self._loaded
 
     def _settings(self) -> tuple[object, ...]:
         """All that what the model makes of a text may depend on, beside file and processor."""
         return self._n_ctx, self._threads or os.cpu_count(), self._gpu_layers
 
-    def _write(self, request: ChatRequest, checkpoint: Checkpoint) -> Result:
-        began = time.monotonic()
-        loaded = self._loading.result()
-        model, context = loaded.model, self._writing()
-        before = loaded.evaluated
+    def _write(self, request: ChatRequest, checkpoint: "Checkpoint") -> Result:
+        began, before = time.monotonic(), self._evaluated
+        loaded = self._load()
+        model, context = loaded.model, loaded.writing
         prompt, head = self._prompt(request)
         room = min(self._max_tokens, self._n_ctx - len(prompt))
         context.read(prompt, head, checkpoint, more=room)
-        evaluated = loaded.evaluated - before
+        evaluated = self._evaluated - before
         reply: Tokens = []
         first_token_s = 0.0
         ended = False
-        with self._sampler(model, request) as sampler:
+        with self._sampler(loaded, request) as sampler:
             while not ended and len(reply) < room:
                 checkpoint()
                 token = sampler.sample(context)
@@ -281,37 +280,22 @@ class LlamaCpp:
             return Failed("it thought, and gave no answer" if ended else used_up(room))
         return Replied(request, text, usage, "stop" if ended else "length")
 
-    def _score(self, request: RankRequest, checkpoint: Checkpoint) -> Result:
-        began = time.monotonic()
-        scorer = self._scorer()
-        before = scorer.evaluated
+    def _score(self, request: RankRequest, checkpoint: "Checkpoint") -> Result:
+        began, before = time.monotonic(), self._evaluated
+        _, scorer = self._opening.result()
         scores = scorer.score(request, checkpoint)
-        usage = self._usage(scorer.tokens(request), scorer.evaluated - before, 0, 0.0, began)
+        evaluated = self._evaluated - before
+        usage = self._usage(scorer.tokens(request), evaluated, 0, 0.0, began)
         return Scored(request, tuple(scores.tolist()), usage)
 
-    def _prompt(self, request: ChatRequest) -> tuple[Tokens, int]:
+    def _prompt(self, request: ChatRequest) -> "tuple[Tokens, int]":
         """The request's tokens, and how many of them the system turn makes, which others share."""
         system_only = (*request.messages[:1], Message("user", ""))
-        return self._loading.result().model.prompt(request.messages, system_only)
+        return self._load().model.prompt(request.messages, system_only)
 
-    def _writing(self) -> Context:
-        loaded = self._loading.result()
-        if loaded.writing is None:
-            loaded.writing = Context(
-                loaded.model, self._n_ctx, threads=self._threads, kept=loaded.kept
-            )
-        return loaded.writing
-
-    def _scorer(self) -> Scorer:
-        loaded = self._loading.result()
-        if loaded.scorer is None:
-            loaded.scorer = Scorer(loaded.model, self._n_ctx, self._threads, loaded.kept)
-        return loaded.scorer
-
-    def _sampler(self, model: Gguf, request: ChatRequest) -> Sampler:
-        held = self._grammar and request.schema
-        grammar = json_schema_to_gbnf(json.dumps(request.schema)) if held else None
-        return Sampler(model, self._sampling, grammar)
+    def _sampler(self, loaded: "Loaded", request: ChatRequest) -> "Sampler":
+        held = request.schema if self._grammar else None
+        return loaded.sampler(self._sampling, held)
 
     def _usage(
         self, read: int, evaluated: int, written: int, first_token_s: float, began: float

@@ -1,14 +1,6 @@
 """How the next token is chosen from the model's scores."""
 
 from dataclasses import dataclass
-from types import TracebackType
-from typing import Any, Self
-
-import llama_cpp
-
-from executive.errors import ModelError
-from kb.llm.context import Context
-from kb.llm.gguf import Gguf
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,57 +10,3 @@ class Sampling:
     temperature: float
     top_p: float
     seed: int
-
-
-class Sampler:
-    """Temperature, then nucleus, then a seeded draw; a grammar, if given, comes before them.
-
-    The order is that of the reference code of Llama 2.
-    """
-
-    def __init__(self, model: Gguf, sampling: Sampling, grammar: str | None = None) -> None:
-        """Begin a reply; `grammar` is in llama.cpp's GBNF.
-
-        Raises:
-            ModelError: if llama.cpp cannot read the grammar.
-        """
-        params = llama_cpp.llama_sampler_chain_default_params()
-        self._chain: Any = llama_cpp.llama_sampler_chain_init(params)
-        steps: list[Any] = []
-        if grammar is not None:
-            held = llama_cpp.llama_sampler_init_grammar(model.vocabulary, grammar.encode(), b"root")
-            if not held:
-                self.close()
-                raise ModelError("llama.cpp cannot read the grammar of the JSON schema")
-            steps.append(held)
-        if sampling.temperature > 0:
-            steps += [
-                llama_cpp.llama_sampler_init_temp(sampling.temperature),
-                llama_cpp.llama_sampler_init_top_p(sampling.top_p, 1),
-                llama_cpp.llama_sampler_init_dist(sampling.seed % (2**32 - 1)),
-            ]
-        else:
-            steps.append(llama_cpp.llama_sampler_init_greedy())
-        for step in steps:
-            llama_cpp.llama_sampler_chain_add(self._chain, step)
-
-    def sample(self, context: Context) -> int:
-        """The next token after what the context has read."""
-        return int(llama_cpp.llama_sampler_sample(self._chain, context.pointer, -1))
-
-    def close(self) -> None:
-        """Free it."""
-        llama_cpp.llama_sampler_free(self._chain)
-
-    def __enter__(self) -> Self:
-        """Use it in a `with` block."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Free it."""
-        self.close()

@@ -1,7 +1,8 @@
 """Pictures that are drawn beside the physics, by a process with its own copy of the world.
 
-What it draws is the same to the bit, and nobody waits for it: a frame's pixels come later. Where
-there is no such process, or too much waits for it, pictures are drawn here and at once.
+What it draws is the same to the bit: a frame's pixels come later. For those of the log nobody
+waits; for what the robot looks at the mission waits, but a stop is heard meanwhile. Where there is
+no such process, or too much waits for it, pictures are drawn here and at once.
 """
 
 import logging
@@ -68,22 +69,26 @@ class CameraBeside:
 
     def capture(self) -> Frame:
         """The picture of this moment."""
-        coming = self._coming()
+        return self.taken_by(self._camera)
+
+    def taken_by(self, camera: SimulatedCamera) -> Frame:
+        """The picture of this moment by another camera in the same world."""
+        coming = self._coming(camera)
         if self._untold:
             text = f"{self._what} are not drawn beside the physics: {self._untold}"
             log.warning("%s", printable(text))
             self._recorder.record(Note("warning", printable(text)))
             self._untold = ""
-        return coming or self._camera.capture()
+        return coming or camera.capture()
 
-    def _coming(self) -> Frame | None:
+    def _coming(self, camera: SimulatedCamera) -> Frame | None:
         """Ask the other process; None if it has to be drawn here."""
         if self._painter is None:
             return None
-        pose, lens = self._camera.pose(), self._camera.lens
+        pose, lens = camera.pose(), camera.lens
         pixels = self._painter.paint(Asked(view_from(pose, lens), self._actors.where()))
         if pixels is not None:
-            return ComingFrame(next(self._camera.numbers), lens, pose, pixels)
+            return ComingFrame(next(camera.numbers), lens, pose, pixels)
         if self._painter.failure:
             self._untold = self._painter.failure
             self.close()
@@ -94,3 +99,16 @@ class CameraBeside:
         if self._painter is not None:
             self._painter.close()
             self._painter = None
+
+
+class OtherCamera:
+    """A Camera in the same world, whose pictures the same process draws."""
+
+    def __init__(self, camera: SimulatedCamera, beside: CameraBeside) -> None:
+        """Have what `camera` sees drawn as that of `beside`."""
+        self._camera = camera
+        self._beside = beside
+
+    def capture(self) -> Frame:
+        """The picture of this moment."""
+        return self._beside.taken_by(self._camera)

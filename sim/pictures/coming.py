@@ -38,6 +38,11 @@ class ComingFrame(Frame):
             object.__setattr__(self, name, value)  # frames are frozen
 
     @property
+    def coming(self) -> bool:
+        """It is taken as such when it has come, too: what follows is the same."""
+        return True
+
+    @property
     def is_drawn(self) -> bool:
         """Whether nobody has to wait for its pixels, or they will never be there."""
         return self._pixels.done()

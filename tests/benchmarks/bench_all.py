@@ -7,6 +7,7 @@ docs/performance.md, with what bounds each figure from below.
 """
 
 import argparse
+import compileall
 import os
 import subprocess
 import sys
@@ -98,6 +99,7 @@ def spent(tree: Path, *arguments: str) -> Spent | None:
     """
     with tempfile.TemporaryFile("w+") as out:
         environment = {**os.environ, "PYTHONPATH": str(tree)}
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)  # nobody compiles each time
         process = subprocess.Popen(
             [sys.executable, *arguments],
             cwd=tree,
@@ -180,8 +182,10 @@ def rows(other: Path, rounds: int, runs: str) -> Iterator[str]:
     yield row("command, physics, no model", physics, "s", bound)
     bound = f"PyBullet's steps {inside.ours[1]:.2f} s, pictures {inside.ours[2]:.2f} s"
     yield row("its mission, on the thread that ticks", inside, "s", bound)
-    yield row("command, physics, embedded model", paired(other, rounds, *command(runs)))
+    thinking = paired(other, rounds, *command(runs))
+    yield row("command, physics, embedded model", thinking)
     yield row("most memory of `command, physics, no model`", physics, "MiB", index=1)
+    yield row("most memory of `command, physics, embedded model`", thinking, "MiB", index=1)
     yield from repeated_rows(other, rounds, runs)
 
 
@@ -211,6 +215,8 @@ def main() -> None:
     arguments.add_argument("worktree", type=Path, help="of the commit to compare with")
     arguments.add_argument("--rounds", type=int, default=5, help="of each figure (default: 5)")
     given = arguments.parse_args()
+    for tree in (given.worktree, HERE):
+        compileall.compile_dir(tree, quiet=2)
     with tempfile.TemporaryDirectory() as runs:
         for line in rows(given.worktree.resolve(), given.rounds, runs):
             print(line, flush=True)

@@ -31,6 +31,7 @@ from executive.records import Activity, EventTaken, Record, Tick, TreeShape
 from executive.shell import all_is_kept
 from executive.types import MissionStatus, Question
 from logs.recorder import FanOut
+from logs.viewer import sink as _imported_by_the_command  # noqa: F401
 
 atexit.register(gc.unfreeze)  # what `all_is_kept` keeps: libraries tell of it at the end
 

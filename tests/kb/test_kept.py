@@ -3,6 +3,8 @@
 import os
 import random
 import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -234,6 +236,28 @@ def test_whatever_is_damaged_no_score_is_another(cache: Path, first: Scored):
         again = rank("hammer")
         assert again.scores == first.scores
         assert again.usage.evaluated_tokens > 0
+
+
+@pytest.mark.llm
+def test_what_was_answered_before_is_answered_without_the_model(
+    cache: Path, monkeypatch: pytest.MonkeyPatch
+):
+    first = rank("hammer")
+    monkeypatch.setattr(LlamaCpp, "_load", lambda self: pytest.fail("it was loaded"))
+    again = rank("hammer")
+    assert again.scores == first.scores
+    assert again.usage.input_tokens == first.usage.input_tokens > 0
+
+
+def test_llama_cpp_is_not_imported_with_a_model_that_evaluates_nothing(cache: Path):
+    program = """
+import sys
+from executive.events import Inbox
+from kb.llm.llama import LlamaCpp, embedded_model
+LlamaCpp(embedded_model(), Inbox()).close()
+sys.exit("llama_cpp" in sys.modules)
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
 
 
 @pytest.mark.llm

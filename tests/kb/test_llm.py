@@ -26,7 +26,7 @@ from kb.llm.context import Context
 from kb.llm.gguf import Gguf
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.precedents import LIKELIHOOD_WEIGHT
-from kb.llm.sampling import Sampler
+from kb.llm.sampler import Sampler
 from kb.llm.scripted import Scripted
 
 SCHEMA = Reply.model_json_schema()

@@ -4,16 +4,18 @@ import multiprocessing
 import os
 import subprocess
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from patience import PATIENCE_S
 
-from executive.events import Inbox
-from executive.records import Note, Picture
+from executive.events import Ended, Inbox
+from executive.perception.pipeline import CameraPerception
+from executive.records import Note, Picture, Seen
 from executive.testing.bench import Notebook, four_rooms
-from executive.types import FLOOR, DriveTo, Frame, LookAt, Pose
+from executive.types import FLOOR, DriveTo, Frame, LookAt, Pose, Saw
 from sim.bullet.camera import GLANCING, SimulatedCamera, view_from
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_fault
@@ -103,7 +105,7 @@ def test_pictures_drawn_beside_the_physics_are_the_same_to_the_bit(
 
 
 @physics
-def test_what_the_robot_looks_at_is_drawn_beside_the_same_to_the_bit():
+def test_what_a_served_robot_looks_at_is_drawn_beside_the_same_to_the_bit():
     world = PhysicsWorld(four_rooms(), MODELS, Inbox(), Notebook(), camera_hz=0, looks_beside=True)
     world.robot.start(LookAt(FLOOR, 1))
     while world.busy:
@@ -114,6 +116,35 @@ def test_what_the_robot_looks_at_is_drawn_beside_the_same_to_the_bit():
     assert np.array_equal(beside_it.color, here.color)
     assert np.array_equal(beside_it.depth, here.depth)
     world.close()
+
+
+@physics
+def test_what_the_robot_looks_at_is_drawn_beside_and_the_same_to_the_bit():
+    world = Filmed()
+    beside_it, at_once = world.eyes.capture(), world.camera.capture()
+    assert beside_it.coming
+    assert not at_once.coming
+    assert at_once.number == beside_it.number + 1
+    assert same(beside_it, replace(at_once, number=beside_it.number))
+    world.close()
+
+
+@physics
+def test_a_look_whose_picture_never_comes_is_taken_again_here(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(process, "command", lambda: ["sleep", "0"])
+    world = Filmed()
+    inbox = Inbox()
+    request = CameraPerception(world.eyes, world.detector, inbox, world.notes).see()
+    assert inbox.await_computed(30)
+    world.close()
+    assert [picture.coming for picture in world.pictures()] == [True, False]
+    [seen] = world.notes.all(Seen)
+    [ended] = inbox.take_all()
+    assert isinstance(ended, Ended)
+    assert ended.request == request
+    assert isinstance(ended.result, Saw)
+    assert ended.result.detections is seen.detections
+    assert seen.frame_number == 1
 
 
 @physics
