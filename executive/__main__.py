@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib.metadata import version
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -119,7 +120,8 @@ def serve(
 
     console: Console | None = None  # hears a stop from now on
     if settings.user == "console":
-        console = page.person if page else Console(inbox)
+        typed = None if settings.is_typed else StringIO()
+        console = page.person if page else Console(inbox, typed)
     with all_is_kept():
         from executive.app.session import Session
 

@@ -280,6 +280,11 @@ class Settings(BaseModel):
         return f"the robot at {self.robot}" if self.robot else f"the world {self.world}"
 
     @property
+    def is_typed(self) -> bool:
+        """Whether standard input is what a person types; else it is the microphone's sound."""
+        return self.ears is None or self.microphone != "-"
+
+    @property
     def uses_llm(self) -> bool:
         """Whether a language model is part of this system."""
         return self.knowledge != KnowledgeSystem.OKB and self.llm != "none"

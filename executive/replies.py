@@ -1,13 +1,22 @@
 """What the robot says to what asks for no deed: questions about itself, and what it is told."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from executive.interfaces import Facts, Knowledge
 from executive.language.commands import in_words
-from executive.language.meaning import About, Question, Relation, Said, Statement, Things, Where
-from executive.language.wording import Wording
-from executive.types import Candidate, Source
+from executive.language.meaning import (
+    About,
+    Question,
+    Request,
+    Said,
+    Statement,
+    Task,
+    Things,
+    Where,
+)
+from executive.language.wording import Wording, beginning, either, listed
+from executive.types import Candidate, CommandKind, Source
 
 SAYS: Mapping[str, str] = {
     Source.ONTOLOGY: "that is its place",
@@ -18,6 +27,7 @@ SAYS: Mapping[str, str] = {
 }
 """How the person is told who names a place to look at; other sources say it themselves."""
 IDLE = "Nothing: I wait for what you say."
+AT_REST = "At rest: I wait for what you say."
 SAYS_OF_SEVERAL: Mapping[str, str] = {
     **SAYS,
     Source.ONTOLOGY: "that is their place",
@@ -59,6 +69,12 @@ def reply(said: Said, standing: Standing, knowledge: Knowledge, facts: Facts) ->
             return f"I hold {say.the(held)}." if held else "My hand is empty."
         case Question(about=About.DOING):
             return standing.doing or IDLE
+        case Question(about=About.WHERE):
+            return standing.doing or AT_REST
+        case Question(about=About.KNOWN, things=Things() as things):
+            return _known(things, knowledge)
+        case Request(tasks=[Task(verb=CommandKind.FIND, things=Things(members=[thing]))]):
+            return _where_it_stands(thing.words, knowledge)
         case Question(about=About.WHERE_PUT, things=Things() as things):
             return _where_is(things, standing, knowledge, facts)
         case Question(about=About.WHY):
@@ -75,12 +91,48 @@ def about(said: Said, knowledge: Knowledge) -> tuple[str, ...]:
     return ()
 
 
+def _known(things: Things, knowledge: Knowledge) -> str:
+    """What is known of things without looking: which there are, and where one usually is."""
+    say, words = Wording(knowledge.called), " or ".join(t.words for t in things.members)
+    if any(thing.pronoun for thing in things.members):
+        return f"I do not know what '{words}' is."
+    names = knowledge.objects_named(words)
+    if len(names) != 1:
+        known = listed([say.the(name) for name in names])
+        return f"I know {known}." if names else f"I know no '{words}'."
+    [name] = names
+    usual = either(say.at_each(knowledge.usual_places(name)))
+    there = f"{say.agree(name, 'is', 'are')} usually {usual}" if usual else ""
+    told = f"{beginning(say.the(name))} {there or 'may be anywhere'}"
+    return f"{told}. More than where things are I cannot tell you of them."
+
+
+def _where_it_stands(words: str, knowledge: Knowledge) -> str:
+    """In which room furniture is, and what is in a room; empty for things, which are looked for."""
+    if knowledge.objects_named(words) or not knowledge.is_place(words):
+        return ""
+    say, named = Wording(knowledge.called), knowledge.places_named(words)
+    rooms = {place.name: place.room for place in knowledge.places()}
+    there = [name for name in rooms if rooms[name] in {rooms.get(one) for one in named}]
+    if len(there) > 1 and set(there) == set(named):
+        return f"In the {words} there is {listed([say.the(name) for name in there])}."
+    return f"{beginning(listed([say.stands(name) for name in named if name in rooms]))}."
+
+
 def _told(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
+    """Remember it of each of the things."""
+    each = [replace(said, things=Things((thing,))) for thing in said.things.members]
+    if said.things.one_of or len(each) == 1:
+        return _told_of_one(said, knowledge, facts)
+    return " ".join(dict.fromkeys(_told_of_one(one, knowledge, facts) for one in each))
+
+
+def _told_of_one(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
     name, unknown = _one(said.things, knowledge)
     if not name:
         return unknown
     where, words = said.where, in_words(said.where)
-    if where.relation in (Relation.UNDER, Relation.NEXT_TO):
+    if not where.relation.is_plain:
         return f"I can remember what is on furniture, or in it, but not '{words}'."
     places = knowledge.places_named(words) if knowledge.is_place(words) else ()
     if not places:

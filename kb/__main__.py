@@ -101,10 +101,7 @@ def explain(file: Path, home: str, words: str) -> int:
         experience = Experience(memory, ontology.class_of, lambda: now_s)
         experience.learn()
         named = ontology.objects_named(words) or (words,) if words else experience.things()
-        told = [
-            *lines(experience, named),
-            *([] if words else habits(experience, ontology.class_of)),
-        ]
+        told = [*lines(experience, named), *([] if words else habits(experience))]
     for line in told:
         print(printable(line))
     return DONE if told else NOT_DONE

@@ -1,4 +1,4 @@
-"""What people have likely done with things between two sightings, hour by hour of the day.
+"""What people have likely done with things between two sightings, hour by hour.
 
 A thing is at one place or another, and is moved by chance; most of it nobody sees. What is known at
 both ends, and where the thing was not in between, says how likely it was where at every hour, and
@@ -19,43 +19,24 @@ from executive.geometry import Floats
 from kb.sightings import Interval
 
 HOURS = 24
+SLOTS = 2 * HOURS
+"""The hours of a day from Monday to Friday, and those of a day of the weekend."""
 HOUR_S = 3600.0
 DAY_S = 86400.0
 LONGEST_S = 14 * DAY_S
 """What was last seen earlier is as if it had been then."""
-NEW_PLACE = 0.3
-"""As if so often a thing had been taken to a place where it was never seen.
-
-Of 0.2, 0.6 and 1.5 the least had the best log score in simulated households of the seeds 100 and
-101.
-"""
-OTHER_ORIGIN = 0.2
-"""How much a move from another place counts, beside one from the same (an estimate)."""
-ANY_HOUR = 0.05
-"""How much a move at another hour of the day counts, beside one at the same (an estimate)."""
-NEAR = (0.15, 0.5, 1.0, 0.5, 0.15)
-"""How much a move counts that was from two hours before to two hours later (an estimate)."""
 MOST_PLACES = 12
 """Of each thing so many places are told apart, those where it was most often."""
 HARDLY = 1e-9
 """No sighting is ruled out."""
+_THURSDAY, _SATURDAY = 3, 5
+"""1970-01-01 was the first; Monday is 0."""
 
 
-def destinations(taken: Floats) -> Floats:
-    """(..., 24, n, n) from each place at each hour to each place; the last is an unknown one.
-
-    Args:
-        taken: (..., 24, n, n) how often things were taken from each place to each other one.
-    """
-    shifts = zip(NEAR, range(-2, 3), strict=True)
-    near = np.sum([weight * np.roll(taken, by, axis=-3) for weight, by in shifts], axis=0)
-    at = near + ANY_HOUR * taken.sum(axis=-3, keepdims=True)
-    count = (1 - OTHER_ORIGIN) * at + OTHER_ORIGIN * at.sum(axis=-2, keepdims=True)
-    places = np.arange(taken.shape[-1] - 1)
-    count[..., places, places] = 0.0
-    count[..., -1] = NEW_PLACE
-    shares: Floats = count / count.sum(axis=-1, keepdims=True)
-    return shares
+def slots(hours: NDArray[np.intp]) -> NDArray[np.intp]:
+    """In which slot each hour is, counted from the beginning of 1970 (UTC)."""
+    weekend = (hours // HOURS + _THURSDAY) % 7 >= _SATURDAY
+    return hours % HOURS + HOURS * weekend
 
 
 def goes(rate: Floats, hours: Floats) -> Floats:
@@ -68,13 +49,19 @@ class Moves:
     """What was likely done with each thing.
 
     Attributes:
-        taken: (things, 24, n, n) how often each was taken from one place to another in each hour of
-            the day; the last place stands for those where it was never seen.
-        spent: (things, 24, n) how many hours it was there.
+        taken: (things, SLOTS, n, n) how often each was taken from one place to another in each
+            slot; the last place stands for those where it was never seen.
+        spent: (things, SLOTS, n) how many hours it was there.
     """
 
     taken: Floats
     spent: Floats
+
+    @classmethod
+    def none(cls, things: int, places: int) -> Self:
+        """Nothing was seen."""
+        spent = np.zeros((things, SLOTS, places))
+        return cls(np.zeros((*spent.shape, places)), spent)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,7 +75,7 @@ class Between:
         end: (intervals,) where it was found; -1 as well.
         steps: (intervals,) how many steps.
         hours: (intervals, steps) how long each is (h).
-        hour: (intervals, steps) of the day.
+        slot: (intervals, steps) at which hour of what day.
         absent: (intervals, steps) the place where it was not seen at the end of the step, or -1.
     """
 
@@ -98,7 +85,7 @@ class Between:
     end: NDArray[np.intp]
     steps: NDArray[np.intp]
     hours: Floats
-    hour: NDArray[np.int8]
+    slot: NDArray[np.int8]
     absent: NDArray[np.int8]
 
     @classmethod
@@ -114,10 +101,10 @@ class Between:
         told = [(one, *_steps(one, places[one.thing])) for one in intervals]
         told.sort(key=lambda each: -len(each[1]))
         shape = len(told), len(told[0][1])
-        hours, hour = np.zeros(shape), np.zeros(shape, np.int8)
+        hours, slot = np.zeros(shape), np.zeros(shape, np.int8)
         absent = np.full(shape, -1, np.int8)
         for row, (_, lengths, at, missed) in enumerate(told):
-            hours[row, : len(lengths)], hour[row, : len(at)] = lengths, at
+            hours[row, : len(lengths)], slot[row, : len(at)] = lengths, at
             absent[row, : len(missed)] = missed
         number = {thing: index for index, thing in enumerate(places)}
         return cls(
@@ -127,7 +114,7 @@ class Between:
             np.array([places[one.thing].get(one.at, -1) for one, *_ in told]),
             np.array([len(lengths) for _, lengths, *_ in told]),
             hours,
-            hour,
+            slot,
             absent,
         )
 
@@ -136,42 +123,32 @@ class Between:
         """How many places a thing has at most, with the unknown one."""
         return 1 + max(map(len, self.places.values()))
 
-    def first_guess(self) -> Moves:
-        """Each thing that was found elsewhere was moved once, at any time."""
-        taken = np.zeros((len(self.places), HOURS, self.size, self.size))
-        share = self.hours / np.maximum(self.hours.sum(axis=1, keepdims=True), HARDLY)
-        moved = self.start != self.end
-        rows = [np.broadcast_to(each[:, None], share.shape) for each in (self.thing, self.start)]
-        to = np.broadcast_to(self.end[:, None], share.shape)
-        index = tuple(each[moved] for each in (rows[0], self.hour, rows[1], to))
-        np.add.at(taken, index, share[moved])
-        return Moves(taken, np.zeros(taken.shape[:3]))
-
-    def moves(self, rate: Floats, to: Floats) -> Moves:
-        """What was likely done, by these rates and destinations.
+    def moves(self, rate: Floats) -> Moves:
+        """What was likely done, by these rates.
 
         Args:
-            rate: (things, 24, n) moves an hour.
-            to: (things, 24, n, n) as `destinations` has it.
+            rate: (things, SLOTS, n, n) moves an hour from each place to each other one.
         """
         n = self.size
-        before, seen = self._forward(rate, to)
-        taken, spent = np.zeros(to.shape), np.zeros(rate.shape)
+        leaving = rate.sum(axis=-1)
+        to = rate / np.maximum(leaving, HARDLY)[..., None]
+        before, seen = self._forward(leaving, to)
+        taken, spent = np.zeros(to.shape), np.zeros(leaving.shape)
         flat_taken, flat_spent = taken.reshape(-1, n, n), spent.reshape(-1, n)
         after = np.ones((0, n))
         for step in reversed(range(len(before))):
-            at, key, go = self._at(step, rate)
+            at, key, go = self._at(step, leaving)
             later = np.ones((len(at), n))
             later[: len(after)] = after
             later *= seen[step]
-            leaves, where = before[step] * go, to[self.thing[at], self.hour[at, step]]
+            leaves, where = before[step] * go, to[self.thing[at], self.slot[at, step]]
             np.add.at(flat_taken, key, leaves[:, :, None] * where * later[:, None, :])
             stays = (1 - go) * later
             after = stays + go * np.einsum("ast,at->as", where, later)
             np.add.at(flat_spent, key, before[step] * after * self.hours[at, step, None])
         return Moves(taken, spent)
 
-    def _forward(self, rate: Floats, to: Floats) -> tuple[list[Floats], list[Floats]]:
+    def _forward(self, leaving: Floats, to: Floats) -> tuple[list[Floats], list[Floats]]:
         """Of each step, where things likely were before it; and how well each place fits after it.
 
         What fits is scaled, so that all that follows from it are probabilities.
@@ -180,10 +157,10 @@ class Between:
         likely[np.arange(len(likely)), self.start] = 1.0
         before, seen = [], []
         for step in range(self.hours.shape[1]):
-            at, _, go = self._at(step, rate)
+            at, _, go = self._at(step, leaving)
             likely = likely[: len(at)]
             before.append(likely)
-            where = to[self.thing[at], self.hour[at, step]]
+            where = to[self.thing[at], self.slot[at, step]]
             likely = likely * (1 - go) + np.einsum("as,ast->at", likely * go, where)
             fits = self._fits(at, step)
             likely = likely * fits
@@ -192,11 +169,11 @@ class Between:
             likely = likely / total
         return before, seen
 
-    def _at(self, step: int, rate: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-        """The intervals that have this step, thing with hour as one number, and what leaves."""
+    def _at(self, step: int, leaving: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
+        """The intervals that have this step, thing with slot as one number, and what leaves."""
         at = np.arange(int((self.steps > step).sum()))
-        thing, hour = self.thing[at], self.hour[at, step]
-        return at, thing * HOURS + hour, goes(rate[thing, hour], self.hours[at, step, None])
+        thing, slot = self.thing[at], self.slot[at, step]
+        return at, thing * SLOTS + slot, goes(leaving[thing, slot], self.hours[at, step, None])
 
     def _fits(self, at: NDArray[np.intp], step: int) -> Floats:
         """(intervals, n) how well what was seen after a step fits to each place."""
@@ -212,7 +189,7 @@ class Between:
 def _steps(
     one: Interval, places: Mapping[str, int]
 ) -> tuple[Floats, NDArray[np.intp], NDArray[np.intp]]:
-    """How long each step is (h), its hour of the day, and where the thing was not after it or -1.
+    """How long each step is (h), its slot, and where the thing was not after it or -1.
 
     A step ends with the hour, or where something was seen.
     """
@@ -222,5 +199,5 @@ def _steps(
     ends += [(time, place) for time, place in missed if since < time < until]
     ends = [*sorted(ends), (until, -1)]
     edges = np.array([since, *(time for time, _ in ends)])
-    hour = np.floor(edges[:-1] + HARDLY).astype(np.intp) % HOURS
-    return np.diff(edges), hour, np.array([place for _, place in ends])
+    slot = slots(np.floor(edges[:-1] + HARDLY).astype(np.intp))
+    return np.diff(edges), slot, np.array([place for _, place in ends])

@@ -11,10 +11,11 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from executive.belief import MISSED, Belief, Statement, believe
+from executive.geometry import Floats
 from executive.types import Source
-from kb.between import HOUR_S, HOURS, LONGEST_S, destinations, goes
+from kb.between import HARDLY, HOUR_S, LONGEST_S, goes, slots
 from kb.facts import FactStore
-from kb.rates import Rates, Taken, learned
+from kb.rates import Rates, learned
 from kb.sightings import Known, Sightings
 
 MOST_LEARNED = 5_000
@@ -46,14 +47,14 @@ class Experience:
         self._seen = Sightings()
         self._last = 0
         self._count = self._learned_of = 0
-        self._rates, self._taken = learned((), classes)
+        self._rates = learned((), classes)
 
     def learn(self) -> None:
         """Take in what was seen since, and learn from all of it if that is much."""
         self._catch_up()
         if self._count <= self._learned_of * (1 + AFRESH):
             return
-        self._rates, self._taken = learned(list(self._seen.intervals()), self._classes)
+        self._rates = learned(list(self._seen.intervals()), self._classes)
         self._learned_of = self._count
 
     def recalled(self, name: str) -> tuple[Statement, ...]:
@@ -105,7 +106,7 @@ class Experience:
             return None
         last, now = known[-1], self._now()
         places = [last.place, *self._places_of(name, last.place)]
-        chain = _Chain(places, self._rates, name, self._taken.get(name, Taken()))
+        chain = _Chain(places, self._rates.among(name, places))
         chain.begin(_share(last), _said_before(known))
         chain.at_s = since_s = max(last.time_s, now - LONGEST_S)
         for time_s, place in self._seen.absences(name, last.time_s):
@@ -117,7 +118,7 @@ class Experience:
 
     def _places_of(self, name: str, place: str) -> list[str]:
         others = {known.place: None for known in self._seen.known[name]}
-        others |= dict.fromkeys(self._taken[name].places if name in self._taken else ())
+        others |= dict.fromkeys(self._rates.places.get(name, ()))
         return [other for other in others if other != place]
 
 
@@ -140,13 +141,12 @@ def _said_before(known: Sequence[Known]) -> dict[str, float]:
 class _Chain:
     """How likely a thing is at each place, from hour to hour; the first is where it was last."""
 
-    def __init__(self, places: Sequence[str], rates: Rates, thing: str, taken: Taken) -> None:
+    def __init__(self, places: Sequence[str], rate: Floats) -> None:
+        """It moves at these rates between these places; the last of the rates is any other one."""
         self._places = list(places)
         self._number = {place: number for number, place in enumerate(places)}
-        self._rate = np.array([rates.of(thing, place) for place in places])
-        unknown = rates.of_thing.get(thing, rates.of_all)
-        self._rate = np.vstack([self._rate, unknown])
-        self._to = destinations(taken.among(self._number))
+        self._away = rate.sum(axis=-1)
+        self._to = rate / np.maximum(self._away, HARDLY)[..., None]
         self.stayed = 0.0
         """How likely it is where it was, and was never taken away."""
         self._moved = np.zeros(len(places) + 1)
@@ -165,14 +165,14 @@ class _Chain:
         while self.at_s < time_s - 1e-6:
             hour = math.floor(self.at_s / HOUR_S + 1e-9)
             step_s = min((hour + 1) * HOUR_S, time_s) - self.at_s
-            self._move(hour % HOURS, step_s / HOUR_S)
+            self._move(int(slots(np.array(hour))), step_s / HOUR_S)
             self.at_s += step_s
 
-    def _move(self, hour: int, length: float) -> None:
-        gone = goes(self._rate[:, hour], np.asarray(length))
+    def _move(self, slot: int, length: float) -> None:
+        gone = goes(self._away[slot], np.asarray(length))
         leaves = self._moved * gone
         leaves[0] += self.stayed * gone[0]
-        self._moved = self._moved * (1 - gone) + leaves @ self._to[hour]
+        self._moved = self._moved * (1 - gone) + leaves @ self._to[slot]
         self.stayed *= 1 - gone[0]
 
     def not_at(self, place: str) -> None:

@@ -1,7 +1,7 @@
 """What was learned of where things are, in lines for a person."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 
 from executive.geometry import Floats
 from kb.between import HOURS
@@ -23,10 +23,10 @@ def lines(experience: Experience, names: Iterable[str]) -> Iterator[str]:
             yield from (f"  {one}" for one in likely)
 
 
-def habits(experience: Experience, class_of: Callable[[str], str]) -> Iterator[str]:
+def habits(experience: Experience) -> Iterator[str]:
     """How long a sighting is worth for each class of things, and when people move things."""
     rates = experience.rates()
-    for name in sorted({class_of(thing) for thing in rates.of_thing} - {""}):
+    for name in sorted(set(rates.of_class) - {""}):
         rate = rates.of_class[name]
         moved = f"moved {at_hours(rate)}"
         yield f"{name:20} a sighting is worth half after {worth(rate)}; {moved}"

@@ -1,194 +1,150 @@
-"""How often people take things elsewhere, and at which hours: learned from what was seen.
+"""How often people take things where, and at which hours: learned from what was seen.
 
-A thing is taken elsewhere by chance, at a rate that depends on the hour of the day, on the thing,
-on its class and on where it is. Most of what happens nobody sees: between two sightings it may have
-been moved at any hour, and back. So the rates, and where things are taken, are estimated by
-expectation (`kb.between`) and maximisation (Dempster, Laird and Rubin, "Maximum likelihood from
-incomplete data via the EM algorithm", 1977), each rate drawn to that of its class, of the place and
-of all things as long as little was seen.
+A thing is taken to a place by chance, at a rate that depends on the thing, on where it is, on the
+hour, and on whether it is the weekend. Most of what happens nobody sees: between two sightings it
+may have been moved at any hour, and back. So the rates are estimated by expectation (`kb.between`)
+and maximisation (Dempster, Laird and Rubin, "Maximum likelihood from incomplete data via the EM
+algorithm", 1977). As long as little was seen, each is drawn to what it is in general: on any day,
+from anywhere, of things of the class, of all things.
 """
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from executive.geometry import Floats
-from kb.between import HOURS, Between, Moves, destinations
+from kb.between import HARDLY, HOURS, SLOTS, Between, Moves
 from kb.sightings import Interval
 
 UNSEEN_PER_DAY = 0.4
 """How often a thing is moved a day, as long as nothing was seen of any (an estimate)."""
 DRAWN_DAYS = 1.0
-"""So many days of watching weigh as much as what is known of others alike.
+"""So many days of watching weigh as much as what is known in general."""
+FROM_DAYS = 4.0
+"""The same of where a thing is taken from one place, beside where it is taken from anywhere.
 
-Of 0.5, 1, 1.5, 4 and 8 it had the best log score in simulated households of the seeds 100 to 102;
-the numbers here and in `kb.between` that are called estimates hardly mattered there.
+In simulated households of the seeds 1 to 4 one instead of four hardly mattered.
 """
+NEW_PLACE = 0.3
+"""As if so often a thing had been taken to a place where it was never seen (an estimate)."""
 ROUNDS = 12
-"""Of the estimation. With these and AHEAD it comes as far as with twice as many without."""
-AHEAD = 1.0
-"""Each round goes on by so much more of its step: as long as most is unseen, steps are short."""
+"""Of the estimation. With these and MOST_AHEAD it comes as far as with twice as many without."""
 MOST_AHEAD = 3.0
-"""No round goes further than by this factor."""
+"""Each round goes on by its step once more, as steps are short where most is unseen, and by no
+more than this factor."""
+KINDS_OF_DAY = SLOTS // HOURS
+DAYS_A_WEEK = (5, 2)
+"""Of each kind."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rates:
-    """Moves an hour, by the hour of the day: (24,) each.
+    """Moves an hour.
 
     Attributes:
-        of_all: of things in general.
-        of_class: of each class of things.
-        of_thing: of each thing.
-        of_place: of what is at each place.
-        of_class_at: of each class at each place.
-        of_thing_at: of each thing at each place.
+        of_all: (24,) of things in general, by the hour of the day.
+        of_class: (24,) of each class of things.
+        places: the numbers of each thing's places.
+        to: (SLOTS, n, n) of each thing, from each place to each other; the last is one where it was
+            never seen.
         classes: tells the class of a thing.
     """
 
     of_all: Floats
     of_class: Mapping[str, Floats]
-    of_thing: Mapping[str, Floats]
-    of_place: Mapping[str, Floats]
-    of_class_at: Mapping[tuple[str, str], Floats]
-    of_thing_at: Mapping[tuple[str, str], Floats]
+    places: Mapping[str, Mapping[str, int]]
+    to: Mapping[str, Floats]
     classes: Callable[[str], str]
 
     def of(self, thing: str, place: str) -> Floats:
-        """Of a thing at a place, as well as it is known."""
-        if (thing, place) in self.of_thing_at:
-            return self.of_thing_at[thing, place]
-        kind = self.classes(thing)
-        if (kind, place) in self.of_class_at:
-            return self.of_class_at[kind, place]
-        by_thing = self.of_thing.get(thing, self.of_class.get(kind, self.of_all))
-        blend: Floats = np.sqrt(by_thing * self.of_place.get(place, self.of_all))
-        return blend
+        """(24,) how often a thing is taken away from a place, by the hour of the mean day."""
+        if thing not in self.to:
+            return self.of_class.get(self.classes(thing), self.of_all)
+        away = self.to[thing][:, self.places[thing].get(place, -1)].sum(axis=-1)
+        by_kind = away.reshape(KINDS_OF_DAY, HOURS)
+        mean: Floats = np.average(by_kind, axis=0, weights=DAYS_A_WEEK)
+        return mean
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Taken:
-    """What was likely taken where: how often, by hour of the day.
-
-    Attributes:
-        places: the numbers of a thing's places.
-        often: (24, n, n) from each place to each other; the last is any where it was never seen.
-    """
-
-    places: Mapping[str, int] = field(default_factory=dict)
-    often: Floats = field(default_factory=lambda: np.zeros((HOURS, 1, 1)))
-
-    def among(self, numbers: Mapping[str, int]) -> Floats:
-        """The same with other numbers for the places, among which are all of these."""
-        where = [*(numbers[place] for place in self.places), len(numbers)]
-        found = np.zeros((HOURS, len(numbers) + 1, len(numbers) + 1))
-        kept = [*self.places.values(), -1]
-        found[np.ix_(range(HOURS), where, where)] = self.often[np.ix_(range(HOURS), kept, kept)]
+    def among(self, thing: str, places: Sequence[str]) -> Floats:
+        """(SLOTS, n + 1, n + 1) from each of these to each other; the last is any other place."""
+        found = np.zeros((SLOTS, len(places) + 1, len(places) + 1))
+        if thing not in self.to:
+            found[:, :-1, -1] = np.tile(self.of(thing, ""), KINDS_OF_DAY)[:, None]
+            return found
+        to, numbers = self.to[thing], self.places[thing]
+        here = [*(i for i, place in enumerate(places) if place in numbers), len(places)]
+        theirs = [*(numbers[place] for place in places if place in numbers), -1]
+        from_each = [*(numbers.get(place, -1) for place in places), -1]
+        found[:, :, here] = to[:, from_each][:, :, theirs]
         return found
 
 
-def learned(
-    intervals: Sequence[Interval], classes: Callable[[str], str]
-) -> tuple[Rates, dict[str, Taken]]:
-    """The rates, and what was taken where, that explain best what was seen."""
-    flat = np.full(HOURS, UNSEEN_PER_DAY / HOURS)
+def learned(intervals: Sequence[Interval], classes: Callable[[str], str]) -> Rates:
+    """The rates that explain best what was seen."""
     if not intervals:
-        return Rates(flat, {}, {}, {}, {}, {}, classes), {}
+        return Rates(np.full(HOURS, UNSEEN_PER_DAY / HOURS), {}, {}, {}, classes)
     between = Between.of(intervals)
-    levels = _Levels(between.places, classes)
-    moves = between.first_guess()
-    rate = np.full(moves.spent.shape, UNSEEN_PER_DAY / HOURS)
+    general = _General(between, classes)
+    rate = general.rates(Moves.none(len(between.places), between.size)).each
     for _ in range(ROUNDS):
-        moves = between.moves(rate, destinations(_to_known(moves.taken)))
-        rates, found = levels.rates(moves, flat)
-        rate = found * np.clip(found / rate, 1 / MOST_AHEAD, MOST_AHEAD) ** AHEAD
-    taken = _to_known(moves.taken)
-    return rates, {
-        thing: Taken(places, taken[number])
-        for number, (thing, places) in enumerate(between.places.items())
-    }
+        found = general.rates(between.moves(rate))
+        step = np.clip(found.each / np.maximum(rate, HARDLY), 1 / MOST_AHEAD, MOST_AHEAD)
+        rate = found.each * step
+    kinds = zip(general.kinds, found.of_class, strict=True)
+    to = dict(zip(between.places, found.each, strict=True))
+    return Rates(found.of_all, dict(kinds), between.places, to, classes)
 
 
-def _to_known(taken: Floats) -> Floats:
-    """Without what was taken to where it was never seen: that is thought of apart."""
-    known = taken.copy()
-    known[..., -1] = 0.0
-    return known
+@dataclass(frozen=True, slots=True, eq=False)
+class _Found:
+    """(24,) of all, (kinds, 24) of each class, (things, SLOTS, n, n) of each thing."""
+
+    of_all: Floats
+    of_class: Floats
+    each: Floats
 
 
-class _Levels:
-    """What things at places have in common: the thing, class, place, or two of these."""
+class _General:
+    """What things have in common, to which the rates of each are drawn."""
 
-    def __init__(
-        self, places: Mapping[str, Mapping[str, int]], classes: Callable[[str], str]
-    ) -> None:
-        self._classes = classes
-        pairs = [(thing, place) for thing, known in places.items() for place in known]
-        kinds = [classes(thing) for thing, _ in pairs]
-        self._thing = _Level([thing for thing, _ in pairs])
-        self._place = _Level([place for _, place in pairs])
-        self._kind = _Level(kinds)
-        self._kind_at = _Level([(k, place) for k, (_, place) in zip(kinds, pairs, strict=True)])
-        self._thing_at = _Level(pairs)
-        number = {thing: index for index, thing in enumerate(places)}
-        self._row = np.array([number[thing] for thing, _ in pairs])
-        self._column = np.array([places[thing][place] for thing, place in pairs])
+    def __init__(self, between: Between, classes: Callable[[str], str]) -> None:
+        of_each = [classes(thing) for thing in between.places]
+        self.kinds = tuple(dict.fromkeys(of_each))
+        self._kind = np.array([self.kinds.index(kind) for kind in of_each])
+        self._members = (self._kind == np.arange(len(self.kinds))[:, None]).astype(float)
+        count = np.array([len(places) for places in between.places.values()])
+        self._others = np.maximum(count - 1, 1)
+        self._known = (np.arange(between.size) < count[:, None])[:, None]
+        self._ways = self._known.swapaxes(1, 2) & self._known & ~np.eye(between.size, dtype=bool)
 
-    def rates(self, all_moves: Moves, flat: Floats) -> tuple[Rates, Floats]:
-        """Moves over hours, each level drawn to those above it; and (things, 24, n) of them."""
-        moves = all_moves.taken.sum(axis=-1)[self._row, :, self._column]
-        spent = all_moves.spent[self._row, :, self._column]
-        of_all = (moves.sum(axis=0) + DRAWN_DAYS * flat) / (spent.sum(axis=0) + DRAWN_DAYS)
-        every = np.broadcast_to(of_all, moves.shape)
-        kind = self._kind.drawn(moves, spent, every)
-        place = self._place.drawn(moves, spent, every)
-        thing = self._thing.drawn(moves, spent, kind)
-        kind_at = self._kind_at.drawn(moves, spent, np.sqrt(thing * place))
-        thing_at = self._thing_at.drawn(moves, spent, kind_at)
-        rate = np.zeros(all_moves.spent.shape)
-        rate[self._row] = thing[:, :, None]
-        rate[self._row, :, self._column] = thing_at
-        rates = Rates(
-            of_all,
-            self._kind.named(kind),
-            self._thing.named(thing),
-            self._place.named(place),
-            self._kind_at.named(kind_at),
-            self._thing_at.named(thing_at),
-            self._classes,
-        )
-        return rates, rate
+    def rates(self, moves: Moves) -> _Found:
+        """Moves over hours, each drawn to what is more general."""
+        by_kind_of_day = len(moves.spent), KINDS_OF_DAY, HOURS
+        taken = moves.taken.reshape(*by_kind_of_day, *self._ways.shape[1:])
+        taken = taken * self._ways[:, None, None]
+        spent = moves.spent.reshape(*by_kind_of_day, -1).copy()
+        spent[..., -1] = 0.0
+        any_day, there = taken.sum(axis=1), spent.sum(axis=1)
+        left, watched = any_day.sum(axis=(2, 3)), there.sum(axis=2)
+        # to anywhere: of all things, of each class
+        of_all = _drawn(left.sum(axis=0), watched.sum(axis=0), UNSEEN_PER_DAY / HOURS)
+        of_class = _drawn(self._members @ left, self._members @ watched, of_all)
+        # of each thing: to each place from anywhere, from each place on any day, on such a day
+        usual = of_class[self._kind]
+        to_each = (usual / self._others[:, None])[:, :, None]
+        to = _drawn(any_day.sum(axis=2), watched[:, :, None] - there, to_each) * self._known
+        on_any_day = _drawn(any_day, there[..., None], to[:, :, None, :], FROM_DAYS)
+        rate = _drawn(taken, spent[..., None], on_any_day[:, None]) * self._ways[:, None, None]
+        # from and to a place where it was never seen
+        rate[..., -1, :] = to[:, None]
+        new = NEW_PLACE / (left.sum(axis=1) + NEW_PLACE)
+        to_new = _drawn(left, watched, usual).mean(axis=1) * new
+        rate[..., :-1, -1] = to_new[:, None, None, None]
+        return _Found(of_all, of_class, rate.reshape(moves.taken.shape))
 
 
-class _Level:
-    """Things at places, grouped by something that they have in common."""
-
-    def __init__(self, keys: Sequence[Hashable]) -> None:
-        self._first: dict[Hashable, int] = {}
-        for index, key in enumerate(keys):
-            self._first.setdefault(key, index)
-        numbers = {key: number for number, key in enumerate(self._first)}
-        self._of = np.array([numbers[key] for key in keys])
-        self._count = len(numbers)
-        rows = np.arange(len(keys))
-        self._groups = csr_array((np.ones(len(keys)), (self._of, rows)))
-
-    def drawn(self, moves: Floats, spent: Floats, above: Floats) -> Floats:
-        """(n, 24) the rate of each one's group, drawn to (n, 24) of the level above."""
-        moved, passed, drawn_to = map(self._summed, (moves, spent, above))
-        members = np.bincount(self._of, minlength=self._count)[:, None]
-        rate: Floats = (moved + DRAWN_DAYS * drawn_to / members) / (passed + DRAWN_DAYS)
-        each: Floats = rate[self._of]
-        return each
-
-    def _summed(self, values: Floats) -> Floats:
-        """(groups, 24) the sum of each group."""
-        sums: Floats = np.asarray(self._groups @ values)
-        return sums
-
-    def named(self, rates: Floats) -> dict[Any, Floats]:
-        """The rate of each group."""
-        return {key: rates[first] for key, first in self._first.items()}
+def _drawn(moved: Floats, passed: Floats, to: Floats | float, days: float = DRAWN_DAYS) -> Floats:
+    """Moves an hour, drawn to a rate that weighs as much as so many days."""
+    rate: Floats = (moved + days * to) / (passed + days)
+    return rate

@@ -14,15 +14,18 @@ LIMITS = {
     "executive.ros.actions": ("LINK_S", "PATH_S"),
     "executive.ros.camera": ("FRAME_S", "LINK_S"),
     "executive.ros.rclpy_link": ("SERVER_S",),
-    "executive.ros.stopping": ("CANCELLING_S",),
     "kb.llm.llama": ("CLOSING_S",),
+    "kb.llm.server.asking": ("LOOKING_S",),
     "kb.llm.server.server": ("CLOSING_S",),
     "logs.recorder": ("PATIENCE_S", "CLOSE_S"),
     "logs.viewer.program": ("START_S", "SETTLE_S"),
 }
 """How long is waited for what comes at once on a machine with nothing else to do."""
 
-hypothesis.settings.register_profile("machines are noisy", deadline=None)
+SLOW = (hypothesis.HealthCheck.too_slow,)
+hypothesis.settings.register_profile(
+    "machines are noisy", deadline=None, suppress_health_check=SLOW
+)
 hypothesis.settings.load_profile("machines are noisy")
 
 

@@ -4,6 +4,7 @@ A question is answered, and what is told is remembered; a further wish goes on t
 correction takes the place of the task at hand; what is taken back is not done.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
@@ -16,6 +17,8 @@ from executive.language.meaning import (
     Refusal,
     Request,
     Statement,
+    Thing,
+    Things,
 )
 from executive.language.phrases import NEGATION
 from executive.language.spoken import Spoken, resolved, with_names
@@ -104,12 +107,22 @@ def _correct(
     return _replace(context, commands)
 
 
-def _replace(context: MissionContext, commands: Commands) -> str:
+def all_of(context: MissionContext, names: Sequence[str], words: str) -> str:
+    """Do what is at hand with each of these things, which were named where one was asked for."""
+    at_hand = context.situation.agenda.whole_of(context.situation.request.command)
+    assert at_hand
+    things = (context.say.words(name) for name in names)
+    meant = Things(tuple(Thing(thing, definite=True, said=thing) for thing in things))
+    commands = corrected(Correction(meant), at_hand, words)
+    return commands if isinstance(commands, str) else _replace(context, commands, "")
+
+
+def _replace(context: MissionContext, commands: Commands, instead: str = " instead") -> str:
     """Do these at once in place of the task at hand."""
     first, *others = [command for group in commands for command in group]
     context.situation.agenda.replace(first, others)
     then = " and ".join(in_one_sentence(context, one) for one in (first, *others))
-    return f"All right: I {then} instead."
+    return f"All right: I {then}{instead}."
 
 
 def _instead_of(

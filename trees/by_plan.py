@@ -8,12 +8,12 @@ from py_trees.behaviour import Behaviour
 from executive.records import Activity
 from trees.context import MissionContext
 from trees.hearing import consult, wants_advice, what_is_known
-from trees.held import HoldWhereToLook
 from trees.nodes import Check, FirstOf, as_long_as, beside, fallback, sequence
 from trees.planning import (
     AskWhereItIs,
     DriveAsPlanned,
     HearOut,
+    HoldAsPlanned,
     PlanNext,
     PlanStands,
     TellWhere,
@@ -80,7 +80,7 @@ def next_step(context: MissionContext, ways: Ways) -> Behaviour:
                 PlanNext("plan alone", context, ways),
             ),
         ),
-        HoldWhereToLook("choice", context),
+        HoldAsPlanned("choice", context, ways),
         TellWhere("announce", context),
         sequence(
             "go and look",

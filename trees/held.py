@@ -22,7 +22,7 @@ HELD_S = 600.0
 
 
 class HoldChoice(Action):
-    """Waits while what was chosen is held; always succeeds.
+    """Waits while what was chosen is held; succeeds unless something else is to be done by then.
 
     Only a place that this home has, and that would do, can take its place. Reads and writes
     steering.
@@ -46,6 +46,12 @@ class HoldChoice(Action):
     def is_free(self) -> bool:
         """Whether anything else could have been chosen."""
         return True
+
+    @property
+    def is_sent_elsewhere(self) -> bool:
+        """Whether the experimenter has named another place than the one that was chosen."""
+        choice, place = self.steering.choice, self.steering.instead
+        return choice is not None and place not in ("", choice.place)
 
     def initialise(self) -> None:
         """Wait only if choices are held."""

@@ -165,6 +165,8 @@ class GuessName(Step):
         knowledge = self.context.knowledge
         if knowledge.objects_named(target):
             return self.fail(f"'{target}' is known, and all of it is said not to be meant")
+        if knowledge.is_place(target):
+            return self.fail(f"'{target}' is a place")
         if other := knowledge.other_color(target):
             names: tuple[str, ...] = tuple(name for name, _ in other.actual)
             if len(names) > 1:

@@ -8,14 +8,14 @@ from py_trees.common import Status
 
 from executive.interfaces import Knowledge
 from executive.language.answers import named, picked
-from executive.language.meaning import Answer, Refusal, Request, Said, Unread
+from executive.language.meaning import Answer, Choice, Refusal, Request, Said, Unread
 from executive.language.wording import Wording, beginning
 from executive.records import Activity, Utterance
 from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.situation import candidates_from
 from executive.text import printable, too_long
 from executive.types import DELIVERY, Answered, Command, Question, QuestionKind, Result, Source
-from trees.attention import attend_to
+from trees.attention import all_of, attend_to
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
 from trees.telling import NEXT_TO, sentence, tell
@@ -234,6 +234,37 @@ class AskWhichObject(Ask):
         elif meant:
             self.situation.request.object = meant[0]
         return len(meant) == 1
+
+    def _attend_to(self, said: Said, words: str) -> bool:
+        """Several may be meant, or any but the one that is named."""
+        request, find = self.situation.request, self.context.knowledge.objects_named
+        if isinstance(said, Refusal) and (rest := self._but(said.words)):
+            request.options = rest
+            return True
+        several = self._several(said)
+        if not several or not request.options:
+            return super()._attend_to(said, words)
+        names = tuple(dict.fromkeys(one for name in several for one in find(name)))
+        tell(self.context, all_of(self.context, names, words))
+        return True
+
+    def _but(self, words: str) -> tuple[str, ...]:
+        """What is left of the things that were offered; none if none is named, or each."""
+        request, find = self.situation.request, self.context.knowledge.objects_named
+        named = [one for name in self.context.knowledge.names_in(words) for one in find(name)]
+        rest = tuple(one for one in request.options if one not in named)
+        return rest if len(rest) < len(request.options) else ()
+
+    def _several(self, said: Said) -> tuple[str, ...]:
+        """More than one of those that were offered: "all", "the apple and the pear"."""
+        offered = self.question().options
+        if not isinstance(said, Answer) or (said.things and said.things.one_of):
+            return ()
+        if said.choice == Choice.ALL:
+            return offered
+        names = tuple(thing.words for thing in said.things.members) if said.things else ()
+        are_known = all(self.context.knowledge.objects_named(name) for name in names)
+        return names if len(names) > 1 and are_known else ()
 
     def _named(self, said: Said) -> tuple[str, ...]:
         """What an answer names in more words; a command is one only for what was offered."""

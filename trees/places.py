@@ -24,7 +24,9 @@ from trees.person import NO_PLACE, Ask, AskWhere, is_place, known_places, places
 from trees.recall import is_here
 from trees.telling import NEXT_TO, TO_THE_PERSON, tell
 
-BESIDE = ("under ", NEXT_TO)
+ON_TOP = "on top of "
+"""Where nothing can be put of what has its places inside."""
+BESIDE = ("under ", "behind ", "in front of ", "above ", "left of ", "right of ", NEXT_TO)
 """Beginnings of where nothing can be put."""
 
 
@@ -330,8 +332,15 @@ def goal_words(context: MissionContext) -> str:
 def neighbours(context: MissionContext) -> tuple[str, ...]:
     """The things beside one of which it is to be put: "next to the mug"."""
     goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
-    thing = goal.removeprefix(NEXT_TO)
-    return () if goes or thing == goal else context.knowledge.objects_named(thing)
+    things = _beside_one_of(goal)
+    return tuple(one for t in things for one in context.knowledge.objects_named(t) if not goes)
+
+
+def _beside_one_of(goal: str) -> list[str]:
+    """The words of "next to the mug or next to the pear"; none if it is anywhere else, too."""
+    parts = goal.split(" or ")
+    beside = [part.removeprefix(NEXT_TO) for part in parts if part.startswith(NEXT_TO)]
+    return beside if len(beside) == len(parts) else []
 
 
 def known_at(context: MissionContext, thing: str) -> tuple[str, ...]:
@@ -345,14 +354,21 @@ def not_seen_yet(context: MissionContext) -> str:
     things, hand = neighbours(context), context.situation.hand
     if hand.in_hand in things or any(known_at(context, thing) for thing in things):
         return ""
-    return goal_words(context).removeprefix(NEXT_TO) if things else ""
+    return " or ".join(_beside_one_of(goal_words(context))) if things else ""
 
 
 def goals_in(context: MissionContext) -> tuple[str, ...]:
     """The places that the words for where to name; none if nothing can be put so."""
     goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
-    beside = goal.startswith(BESIDE) and not goes
+    beside = cannot_be_put(context, goal) and not goes
     return places_in(context, goal) if is_place(context, goal) and not beside else ()
+
+
+def cannot_be_put(context: MissionContext, goal: str) -> bool:
+    """Whether words for where to name furniture, and a side of it where nothing can be put."""
+    if goal.startswith(ON_TOP):
+        return any(context.say.at(place).startswith("in ") for place in places_in(context, goal))
+    return goal.startswith(BESIDE)
 
 
 def options_in(context: MissionContext) -> tuple[str, ...]:
@@ -383,7 +399,7 @@ def unknown(context: MissionContext) -> str:
     goes = request.asks_to(CommandKind.GO)
     if things := neighbours(context):
         return f"I do not know where {context.say.are(things[0])}"
-    if goal.startswith(BESIDE) and not goes:
+    if cannot_be_put(context, goal) and not goes:
         return f"I can put things on furniture, or in it, but not '{context.as_said(goal)}'"
     if goal:
         return f"I do not know where '{context.as_said(goal)}' is"

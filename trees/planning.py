@@ -14,6 +14,7 @@ from executive.situation import Leg
 from executive.types import Candidate, Source
 from trees.context import MissionContext
 from trees.hearing import PERSON_TRUST, believed
+from trees.held import HoldWhereToLook
 from trees.nodes import Step
 from trees.person import AskWhere, who_says
 from trees.robot import EXPERIMENTER, Visit
@@ -168,6 +169,26 @@ class PlanStands(PlanNext):
         return self.fail(
             f"not on to {search.candidate.place}: {decision(plan, search.whereabouts.belief)}"
         )
+
+
+class HoldAsPlanned(HoldWhereToLook):
+    """The same, while there may be news: fails if by that another place is better, or to ask.
+
+    What the experimenter is shown is what the robot would do now. Reads and writes
+    search.candidate, search.candidates and search.whereabouts.
+    """
+
+    def __init__(self, name: str, context: MissionContext, ways: Ways) -> None:
+        """Plan with these ways."""
+        super().__init__(name, context)
+        self._stands = PlanStands(name, context, ways)
+
+    def update(self) -> Status:
+        """Where the experimenter sends it, it goes, whatever is planned."""
+        waits = self.is_under_way and not self.is_sent_elsewhere
+        if waits and self._stands.update() == Status.FAILURE:
+            return self.fail(self._stands.feedback_message)
+        return super().update()
 
 
 class DriveAsPlanned(Visit):

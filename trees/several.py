@@ -63,7 +63,9 @@ class OnACondition(Step):
         command = self.situation.request.command
         assert command
         if not command.conditional and (beside := not_seen_yet(self.context)):
-            find = Command(CommandKind.FIND, beside, command.words)
+            either = tuple(beside.split(" or "))
+            among = either if len(either) > 1 else ()
+            find = Command(CommandKind.FIND, beside, command.words, among=among)
             command = replace(command, conditional=True, sought=find)
             self.situation.request.command = command
         if not command.conditional:

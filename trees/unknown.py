@@ -16,6 +16,8 @@ def unresolved(context: MissionContext, words: str, offered: Sequence[str]) -> s
     """The same as a reason why nothing was done, with what is nearest to it."""
     if other := context.knowledge.other_color(words):
         return _not_so(context, other)
+    if context.knowledge.is_place(words):
+        return f"the {context.as_said(words)} is a place, and I find, take and bring only things"
     near = f"; the nearest that I know is {context.say.any_of(offered)}" if offered else ""
     return f"I know no '{context.as_said(words)}'{near}"
 
@@ -24,7 +26,7 @@ def nearest(context: MissionContext, words: str) -> tuple[str, ...]:
     """What is most like what was asked for: of another colour, or called nearly so."""
     if other := context.knowledge.other_color(words):
         return tuple(name for name, _ in other.actual)
-    return context.knowledge.nearest_names(words)
+    return () if context.knowledge.is_place(words) else context.knowledge.nearest_names(words)
 
 
 def _not_so(context: MissionContext, other: OtherColor) -> str:

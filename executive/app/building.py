@@ -7,6 +7,7 @@ import logging
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from functools import lru_cache
+from io import StringIO
 from typing import TextIO
 
 from executive.app.embodiment import Embodiment, Setup
@@ -184,7 +185,7 @@ def build_user(settings: Settings, inbox: Inbox, truth: SimulatedHome | None, ou
     """
     match settings.user:
         case "console":
-            return Console(inbox, out=out)
+            return Console(inbox, None if settings.is_typed else StringIO(), out)
         case "none":
             return Nobody(inbox, out)
         case "oracle" if truth is not None:

@@ -17,6 +17,7 @@ from executive.records import Shape
 from executive.ros.arm import Hold, Planar
 from executive.ros.moveit import Obstacle
 from executive.types import Detection, Pose, Vector3
+from sim.home.furniture import Furniture
 from sim.home.home import Home
 from sim.objects.objects import ObjectModel
 
@@ -24,6 +25,8 @@ EYE_M = 1.2
 """Things are seen from about so high above the base."""
 WAYS, SPOTS = 4, 8
 """So many different grasps of each tilt of the hand, and so many spots of a surface, are told."""
+ON_FLOOR_M = 0.3
+"""What is lower, and not on the furniture before the robot, lies on the floor."""
 AROUND_M = 2.5
 """Furniture that is farther away is not in an arm's way."""
 
@@ -80,13 +83,18 @@ class KnownThings:
         """Opposite the point, before the front edge of the place; or around it, on the floor."""
         from sim.manipulation.reaching import floor_poses, standing_poses
 
-        target = np.array(point)
-        if place is None:
+        target, piece = np.array(point), self._piece(place)
+        if piece is None or (point[2] < ON_FLOOR_M and not piece.is_below(point)):
             yaw = Rotation.from_quat(base.orientation).as_euler("ZYX")[0]
             poses = floor_poses(np.array([*base.position[:2], yaw]), target)
         else:
-            poses = standing_poses(self._home.furniture_named(place), target, near_m)
+            poses = standing_poses(piece, target, near_m)
         return [(float(x), float(y), float(yaw)) for x, y, yaw in poses]
+
+    def _piece(self, place: str | None) -> Furniture | None:
+        """What the robot stands before; None if that is no furniture, but the person."""
+        pieces = (*self._home.furniture, self._home.delivery)
+        return next((piece for piece in pieces if piece.name == place), None)
 
     def obstacles(self, base: Pose) -> Sequence[Obstacle]:
         """The furniture around, as it is built."""

@@ -12,7 +12,7 @@ from executive.speech.doubt import Doubt
 from executive.speech.espeak import EspeakVoice
 from executive.speech.interfaces import Ears, Vocabulary, Voice
 from executive.speech.listening import Listening
-from executive.speech.microphone import microphone
+from executive.speech.microphone import is_live, microphone
 from executive.user import Console
 from kb.ontology.ontology import Ontology
 
@@ -56,7 +56,8 @@ def listen(
     ears = ears_of(parts, person)
     opened.callback(ears.close)
     spotter, blocks = StopSpotter(), microphone(parts.settings.microphone)
-    listening = Listening(blocks, ears, doubt, person, spotter=spotter, voice=voice)
+    live = is_live(parts.settings.microphone)
+    listening = Listening(blocks, ears, doubt, person, spotter=spotter, voice=voice, live=live)
     opened.callback(listening.close)
     listening.start()
 

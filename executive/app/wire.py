@@ -11,6 +11,7 @@ from executive.perception.pipeline import CameraPerception
 from executive.perception.tags import TagDetector
 from executive.records import Transform, Transforms
 from executive.ros.address import read_address
+from executive.ros.checking import refuse_unknown_rooms
 from executive.ros.connection import connect
 from executive.ros.profile import Profile, load_profile, packaged_profiles, profile_text
 from executive.types import Pose
@@ -35,6 +36,7 @@ def wire(setup: Setup) -> Embodiment:
         raise InputError("setting 'profile'", what, f"{right}{settings.robot} proposes one")
     profile = load_profile(settings.profile)
     _, where = profile_text(settings.profile)
+    refuse_unknown_rooms(profile, [room.name for room in setup.home.rooms], where)
     detector = TagDetector() if profile.camera.tags else setup.detector()
 
     def record(pose: Pose) -> None:

@@ -130,6 +130,13 @@ class Builder(Deeds):
         wrong = next(p for p in parts if isinstance(p, Thing))
         return Correction(parts[-1], Things((wrong,)), denies=True)
 
+    def another_number(self, parts: list[Part]) -> Correction:
+        """As in "no, five", of things of the same kind."""
+        number = next(p for p in parts if is_a(p, "ONLY_NUMBER"))
+        word = number.partition(" ")[0]
+        thing = Thing(number=self.count_of(Token("NUMBER", word)), said=word)
+        return Correction(Things((thing,)), denies=any(is_a(p, "NO", "NO_BUT") for p in parts))
+
     def question(self, parts: list[Part]) -> Question:
         """As in "what can you do"."""
         (token,) = parts
@@ -138,6 +145,10 @@ class Builder(Deeds):
     def where_put(self, parts: list[Part]) -> Question:
         """As in "where did you put the mug"."""
         return Question(About.WHERE_PUT, things=parts[-1])
+
+    def known(self, parts: list[Part]) -> Question:
+        """As in "what do you know about the mug", "where do you keep the cups"."""
+        return Question(About.KNOWN, things=parts[-1])
 
     def why(self, parts: list[Part]) -> Question:
         """As in "why did you go to the kitchen"."""

@@ -6,6 +6,7 @@ from dataclasses import replace
 from executive.language.folding import asks_for_things, is_it
 from executive.language.meaning import (
     ME,
+    SO,
     About,
     Again,
     Choice,
@@ -13,7 +14,6 @@ from executive.language.meaning import (
     Courtesy,
     Question,
     Refusal,
-    Relation,
     Request,
     Said,
     Statement,
@@ -145,8 +145,9 @@ def _command(task: Task, things: Things | None, words: str) -> Command:
 def _conditional(task: Task, words: str) -> Command:
     """What is to be done if there is such a thing; where a place is named, only there."""
     sought = task.sought or Task(CommandKind.CHECK, task.things, task.source)
-    sought = replace(sought, things=sought.things or task.things)
-    if is_it(task.things):
+    if sought.things is None or is_it(sought.things):  # "take the mug if it is on the desk"
+        sought = replace(sought, things=task.things)
+    if is_it(task.things) or task.things == sought.things:
         task = replace(task, things=sought.things, source=task.source or sought.source)
     [deed] = (_command(replace(task, conditional=False), task.things, words),)
     asks = task.verb == CommandKind.CHECK  # "is it there? If not, ..."
@@ -185,6 +186,8 @@ def _superlative(task: Task) -> str:
 
 def _why_not(task: Task) -> str:
     """Why the tree cannot do it, as a clause; empty if it can."""
+    if task.sought == SO:
+        return "I do not know what that depends on; say all of it"
     for place in (task.source, task.goal):
         if place and place.pronoun:
             return f"I do not know where '{place.words}' is; say the name of the place"
@@ -237,6 +240,6 @@ def _name(thing: Thing) -> str:
 
 def in_words(where: Where) -> str:
     """A place as words that its name can be looked for in."""
-    near = {Relation.NEXT_TO: "next to ", Relation.UNDER: "under "}.get(where.relation, "")
+    near = "" if where.relation.is_plain else f"{where.relation.replace('_', ' ')} "
     within = f" in {in_words(where.within)}" if where.within else ""
     return " or ".join([f"{near}{where.words}{within}", *map(in_words, where.others)])

@@ -3,7 +3,17 @@
 from dataclasses import replace
 
 from executive.language.commands import commands_in, in_words
-from executive.language.meaning import Answer, Correction, Request, Said, Task, Thing, Things
+from executive.language.meaning import (
+    Answer,
+    Correction,
+    Request,
+    Said,
+    Task,
+    Thing,
+    Things,
+    Where,
+)
+from executive.language.spoken import in_place_of
 from executive.types import Command, CommandKind, Commands
 
 
@@ -12,8 +22,10 @@ def corrected(said: Correction, at_hand: Command, words: str) -> Commands | str:
     match said.meant:
         case Request() as request:
             read = commands_in(request, words)
+        case Things(members=[place]) if at_hand.kind == CommandKind.GO:
+            return corrected(Correction(goal=Where(place.words)), at_hand, words)
         case Things() as things:
-            task = Task(at_hand.kind, things, said=at_hand.kind)
+            task = in_place_of(_said_before(at_hand), things)
             read = commands_in(Request((task,)), words)
         case _:
             return ((_elsewhere(said, at_hand, words),),)
@@ -26,6 +38,12 @@ def corrected(said: Correction, at_hand: Command, words: str) -> Commands | str:
         tuple(replace(one, source=placed.source, goal=placed.goal) for one in group)
         for group in read
     )
+
+
+def _said_before(at_hand: Command) -> Task:
+    """What was asked for, as far as other things may take the place of its own."""
+    things = Things((Thing(at_hand.target),)) if at_hand.target else None
+    return Task(at_hand.kind, things, said=at_hand.kind)
 
 
 def as_correction(said: Said) -> Correction | None:

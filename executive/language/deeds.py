@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from lark import Token
 
-from executive.language.meaning import ME, Task, Thing, Things, Where
+from executive.language.meaning import ME, SO, Request, Task, Thing, Things, Where
 from executive.language.nouns import Nouns
 from executive.language.parts import (
     From,
@@ -95,6 +95,8 @@ class Deeds(Nouns):
         places = [p for p in further.parts if not isinstance(p, Things)]
         if task.conditional or (not (things and places) and task.verb not in _ELSEWHERE):
             raise Unfit(task.said)
+        if things and places and task.things is None:  # "go to the desk and dance there"
+            raise Unfit(things.members[0].said)
         if things and not places:
             return tuple(_again(task, task.things, [p]) for p in _same_way(task, things))
         return (_again(task, things or task.things, places),)
@@ -180,6 +182,18 @@ class Deeds(Nouns):
         if sought is not None and sought.things is None and sought.source is None:
             sought = None
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
+
+    def if_so(self, parts: list[Part]) -> Request:
+        """As in "if so, bring it", after a question."""
+        _, part, *rest = parts
+        deed = _deed(part)
+        task = replace(deed, conditional=True, sought=SO, unless=_instead(deed, rest))
+        return Request((task,))
+
+    def if_not(self, parts: list[Part]) -> Request:
+        """As in "if not, bring the pear", after a question."""
+        deed = _deed(parts[-1])
+        return Request((replace(SO, conditional=True, sought=SO, unless=deed),))
 
     def if_then(self, parts: list[Part]) -> Task:
         """As in "if there is an apple, bring it", "is there an apple? If so, bring it"."""

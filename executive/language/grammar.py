@@ -1,13 +1,13 @@
 """Reads English as the tree needs it: what is commanded, answered, said for its own sake."""
 
 from collections.abc import Iterable, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from itertools import chain
 
 from executive.language.commands import NOT_KNOWN_WHAT, agrees, commands_in, talk
 from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread
-from executive.language.reader import english
-from executive.language.slips import without_slips
+from executive.language.reader import Reader, english
+from executive.language.slips import brought, without_slips
 from executive.language.spoken import NOTHING, Spoken, resolved
 from executive.types import Command, CommandKind, Commands
 
@@ -22,10 +22,7 @@ class EnglishInterpreter:
 
     def __init__(self, names: Iterable[str] = ()) -> None:
         """Build what reads, which takes longest of all."""
-        names = tuple(names)
-        odd = tuple(sorted({name for name in names if not _is_read(name)}))
-        self._reader = english(odd) if odd else english()
-        self._known = frozenset(map(self._reader.plain, names))
+        self._reader, self._known = _reader_of(tuple(names))
 
     def read(self, words: str) -> Said:
         """What the words mean, as far as the grammar reads them."""
@@ -94,17 +91,20 @@ class EnglishInterpreter:
 
     def without_slips(self, words: str) -> Commands:
         """The tasks that the words are with the word for the deed spelled right; none if none."""
-        for likely in without_slips(self._reader, words):
+        for likely in (*without_slips(self._reader, words), *brought(self._reader, words)):
             if commands := self.commands(likely):
                 return commands
         return ()
 
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
+        said = self._reader.read(answer)
+        if isinstance(said, Answer) and said.choice in (Choice.ANY, Choice.ALL):
+            return False  # "I do not mind"
         if self._reader.declines(answer) or not self._reader.plain(answer).strip("?"):
             return True
         declining = (Answer(Choice.NO), Answer(Choice.UNKNOWN))
-        return self._reader.knows(answer) and self._reader.read(answer) in declining
+        return self._reader.knows(answer) and said in declining
 
     def agrees(self, answer: str) -> bool | None:
         """Whether an answer says yes or no; None if it says neither."""
@@ -125,6 +125,14 @@ def _names_in(commands: Commands) -> list[str]:
 def named_in(command: Command) -> tuple[str, ...]:
     """All that a command names."""
     return command.target, command.source, command.goal, command.purpose, *command.exceptions
+
+
+@lru_cache(maxsize=16)
+def _reader_of(names: tuple[str, ...]) -> tuple[Reader, frozenset[str]]:
+    """What reads, and these names as it writes them: of every mission in a home the same."""
+    odd = tuple(sorted({name for name in names if not _is_read(name)}))
+    reader = english(odd) if odd else english()
+    return reader, frozenset(map(reader.plain, names))
 
 
 @cache

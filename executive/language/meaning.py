@@ -15,9 +15,20 @@ class Relation(StrEnum):
 
     AT = "at"
     ON = "on"
+    ON_TOP_OF = "on_top_of"
     IN = "in"
     UNDER = "under"
     NEXT_TO = "next_to"
+    BEHIND = "behind"
+    IN_FRONT_OF = "in_front_of"
+    ABOVE = "above"
+    LEFT_OF = "left_of"
+    RIGHT_OF = "right_of"
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it says no more than that it is there: on furniture, or in it."""
+        return self in (Relation.AT, Relation.ON, Relation.IN)
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +130,10 @@ class Task:
         return replace(self, things=(self.things or EVERYTHING).without(left_out))
 
 
+SO = Task(CommandKind.CHECK, said="so")
+"""The condition of "if so, bring it": what was asked before."""
+
+
 # --- what may be said ---
 
 
@@ -191,6 +206,9 @@ class About(StrEnum):
     DOING = "doing"
     HAND = "hand"
     WHERE_PUT = "where_put"
+    WHERE = "where"
+    KNOWN = "known"
+    """What is known of things, without looking: which there are, and where they usually are."""
     WHY = "why"
     SELF = "self"
 

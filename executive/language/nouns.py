@@ -62,7 +62,7 @@ class Nouns(Transformer[Token, Said]):
     def thing(self, parts: list[Part]) -> Thing:
         """As in "the two mugs but not the red one"."""
         noun = next(p for p in parts if isinstance(p, Thing))
-        numbers = [self.number_of(p) for p in parts if is_a(p, "NUMBER")]
+        numbers = [self.count_of(p) for p in parts if is_a(p, "NUMBER")]
         definite = any(is_a(p, "THE") for p in parts) and not any(is_a(p, "SOME") for p in parts)
         number = numbers[0] if numbers else 1 if any(is_a(p, "A") for p in parts) else None
         return replace(
@@ -104,12 +104,15 @@ class Nouns(Transformer[Token, Said]):
     def some_of(self, parts: list[Part]) -> Thing:
         """As in "one of the tools", "two of my mugs"."""
         noun = next(p for p in parts if isinstance(p, Thing))
-        number = next((self.number_of(p) for p in parts if is_a(p, "NUMBER")), 1)
+        numbers = (self.count_of(p) for p in parts if is_a(p, "NUMBER"))
+        number = next(numbers, None if is_a(parts[0], "SOME_OF") else 1)
         return replace(noun, number=number, exceptions=exceptions_of(parts))
 
     def except_(self, parts: list[Part]) -> tuple[Thing, ...]:
         """As in "but a banana", "except the pear and the apple"."""
         things = tuple(p for p in parts if isinstance(p, Thing))
+        if one := next((t.said for t in things if t.words in ("one", "ones")), ""):
+            raise Unfit(one)  # "all tools but one": which?
         if things[0].definite and any(thing.number and not thing.definite for thing in things):
             raise Unfit(things[-1].said)  # "not the peach, and a mug": the mug may be wanted
         return things
@@ -189,6 +192,12 @@ class Nouns(Transformer[Token, Said]):
     def most(self, words: str) -> str:
         """Which measure a word like "biggest" is about; empty if about none."""
         return self._superlatives.get(words.partition(" ")[0], "")
+
+    def count_of(self, token: Token) -> int:
+        """How many things a number stands for; of none of them there is nothing to do."""
+        if not (number := self.number_of(token)):
+            raise Unfit(str(token))
+        return number
 
     def number_of(self, token: Token) -> int:
         """What a number or an ordinal stands for."""

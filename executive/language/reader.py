@@ -16,15 +16,20 @@ from executive.cache import cache_folder
 from executive.language import others
 from executive.language.building import Builder
 from executive.language.contrasts import in_its_place
-from executive.language.meaning import Refusal, Relation, Said, Unread
+from executive.language.meaning import Refusal, Relation, Request, Said, Unable, Unread
 from executive.language.parts import Unfit
 from executive.language.phrases import plain_letters
+from executive.language.second_thoughts import corrected_in_one_breath
 from executive.text import LONGEST, too_long
 
 ASSETS = Path(__file__).parent / "assets"
 _PAUSES = re.compile(r"[.!?;:\"“”…)\]]+(?=\s|$|,)|(?<!\S)[-–—(\[\"“”]+")
+_QUOTES = re.compile('["“”„«»]')
+_LEADING_SIGNS = re.compile("^[\\s\U0001f300-\U0001faff\u2600-\u27bf\ufe0f]+(?=[^\\W\\d_])")
+"""Pictures of hands and faces, as one writes them before a sentence."""
 KEPT = 64
 """Sentences whose meaning is kept: in a mission several ask for that of the same one."""
+AT_A_TIME = "do things at a set time, only at once"
 NOTHING = r"(?!)x"
 """A pattern that fits nothing."""
 
@@ -44,9 +49,16 @@ class Reader:
         """Words that ask for a deed."""
         self.read: Callable[[str], Said] = lru_cache(KEPT)(self._read_anew)
         """What words mean; what cannot be read is `Unread`, and says where."""
+        self._gerunds = gerunds = {_gerund(deed): deed for deed in self.deeds}
         self._short: dict[str, str] = words["short_forms"]
         self._short_form = re.compile(rf"\b(?:{_any_of(self._short)})(?!\w)")
         self._spellings = [(re.compile(p), whole) for p, whole in words["spellings"]]
+        self._manners = [re.compile(p) for p in words["manners"]]
+        deed = f"(?:{_any_of(self.deeds)})"
+        self._ways = [(re.compile(p.replace("%DEED", deed)), q) for p, q in words["ways"]]
+        self._mind = re.compile(rf"^(?:please )?(?:would|do) you mind ({_any_of(gerunds)})(?= )")
+        self._times = re.compile(rf",? ?\b(?:{'|'.join(words['times'])})(?=[ ,]|$)")
+        self._turn = re.compile(words["second_thoughts"])
         self._denials = re.compile(rf"\b(?:{_any_of(words['negations'] + words['denials'])})\b")
         self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
         self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
@@ -67,7 +79,12 @@ class Reader:
     def _read_anew(self, words: str) -> Said:
         if too_long(words):
             return Unread(words)
-        said = self._read(self.plain(words))
+        plain = self.plain(words)
+        said = self._read(plain)
+        if self._at_a_time(plain):
+            return Unable(AT_A_TIME)
+        if isinstance(said, Unread):
+            said = corrected_in_one_breath(plain, self._turn, self._read) or said
         if isinstance(said, Refusal):
             return in_its_place(said, self._read)
         return replace(said, words=words) if isinstance(said, Unread) else said
@@ -83,6 +100,11 @@ class Reader:
                 raise
             return Unread(text, str(error.orig_exc))
 
+    def _at_a_time(self, plain: str) -> bool:
+        """Whether something is asked for that is not to be done now."""
+        now = self._times.sub("", plain)
+        return now != plain and isinstance(self._read(now.strip(", ")), Request)
+
     def knows(self, words: str) -> bool:
         """Whether there is a word among them that may be more than a part of a name."""
         vocabulary = self.vocabulary
@@ -97,10 +119,21 @@ class Reader:
         text = plain_letters(words[:LONGEST])[:LONGEST].replace("\ufffd", " ")
         for spelling, whole in self._spellings:
             text = spelling.sub(whole, text)
+        text = _QUOTES.sub(" ", _LEADING_SIGNS.sub("", text))
         text = self._short_form.sub(lambda match: self._short[match[0]], text)
         text = _PAUSES.sub(",", text)
         text = re.sub(r"(?:\s*,)+(?!\S)\s*|(?:\s+,)+", ", ", text)
-        return " ".join(text.split()).strip(", ")
+        return self._without_manners(" ".join(text.split()).strip(", "))
+
+    def _without_manners(self, text: str) -> str:
+        """Less what asks for nothing; of other ways to say a thing, the one that is known."""
+        plain = text
+        for manners in self._manners:
+            plain = manners.sub("", plain)
+        plain = " ".join(plain.split()).strip(", ") or text
+        for way, known in self._ways:
+            plain = way.sub(known, plain)
+        return self._mind.sub(lambda found: f"could you {self._gerunds[found[1]]}", plain)
 
     def denial(self, words: str) -> str:
         """A word among them that denies, or may; empty if there is none."""
@@ -164,6 +197,14 @@ def _kept(grammar: str) -> str | None:
     """
     folder = cache_folder()
     return str(folder / f"{sha256(grammar.encode()).hexdigest()}.lark") if folder else None
+
+
+def _gerund(deed: str) -> str:
+    """As it follows "would you mind": "bringing", "taking", "getting"."""
+    if deed.endswith("e"):
+        return f"{deed.removesuffix('e')}ing"
+    doubled = re.fullmatch(r"[^aeiou]*[aeiou][bdgmnprt]", deed)
+    return f"{deed}{deed[-1] if doubled else ''}ing"
 
 
 def _any_of(words: Iterable[str]) -> str:

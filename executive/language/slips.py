@@ -1,4 +1,4 @@
-"""A slip of the finger in the word for a deed: "bing me an apple"."""
+"""What was probably meant: a slip in the word for a deed ("bing me an apple"), or none at all."""
 
 from collections.abc import Iterator
 
@@ -28,6 +28,14 @@ def without_slips(reader: Reader, words: str) -> Iterator[str]:
     for suspect in sorted(suspects):
         if deed := _near(spoken[suspect], reader.deeds):
             yield " ".join([*spoken[:suspect], deed, *spoken[suspect + 1 :]])
+
+
+def brought(reader: Reader, words: str) -> Iterator[str]:
+    """What was probably meant, if things are named and nothing is said of what to do with them."""
+    said = reader.read(words)
+    names = isinstance(said, Answer) and said.choice is None and said.things and not said.where
+    if names and not reader.denial(words):
+        yield f"bring {reader.plain(words)}"
 
 
 def _near(word: str, deeds: tuple[str, ...]) -> str:

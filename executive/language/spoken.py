@@ -8,6 +8,7 @@ from executive.language.folding import asks_for_things, folded, is_it
 from executive.language.meaning import (
     ALL,
     ME,
+    SO,
     Again,
     Answer,
     Correction,
@@ -26,6 +27,8 @@ _OF_ALL = ("them", "those", "these")
 _OF_THE_HAND = (CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN)
 """What is put somewhere is first of all what the hand holds."""
 _THERE = ("there", "over there")
+_ONE = "one"
+"""Of a kind that was spoken of."""
 _ANYWHERE = (CommandKind.COUNT, CommandKind.CHECK)
 """Questions that need no place: "how many fruits are there"."""
 
@@ -86,7 +89,7 @@ def resolved(said: Said, spoken: Spoken, *, holds: bool = False) -> Said:
         case Question(things=Things() as things):
             return replace(said, things=_things(things, spoken))
         case Correction():
-            return _asked_anew(with_names(said, spoken), spoken)
+            return asked_anew(with_names(said, spoken), spoken)
         case Answer(where=(place,)) if spoken.things:  # "it is on the sofa", of what was not found
             where = _where(place, None, None, spoken)
             assert where
@@ -129,47 +132,99 @@ def after(said: Said, before: Spoken, *, things: tuple[str, ...] = (), place: st
     return replace(new, things=things or before.things, place=goal or place or before.place)
 
 
-def _asked_anew(said: Correction, spoken: Spoken) -> Said:
-    """What it asks for when nothing is under way: what was asked for last, but for what it says."""
+def asked_anew(said: Correction, spoken: Spoken, *, in_one_breath: bool = False) -> Said:
+    """What it asks for when nothing is under way: what was asked for last, but for what it says.
+
+    That is the last task alone; `in_one_breath` with the request, the others are still wanted, too.
+    """
     if isinstance(said.meant, Request):
-        return said.meant
+        others = spoken.request.tasks[:-1] if in_one_breath and spoken.request else ()
+        return replace(said.meant, tasks=(*others, *said.meant.tasks))
     if spoken.request is None:
         return said
-    task = spoken.request.tasks[-1]
+    *before, task = spoken.request.tasks
+    before *= in_one_breath
     if said.meant:
-        task = replace(task, things=said.meant)
+        task = in_place_of(task, said.meant)
     goal = said.goal or (said.place if task.goal else None)
     source = said.source or (said.place if not task.goal else None)
+    if task.verb == CommandKind.BRING and goal not in (None, ME):
+        task = replace(task, verb=CommandKind.PUT)
     task = replace(task, goal=goal or task.goal, source=source or task.source)
-    return Request((task,))
+    return replace(spoken.request, tasks=(*before, task))
 
 
-def _tasks(tasks: tuple[Task, ...], spoken: Spoken, holds: bool) -> tuple[Task, ...]:
-    """With names for what was named before in the same breath, else for what was spoken of."""
+def in_place_of(task: Task, things: Things) -> Task:
+    """The task with other things; a number alone is of the same kind, a name may be a place."""
+    if task.things is None and task.goal:  # "go to the kitchen", "no, the bedroom"
+        return replace(
+            task, goal=replace(task.goal, words=" or ".join(t.words for t in things.members))
+        )
+    kind = task.things.members[0].words if task.things else ""
+    members = tuple(
+        t if t.words or t.pronoun else replace(t, words=kind, said=f"{t.said} {kind}")
+        for t in things.members
+    )
+    return replace(task, things=replace(things, members=members))
+
+
+def _tasks(
+    tasks: tuple[Task, ...], spoken: Spoken, holds: bool, things: Things | None = None
+) -> tuple[Task, ...]:
+    """With names for what was named before in the same breath, else for what was spoken of.
+
+    What a condition names is nearer than that: "if there is an apple, bring it". The `things` are
+    what was named before all of the tasks.
+    """
     done: list[Task] = []
-    things: Things | None = None
     place: Where | None = None
-    for task in folded(tasks):
-        meant = _meant_by(task, things, spoken, holds)
+    for task in folded([_after_question(task, spoken) for task in tasks]):
+        meant = _meant_by(task, _named_in(task.sought) or things, spoken, holds)
         source, goal = (_where(where, things, place, spoken) for where in (task.source, task.goal))
         if _is_there(source) and (task.verb in _ANYWHERE or asks_for_things(task)):
             source = None  # "how many fruits are there"
-        sought = _tasks((task.sought,), spoken, holds)[0] if task.sought else None
+        sought = task.sought and _tasks((task.sought,), spoken, holds, meant)[0]
         done.append(replace(task, things=meant, source=source, goal=goal, sought=sought))
         things = meant if meant and not is_it(meant) else things
         place = next((p for p in (goal, source) if p and not p.pronoun and p != ME), place)
     return tuple(done)
 
 
+def _after_question(task: Task, spoken: Spoken) -> Task:
+    """The same with what was asked last as its condition: "is there a mug?", "if so, bring it"."""
+    asked = spoken.request.tasks[-1] if spoken.request else None
+    if task.sought != SO or asked is None or asked.verb != CommandKind.CHECK:
+        return task
+    if task.unless:
+        return replace(asked, conditional=True, unless=task.unless)
+    return replace(task, sought=asked)
+
+
+def _named_in(condition: Task | None) -> Things | None:
+    """The things that have to be there; None if they were named before."""
+    things = condition.things if condition else None
+    return None if is_it(things) else things
+
+
 def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) -> Things | None:
     """The things of a task, if some were named `before` in the same breath, or none were."""
     if task.things is None:
         return None
+    if one := _one_of_kind(task.things, _called(before) or spoken.called):
+        return one
     if before:
         named = is_it(task.things) and task.verb != CommandKind.PUT_DOWN
         return before.without(task.things.exceptions) if named else task.things
     in_hand = holds and task.verb in _OF_THE_HAND
     return task.things if in_hand else _things(task.things, spoken)
+
+
+def _one_of_kind(things: Things, kind: str) -> Things | None:
+    """As in "is there a mug? If so, bring me one"; None if it is something else."""
+    if not kind or [thing.words for thing in things.members] != [_ONE]:
+        return None
+    thing = replace(things.members[0], words=kind, number=1, said=kind)
+    return replace(things, members=(thing,))
 
 
 def _things(things: Things, spoken: Spoken) -> Things:

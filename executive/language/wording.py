@@ -61,6 +61,11 @@ class Wording:
         called = self._of(place)
         return f"{called.preposition} {_in_room(called)}"
 
+    def stands(self, place: str) -> str:
+        """In which room it is, as a clause: "the sofa is in the living room"."""
+        called = self._of(place)
+        return f"{_the(called)} {self.is_(place)} in {_with_article(called.room)}"
+
     def at_each(self, places: Iterable[str]) -> list[str]:
         """The same of several, to be said one after the other: "on the sofa", "the bed"."""
         said, before = [], ""

@@ -79,7 +79,7 @@ def portrait(model: ObjectModel, side: int = SIDE) -> bytes:
         _draw(mesh, corners, flat, picture, depth)
     small = Image.fromarray(picture, "RGBA").resize((side, side), Image.Resampling.LANCZOS)
     file = io.BytesIO()
-    small.save(file, "PNG", optimize=True)
+    small.save(file, "PNG")
     return file.getvalue()
 
 
@@ -91,13 +91,16 @@ def _draw(
     lengths = np.maximum(np.linalg.norm(normals, axis=1), 1e-12)
     bright = DARKEST + (1 - DARKEST) * np.abs(normals @ LIGHT) / lengths
     rows, columns, _ = mesh.texture.shape
-    for (a, b, c), spots, light in zip(flat, mesh.at, bright, strict=True):
+    for one in np.argsort(-flat[:, :, 2].max(axis=1)):  # the nearest first hides the others
+        (a, b, c), spots, light = flat[one], mesh.at[one], bright[one]
         area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         if abs(area) < 1e-9:
             continue
         left, top = np.floor(np.minimum(np.minimum(a, b), c)[:2]).astype(int).clip(0)
         right, bottom = np.ceil(np.maximum(np.maximum(a, b), c)[:2]).astype(int) + 1
         window = depth[top:bottom, left:right]
+        if window.min() >= max(a[2], b[2], c[2]):
+            continue
         y, x = np.mgrid[top : top + window.shape[0], left : left + window.shape[1]] + 0.5
         v = ((x - a[0]) * (c[1] - a[1]) - (y - a[1]) * (c[0] - a[0])) / area
         w = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / area

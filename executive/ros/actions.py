@@ -62,9 +62,7 @@ class Actions:
             while not pursuit.done():
                 left = heard + silent_s - loop.time()
                 if left <= 0:
-                    raise LinkError(
-                        f"my {PARTS[section]} does not answer: no sign of {name} for {silent_s:g} s"
-                    )
+                    raise LinkError(_silence(PARTS[section], name, silent_s))
                 await asyncio.wait({pursuit}, timeout=left)
             return pursuit.result()
         finally:
@@ -93,6 +91,11 @@ class Actions:
         if not reason:
             reason = f"{otherwise} (error {code})" if isinstance(code, int) and code else otherwise
         return Failed(reason, lost or end.values.get("lost") is True)
+
+
+def _silence(part: str, name: str, silent_s: float) -> str:
+    do = "do" if part.endswith("s") else "does"
+    return f"my {part} {do} not answer: no sign of {name} for {silent_s:g} s"
 
 
 def _cut(poses: list[Message], leg_m: float) -> list[Message]:

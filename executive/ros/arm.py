@@ -17,7 +17,7 @@ from executive.records import Shape
 from executive.ros.link import GoalEnd
 from executive.ros.moveit import Load, Obstacle, failure, scene, to_joints, to_pose
 from executive.ros.profile import ArmAction, GripperAction, Profile
-from executive.ros.protocol import Message
+from executive.ros.protocol import GoalStatus, Message
 from executive.ros.senses import Senses
 from executive.types import Detection, Failed, Pose, Succeeded, Vector3
 
@@ -175,13 +175,14 @@ class Arm:
         return ""
 
     async def _take(self, name: str, hold: Hold) -> Succeeded | Failed:
+        self._held = name, hold  # from now on: it may be stopped when the fingers have closed
         why = await self._grip(self._gripper.closed, hold.force)
         if why or not (self.holds or self._senses.holding):
+            self._held = None
             await self._grip(self._gripper.open)
             await self._move(_back(hold.hand), straight=True)
             await self.fold()
             return Failed(why or f"my hand closed without the {name}")
-        self._held = name, hold
         if why := await self._move(_shifted(hold.hand, (0.0, 0.0, UP_M)), straight=True):
             return Failed(f"I cannot lift the {name}: {why}")
         if why := await self.fold():
@@ -191,8 +192,10 @@ class Arm:
     async def put_down(self, place: str, seen: Floats) -> Succeeded | Failed:
         """Put down what is held on a place, of which these points (n, 3) in `map` are seen."""
         if self._held is None:
-            return Failed("I do not know how I hold it")
+            return Failed("I do not know how I hold it, it has to be taken out of my hand")
         name, hold = self._held
+        if self._has_lost_it:
+            return self._fell(name)
         spots = await asyncio.to_thread(self._hands.spots, place, name, seen)
         why = f"there is no room on the {place}"
         if spots and (away := await self._come_near(place, np.array(spots[0].position))):
@@ -201,10 +204,22 @@ class Arm:
             hand = _moved_with(hold, spot)
             above = _shifted(hand, (0.0, 0.0, ABOVE_M))
             why = await self._move(above) or await self._move(hand, straight=True)
+            if self._has_lost_it:
+                await self.fold()
+                return self._fell(name)
             if not why:
                 return await self._let_go(hand)
         await self.fold()
         return Failed(why)
+
+    @property
+    def _has_lost_it(self) -> bool:
+        """Whether what should be in the hand is not, as far as anybody tells."""
+        return self._senses.holding is False
+
+    def _fell(self, name: str) -> Failed:
+        self._held = None
+        return Failed(f"the {name} fell from my hand", lost=True)
 
     async def _let_go(self, hand: Pose) -> Succeeded | Failed:
         if why := await self._grip(self._gripper.open):
@@ -242,6 +257,8 @@ class Arm:
         """What MoveIt is told of what is in the hand."""
         if self._held is None or touches or not self._gripper.links:
             return None
+        if self._has_lost_it:
+            return None
         _, hold = self._held
         pose = seen_from(hold.hand, carried_by(hold.thing, hold.box.pose))
         return Load(hold.box.size, pose, self._arm.tip, self._gripper.links)
@@ -265,8 +282,9 @@ class Arm:
         self.holds = None
         end = await self._act("gripper", values)
         stalled, reached = end.values.get("stalled"), end.values.get("reached_goal")
-        if not end.succeeded and stalled is not True:
-            return end.reason or "it did not get there"
+        called_off = end.status == GoalStatus.CANCELED
+        if called_off or (not end.succeeded and stalled is not True):
+            return end.reason or ("it was called off" if called_off else "it did not get there")
         closing = position == gripper.closed
         self.holds = closing and stalled is True and reached is not True
         return ""

@@ -8,6 +8,7 @@ import numpy as np
 
 from executive.computing import still_wanted
 from executive.geometry import Floats, back_project
+from executive.guards import in_words
 from executive.ros.link import Link, LinkError
 from executive.ros.messages import stamp_of
 from executive.ros.pictures import color_of, depth_of, lens_of
@@ -68,13 +69,13 @@ class WireCamera:
     async def _take(self) -> Frame:
         await self._link.ready(LINK_S)
         color, depth, lens = await self._pair()
-        frame = Frame(
-            next(self._numbers),
-            color_of(color),
-            depth_of(depth),
-            lens_of(lens),
-            await self._pose(color),
-        )
+        try:
+            read = color_of(color), depth_of(depth), lens_of(lens), await self._pose(color)
+        except LinkError:
+            raise
+        except Exception as error:  # a field is missing, or holds something else
+            raise LinkError(f"its picture cannot be read: {in_words(error)}") from None
+        frame = Frame(next(self._numbers), *read)
         size = (frame.intrinsics.height, frame.intrinsics.width)
         if frame.depth.shape != size or frame.color.shape[:2] != size:
             sizes = [f"{one.shape[1]} x {one.shape[0]}" for one in (frame.color, frame.depth)]

@@ -1,6 +1,7 @@
 """A profile held against the robot before anything moves: what is wrong, what would be right."""
 
 import asyncio
+from collections.abc import Sequence
 
 from executive.errors import InputError
 from executive.ros.link import Link, LinkError
@@ -13,6 +14,18 @@ LOOKS = 3
 ROSAPI = "start rosapi: `ros2 launch rosbridge_server rosbridge_websocket_launch.xml` does"
 HEARING_S = 3.0
 """So long a robot may take to say where it is, and whether it rests."""
+
+
+def refuse_unknown_rooms(profile: Profile, rooms: Sequence[str], where: str) -> None:
+    """See that the home has the rooms that the robot may enter: with a slip, it enters none.
+
+    Raises:
+        InputError: if it lacks one.
+    """
+    for room in profile.limits.rooms or ():
+        if room not in rooms:
+            what = f"limits.rooms: the home has no room {room[:80]}"
+            raise InputError(where, what, f"it has {', '.join(rooms)}")
 
 
 async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> list[InputError]:
@@ -48,7 +61,7 @@ def _topics(offers: Offers, profile: Profile, where: str) -> list[InputError]:
     for key, name, kind in wanted:
         said = offers.topics.get(name)
         if said is None:
-            right = likely(name, offers.topics_of(kind), offers.topics)
+            right = likely(name, offers.topics_of(kind), ())
             found.append(InputError(where, f"{key}: the robot has no topic {name}", right))
         elif not same_type(said, kind):
             right = likely(name, offers.topics_of(kind), ())
@@ -65,7 +78,7 @@ def _actions(offers: Offers, profile: Profile, where: str) -> list[InputError]:
     found = []
     for section, name, kind in wanted:
         if name not in offers.actions:
-            right = likely(name, offers.actions_of(kind), offers.actions)
+            right = likely(name, offers.actions_of(kind), offers.actions_of(""))
             what = f"{section}: the robot has no action {name}"
             found.append(InputError(where, what, right))
         elif offers.actions[name] and not same_type(offers.actions[name], kind):
@@ -84,8 +97,21 @@ async def _heard(profile: Profile, senses: Senses, where: str) -> list[InputErro
     return found
 
 
+def _unknown_joints(profile: Profile, senses: Senses, where: str) -> list[InputError]:
+    """Joints of the arm that are not among those that the robot tells of."""
+    if profile.arm is None or profile.joints is None or not senses.joints:
+        return []
+    told = ", ".join(sorted(senses.joints)[:20])
+    right = f"{profile.joints.topic} tells of {told}"
+    return [
+        InputError(where, f"arm.carry: the robot has no joint {name[:80]}", right)
+        for name in profile.arm.carry
+        if name not in senses.joints
+    ]
+
+
 def _unheard(profile: Profile, senses: Senses, where: str) -> list[InputError]:
-    found = []
+    found = _unknown_joints(profile, senses, where)
     if senses.unrest.startswith("nobody"):
         right = "name a topic on which something is published"
         found.append(InputError(where, f"odometry, joints: {senses.unrest}", right))

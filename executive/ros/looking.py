@@ -41,8 +41,13 @@ class Looking:
             return len(FLOOR_PANS) if self._look.views is None else 1
         return self._look.views or len(self._view_targets(place))
 
-    def targets(self, place: str) -> Sequence[Vector3]:
-        """Points of `map` to look at, to see all of a place."""
+    def target(self, place: str, view: int) -> Vector3:
+        """The point of `map` to look at; more views than there are points look there again."""
+        targets = self._targets(place)
+        return targets[view % len(targets)]
+
+    def _targets(self, place: str) -> Sequence[Vector3]:
+        """To see all of a place."""
         if place != FLOOR:
             return self._view_targets(place)
         base = self._senses.base or Pose()

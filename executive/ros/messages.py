@@ -14,6 +14,8 @@ from executive.types import Pose, Quaternion, Vector3
 
 NONE: Message = {"sec": 0, "nanosec": 0}
 """No time: whatever is newest."""
+LATEST_S = 2.0**32
+"""ROS has no later time."""
 UPRIGHT: Quaternion = (0.0, 0.0, 0.0, 1.0)
 """Not turned."""
 
@@ -27,10 +29,17 @@ def stamp_of(message: Message) -> float:
 
 
 def seconds(time: Message) -> float:
-    """A time or duration (s)."""
+    """A time or duration (s).
+
+    Raises:
+        PacketError: if it is none: what counts on it would go wrong for ever.
+    """
     whole = time["sec"] if "sec" in time else time["secs"]
     part = time["nanosec"] if "nanosec" in time else time.get("nsecs", 0)
-    return float(whole) + float(part) * 1e-9
+    found = float(whole) + float(part) * 1e-9
+    if not abs(found) <= LATEST_S:
+        raise PacketError("a time that is none")
+    return found
 
 
 def vector(message: Message) -> Vector3:

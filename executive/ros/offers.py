@@ -37,4 +37,4 @@ def likely(name: str, of_type: Iterable[str], others: Iterable[str]) -> str:
     if fits:
         return f"of this type there is {', '.join(fits[:5])}"
     near = get_close_matches(name, list(others), n=3, cutoff=0.5)
-    return f"there is {', '.join(near)}" if near else "there is none like it"
+    return f"there is {', '.join(near)}" if near else "it has nothing of this type"

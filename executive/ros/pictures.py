@@ -1,5 +1,6 @@
 """`sensor_msgs/Image` and `CameraInfo` to our pictures."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -83,6 +84,7 @@ def lens_of(message: Message) -> Intrinsics:
     """
     k = numbers(message["k"] if "k" in message else message["K"])
     width, height = int(message["width"]), int(message["height"])
-    if len(k) != 9 or not (k[0] > 0 and k[4] > 0 and width > 0 and height > 0):
+    whole = len(k) == 9 and all(map(math.isfinite, k))
+    if not (whole and k[0] > 0 and k[4] > 0 and width > 0 and height > 0):
         raise PacketError("a CameraInfo of a camera that is not calibrated")
     return Intrinsics(width, height, k[0], k[4], k[2], k[5])

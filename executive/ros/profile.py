@@ -3,7 +3,7 @@
 Names that this project does not know are given here, and nothing of them stands in the code.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.files import read_bytes
-from executive.ros.templates import GOALS, OFFERED, placeholders
+from executive.ros.templates import GOALS, OFFERED, WANTED, is_finite, placeholders
 from executive.toml_file import (
     MOST_BYTES,
     in_words,
@@ -55,9 +55,9 @@ class _Section(BaseModel):
 class Frames(_Section):
     """Names of frames."""
 
-    map: str = "map"
+    map: Annotated[str, Field(min_length=1)] = "map"
     """The home file's frame: the robot has to be localised in it."""
-    base: str = "base_link"
+    base: Annotated[str, Field(min_length=1)] = "base_link"
     camera: str = ""
     """The optical frame; empty: the one that pictures say."""
 
@@ -78,6 +78,13 @@ class Action(_Section):
     type: str
     goal: dict[str, Any] = Field(default_factory=dict)
     silent_s: Annotated[float, Field(gt=0, le=3600)] = 30.0
+
+    @field_validator("goal")
+    @classmethod
+    def _plain(cls, value: dict[str, Any]) -> dict[str, Any]:
+        if not is_finite(value):
+            raise ValueError("inf and nan cannot be sent")
+        return value
 
     @property
     def template(self) -> Mapping[str, Any]:
@@ -166,9 +173,9 @@ class GripperAction(Action):
             too; left out: it knows nothing of it.
     """
 
-    open: float
-    closed: float
-    effort: float
+    open: Annotated[float, Field(ge=-1000, le=1000)]
+    closed: Annotated[float, Field(ge=-1000, le=1000)]
+    effort: Annotated[float, Field(ge=-1, le=10_000)]
     newtons: bool = False
     joint: str = ""
     opens_m: Annotated[float, Field(gt=0, le=1)]
@@ -178,6 +185,8 @@ class GripperAction(Action):
     def _opens_and_has_a_joint(self) -> Self:
         if self.open == self.closed:
             raise ValueError("open and closed are the same: which commands open and close it")
+        if self.newtons and not self.effort > 0:
+            raise ValueError("effort is not above 0: how hard a finger may press (newtons)")
         if "$joint" in str(self.template) and not self.joint:
             raise ValueError("joint is missing: the name of the gripper's joint, as goals have it")
         return self
@@ -198,6 +207,8 @@ class Hand(_Section):
     def _joint_needs_between(self) -> Self:
         if bool(self.joint) != (self.between is not None):
             raise ValueError("joint and between belong together: give both, or neither")
+        if self.between is not None and not self.between[0] < self.between[1]:
+            raise ValueError("between should be two positions, the smaller one first")
         return self
 
     @property
@@ -254,7 +265,7 @@ class Limits(_Section):
     def _times(cls, value: tuple[str, str] | None) -> tuple[str, str] | None:
         for one in value or ():
             hour, colon, minute = one.partition(":")
-            fits = colon and hour.isdecimal() and minute.isdecimal() and len(one) == 5
+            fits = colon and one.isascii() and hour.isdigit() and minute.isdigit() and len(one) == 5
             if not fits or int(hour) > 23 or int(minute) > 59:
                 raise ValueError('should be like ["08:00", "20:00"]')
         return value
@@ -289,10 +300,15 @@ class Profile(_Section):
                     f"{section}.goal is missing: I know only the goals of {known}; "
                     "write what goes into its fields"
                 )
-            for word in placeholders(action.template):
+            words, wanted = placeholders(action.template), WANTED.get(section, ())
+            for word in words:
                 if word not in OFFERED[section]:
-                    offered = ", ".join(f"${one}" for one in OFFERED[section])
+                    offered = _listed(OFFERED[section])
                     raise ValueError(f"{section}.goal has ${word}; there are {offered}")
+            if wanted and not set(words) & set(wanted):
+                raise ValueError(
+                    f"{section}.goal has none of {_listed(wanted)}: all would be the same"
+                )
         if (self.pick is None) != (self.place is None):
             raise ValueError("pick and place belong together: give both, or neither")
         if (self.arm is None) != (self.gripper is None):
@@ -317,6 +333,10 @@ class Profile(_Section):
     def has_arm(self) -> bool:
         """Whether it can take things."""
         return self.pick is not None or self.arm is not None
+
+
+def _listed(words: Iterable[str]) -> str:
+    return ", ".join(f"${one}" for one in words)
 
 
 # --- reading ---

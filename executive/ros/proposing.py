@@ -29,6 +29,13 @@ UNKNOWN = {
 """What else these sections need, and no offer tells: it is asked for."""
 
 
+PERHAPS = {
+    "joints": ("sensor_msgs/msg/JointState", "if velocities are told there: a stop waits for them"),
+    "hand": ("std_msgs/msg/Bool", "if that is whether something is in the hand"),
+}
+"""Sections that no type alone tells to be right: type of the topic, and when they are."""
+
+
 def proposal(offers: Offers, frames: Iterable[str]) -> str:
     """The TOML of a profile, with what could not be guessed as comments."""
     lines = ["# Proposed from what the robot offers: read it, and put right what is wrong.", ""]
@@ -39,6 +46,9 @@ def proposal(offers: Offers, frames: Iterable[str]) -> str:
         lines += _arm(offers)
     lines += _camera(offers)
     lines += _section("odometry", {"topic": _first(offers.topics_of("nav_msgs/msg/Odometry"))})
+    for section, (kind, why) in PERHAPS.items():
+        if found := offers.topics_of(kind):
+            lines += [f"# [{section}]  # {why}", f"# topic = {_quoted(found[0])}", ""]
     if offers.topics_of("rosgraph_msgs/msg/Clock"):
         lines += ["[clock]", 'topic = "/clock"', ""]
     return "\n".join(lines)

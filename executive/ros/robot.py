@@ -248,9 +248,11 @@ class WireRobot:
         pose = planar_pose(*stand, self._profile.frames.map)
         for leg in await self._actions.legs(pose):
             end = await self._act("drive", {"pose": leg, "place": place})
+            lost = bool(had) and self._senses.holding is False
             if not end.succeeded:
-                lost = bool(had) and self._senses.holding is False
                 return self._actions.failure(end, f"I did not get to the {place}", lost)
+            if lost:
+                return Failed(f"what I held fell on the way to the {place}", lost)
         self._at = place
         return Succeeded()
 
@@ -287,7 +289,7 @@ class WireRobot:
             return Failed(f"I am not at the {place}")
         if not 0 <= view < self.views(place):
             return Failed(f"there are only {self.views(place)} views of the {place}")
-        target = point or self._looking.targets(place)[view]
+        target = point or self._looking.target(place, view)
         if self._profile.look is not None:
             end = await self._act("look", self._looking.goal(place, target))
             if not end.succeeded:
@@ -360,4 +362,7 @@ class WireRobot:
         looked = await self._look(place, 0, None)
         if isinstance(looked, Failed):
             return looked
-        return await arm.put_down(place, await self._see())
+        seen = await self._see()
+        if not len(seen):
+            return Failed(f"my camera shows nothing of the {place}")
+        return await arm.put_down(place, seen)

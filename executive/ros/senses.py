@@ -17,6 +17,8 @@ from executive.types import Pose
 RESTING_M_S, RESTING_RAD_S = 0.01, 0.02
 """What is slower is at rest."""
 
+MOST_JOINTS = 2000
+"""So many names are remembered."""
 FEELING_S = 0.3
 """So long it may take until the hand is told of again."""
 
@@ -31,6 +33,8 @@ class Senses:
         """The robot's own time (s); None before it was heard of, or if nobody says it."""
         self.clock_heard = 0.0
         """When that was (real time, s)."""
+        self.joints: frozenset[str] = frozenset()
+        """The names of all that were told on the topic of the joints."""
         self._link = link
         self._profile = profile
         self._holding: bool | None = None
@@ -122,7 +126,12 @@ class Senses:
         self._newest = stamp_of(message)
 
     def _take_joints(self, message: Message) -> None:
-        self._joints_move = any(abs(v) >= RESTING_RAD_S for v in numbers(message["velocity"]))
+        if len(self.joints) < MOST_JOINTS:
+            self.joints |= {str(name) for name in message["name"]}
+        told = [v for v in numbers(message["velocity"]) if not math.isnan(v)]
+        if not told:
+            raise PacketError("joints without velocities, which may move or not")
+        self._joints_move = any(abs(v) >= RESTING_RAD_S for v in told)
 
     def _take_hand(self, message: Message) -> None:
         hand = self._profile.hand

@@ -1,5 +1,6 @@
 """Goals of actions as templates: `$pose` and the like stand for what is put in."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -50,6 +51,14 @@ OFFERED: Mapping[str, tuple[str, ...]] = {
     "gripper": ("position", "effort", "joint"),
 }
 """What stands for what in a goal, by section: `$pose` and so on."""
+WANTED: Mapping[str, tuple[str, ...]] = {
+    "drive": ("pose", "place"),
+    "look": ("point", "turn", "angles", "place"),
+    "pick": ("label", "points", "point", "pose"),
+    "arm": ("request",),
+    "gripper": ("position",),
+}
+"""One of these is in each goal of a section, or all its goals are the same."""
 
 
 def placeholders(value: Any) -> tuple[str, ...]:
@@ -63,6 +72,19 @@ def placeholders(value: Any) -> tuple[str, ...]:
             return tuple(word for one in value for word in placeholders(one))
         case _:
             return ()
+
+
+def is_finite(value: Any) -> bool:
+    """Whether all numbers in a template are such as can be sent."""
+    match value:
+        case float():
+            return math.isfinite(value)
+        case Mapping():
+            return all(map(is_finite, value.values()))
+        case list():
+            return all(map(is_finite, value))
+        case _:
+            return True
 
 
 def filled(template: Any, values: Mapping[str, Any]) -> Any:

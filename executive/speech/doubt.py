@@ -22,6 +22,8 @@ YES_OR_NO = "Please say yes or no"
 DROPPED = "Then I will not."
 OVERSPOKEN = "I was speaking, and did not understand you. Please say it again."
 TOO_MUCH = "That is more than I can hear at a time. Please say the last of it again."
+FRESH_S = 4.0
+"""So long ago it may have begun: else it could become the answer to what was asked since."""
 SHORTEST = 3
 """Letters of a word that may have been cut short."""
 OWN = 0.5
@@ -69,7 +71,7 @@ class Doubt:
         self._lock = threading.Lock()
         self._number = 0
         self._asked: AskedBack | None = None
-        self._until = 0.0
+        self._asked_at = self._until = 0.0
         self.changed: Callable[[], None] = lambda: None
         """Is called when something is asked back, and when it is no longer."""
         person.first = self.takes
@@ -79,15 +81,18 @@ class Doubt:
         """What a button may still answer; None if there is nothing."""
         return self._asked
 
-    def hear(self, reading: Reading, overlap: Overlap = NONE) -> None:
+    def hear(self, reading: Reading, overlap: Overlap = NONE, began: float | None = None) -> None:
         """The ears understood this, and the robot spoke meanwhile or not.
 
-        What was heard while it spoke is never certain. Mostly it is the robot itself.
+        What was heard while it spoke is never certain. Mostly it is the robot itself. Ears take
+        their time: what the person began to say (`began`, by the clock of this doubt) before
+        something was asked back is no answer to it.
         """
+        began = self._now() if began is None else began
         if not overlap.own:
-            self._hear(reading)
+            self._hear(reading, began)
         elif reading.text and not self._is_own(reading.text, overlap.own):
-            self._hear(replace(reading, sure=False))
+            self._hear(replace(reading, sure=False), began)
         elif overlap.beside:
             self._log(reading, "overspoken")
             self._person.mention(OVERSPOKEN)
@@ -98,7 +103,7 @@ class Doubt:
         """Somebody says more than the ears can hear."""
         self._person.mention(TOO_MUCH)
 
-    def _hear(self, reading: Reading) -> None:
+    def _hear(self, reading: Reading, began: float) -> None:
         text, asked = reading.text, self._waiting()
         if reading.problem:
             self._log(reading, f"failed: {reading.problem}")
@@ -110,8 +115,8 @@ class Doubt:
             self._log(reading, "not understood")
             self._person.mention(self._question(asked) if asked else UNCLEAR)
         elif asked and self._interpreter.agrees(text) is not None:
-            self._answer(reading, asked)
-        elif reading.sure:
+            self._answer(reading, asked, early=began < self._asked_at)
+        elif reading.sure and self._now() - began <= FRESH_S:
             self._take()
             self._log(reading, "certain")
             self._person.says(text)
@@ -161,10 +166,10 @@ class Doubt:
         stops = control(text) is Control.STOP
         return is_own(text, own) or (stops and not self._person.is_busy)
 
-    def _answer(self, reading: Reading, asked: str) -> None:
-        """A yes has to be certain; a no need not be."""
+    def _answer(self, reading: Reading, asked: str, *, early: bool) -> None:
+        """A yes has to be certain; a no need not be. Both have to come after the question."""
         agrees = self._interpreter.agrees(reading.text)
-        if agrees and not reading.sure:
+        if early or (agrees and not reading.sure):
             self._log(reading, "asked back")
             self._person.mention(self._question(asked))
             return
@@ -182,7 +187,8 @@ class Doubt:
         with self._lock:
             self._number += 1
             self._asked = asked = AskedBack(self._number, text)
-            self._until = self._now() + PATIENCE_S
+            self._asked_at = self._now()
+            self._until = self._asked_at + PATIENCE_S
         self._person.mention(asked.text)
         self.changed()
 

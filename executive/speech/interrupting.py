@@ -7,8 +7,8 @@ once too often; what it said can be read.
 
 LEARN_S = 2.0
 """So long it listens to itself before it believes anything."""
-LOUDER = 1.5
-"""Than the loudest of its own voice (tests/benchmarks/bench_speech.py --part over): none of its own
+LOUDER = 1.3
+"""Than the loudest of its own voice (tests/benchmarks/bench_own_voice.py --over): none of its own
 sentences is so much louder than those before it."""
 AT_LEAST_S = 0.2
 FORGETS = 0.995

@@ -38,13 +38,15 @@ class Listening:
         *,
         spotter: StopSpotter | None = None,
         voice: Voice | None = None,
+        live: bool = True,
     ) -> None:
-        """Put it together; `start` begins."""
+        """Put it together; `start` begins. What is not live waits until the ears have heard."""
         self._blocks = blocks
         self._doubt = doubt
         self._person = person
         self._spotter = spotter
         self._voice = voice
+        self._live = live
         self._closed = False
         self._hearing = Hearing(ears, doubt)
         self._interrupting = Interrupting()
@@ -104,6 +106,8 @@ class Listening:
     def _add(self, said: Sound, overlapping: Overlapping) -> None:
         self._heard = self._understands = True
         self._hearing.add(said, overlapping.take())
+        if not self._live:
+            self._hearing.settle()
 
     def _hears_stop(self, block: Sound, saying: str) -> bool:
         """Whether it ends a spoken stop: what runs is stopped, and the voice is silent."""

@@ -50,6 +50,11 @@ def microphone(name: str) -> Iterator[Sound]:
     return from_files([read_wav(file) for file in files])
 
 
+def is_live(name: str) -> bool:
+    """Whether it goes on while ears think: files wait for them."""
+    return name in ("-", RECORDER)
+
+
 def from_files(sounds: list[Sound], wait: Callable[[float], None] = time.sleep) -> Iterator[Sound]:
     """One file after the other, as slowly as they were spoken."""
     pause = np.zeros(int(PAUSE_S * RATE_HZ), dtype=np.int16)

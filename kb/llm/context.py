@@ -20,6 +20,8 @@ BATCH_TOKENS = 128
 """Tokens evaluated at a time: between two batches the caller may stop."""
 TAIL_TOKENS = 32
 """The same for what is likely to differ from prompt to prompt."""
+SMALLEST_WINDOW = 512
+"""Tokens that there is memory for at first; whoever reads more makes room for twice as many."""
 WHOLE = (-1, -1)
 """All positions of a sequence."""
 
@@ -41,6 +43,7 @@ class Context:
     ) -> None:
         """Room for so many tokens, and for so many sequences that share them.
 
+        Memory is taken as it is needed: a token takes 23 KiB of the embedded model's cache.
         What prompts begin with is looked for in what was `kept`, and kept there.
         Without `threads` one token at a time is evaluated by half of the cores, whose other half
         would only wait for memory, and batches by all.
@@ -48,33 +51,38 @@ class Context:
         Raises:
             ModelError: if there is not enough memory.
         """
+        self._model = model
+        self._n_ctx = tokens
+        self._sequences = sequences
+        self._threads = threads
+        self._kept = kept
+        self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, sequences)
+        self.evaluated = 0
+        """Tokens that were evaluated so far."""
+        self._batches: list[tuple[int, ...]] = []
+        self._length = 0
+        self.pointer: Any = None
+        self._open(min(tokens, SMALLEST_WINDOW))
+
+    def _open(self, tokens: int) -> None:
+        """Have memory for so many tokens."""
         params = llama_cpp.llama_context_default_params()
         params.n_ctx = tokens
         params.n_batch = params.n_ubatch = BATCH_TOKENS
-        params.n_seq_max = sequences
+        params.n_seq_max = self._sequences
         params.kv_unified = True
         params.no_perf = True
-        params.embeddings = sequences > 1
         params.pooling_type = llama_cpp.LLAMA_POOLING_TYPE_NONE
         cores = os.cpu_count() or 1
-        params.n_threads = threads or max(1, cores // 2)
-        params.n_threads_batch = threads or cores
-        self.pointer: Any = llama_cpp.llama_init_from_model(model.pointer, params)
+        params.n_threads = self._threads or max(1, cores // 2)
+        params.n_threads_batch = self._threads or cores
+        self.pointer = llama_cpp.llama_init_from_model(self._model.pointer, params)
         if not self.pointer:
             raise ModelError(f"no context of {tokens} tokens: {last_complaint()}")
         self._memory: Any = llama_cpp.llama_get_memory(self.pointer)
-        self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, sequences)
-        self._vocabulary_size = model.vocabulary_size
-        self._width = model.width
-        self._sequences = sequences
-        self._n_ctx = tokens
-        self.evaluated = 0
-        """Tokens that were evaluated so far."""
-        self._kept = kept
-        self._batches: list[tuple[int, ...]] = []
-        self._length = 0
+        self._window = tokens
 
-    def read(self, tokens: Sequence[int], head: int, checkpoint: Checkpoint) -> None:
+    def read(self, tokens: Sequence[int], head: int, checkpoint: Checkpoint, more: int = 1) -> None:
         """Make sequence 0 these tokens; the batches that it begins with already are kept.
 
         The last batch is evaluated in any case.
@@ -86,16 +94,18 @@ class Context:
             tokens: what to read, at least one token.
             head: how many of them later prompts will begin with, too: there is a cut.
             checkpoint: called before each batch.
+            more: how many may be appended.
 
         Raises:
             ModelError: if the window is too short for them and at least something after them.
         """
-        reserve = BATCH_TOKENS if self._sequences > 1 else 1
+        reserve = BATCH_TOKENS if self._sequences > 1 else max(1, more)
         if len(tokens) + reserve > self._n_ctx:
             raise ModelError(
                 f"the prompt takes {len(tokens)} tokens and needs room for {reserve} more, "
                 f"but the context window has {self._n_ctx}"
             )
+        self._make_room(len(tokens) + reserve)
         cuts = (*range(0, head, BATCH_TOKENS), *range(head, len(tokens), TAIL_TOKENS), len(tokens))
         batches = [tuple(tokens[start:end]) for start, end in pairwise(cuts)]
         begins = len(range(0, head, BATCH_TOKENS))
@@ -107,7 +117,8 @@ class Context:
             self._forget()
         for batch in batches[len(self._batches) :]:
             checkpoint()
-            self.append(batch)
+            last = len(self._batches) == len(batches) - 1
+            self._append(batch, state=last and self._sequences > 1)
             self._batches.append(batch)
             if len(self._batches) == begins < len(batches):
                 self._remember()
@@ -123,8 +134,13 @@ class Context:
 
     def append(self, tokens: Sequence[int]) -> None:
         """Evaluate further tokens of sequence 0 (at most BATCH_TOKENS)."""
+        self._append(tokens, state=False)
+
+    def _append(self, tokens: Sequence[int], *, state: bool) -> None:
+        """The same; with their states if they are asked for, which costs a fifth more."""
         rows = [_Row(token, self._length + i) for i, token in enumerate(tokens)]
         rows[-1] = replace(rows[-1], wanted=True)
+        llama_cpp.llama_set_embeddings(self.pointer, state)
         self._decode(rows)
         self._length += len(tokens)
 
@@ -167,12 +183,13 @@ class Context:
         Has to follow `read`; only a context of several sequences keeps states.
         """
         pointer = llama_cpp.llama_get_embeddings_ith(self.pointer, -1)
-        return np.ctypeslib.as_array(pointer, shape=(self._width,)).astype(np.float64)
+        return np.ctypeslib.as_array(pointer, shape=(self._model.width,)).astype(np.float64)
 
     def log_probabilities(self, row: int = -1) -> NDArray[np.float64]:
         """(vocabulary,) log P(next token) after this row of the last batch; -1: after the last."""
         pointer = llama_cpp.llama_get_logits_ith(self.pointer, row)
-        logits = np.ctypeslib.as_array(pointer, shape=(self._vocabulary_size,)).astype(np.float64)
+        shape = (self._model.vocabulary_size,)
+        logits = np.ctypeslib.as_array(pointer, shape=shape).astype(np.float64)
         logits -= logits.max()
         log_probabilities: NDArray[np.float64] = logits - np.log(np.exp(logits).sum())
         return log_probabilities
@@ -186,6 +203,18 @@ class Context:
         """How many of these sequence 0 begins with."""
         return sum(takewhile(bool, map(operator.eq, self._batches, batches)))
 
+    def _make_room(self, tokens: int) -> None:
+        """Have memory for so many tokens, and carry over what was read."""
+        window = self._window
+        while window < tokens:
+            window = min(2 * window, self._n_ctx)
+        if window > self._window:
+            read = self._cache()
+            llama_cpp.llama_free(self.pointer)
+            self._open(window)
+            if not self._restore(read, self._length):
+                self._batches, self._length = [], 0
+
     def _forget(self) -> None:
         llama_cpp.llama_memory_clear(self._memory, True)
         self._batches, self._length = [], 0
@@ -196,24 +225,33 @@ class Context:
         if content is None:
             return False
         self._forget()
-        buffer = (ctypes.c_uint8 * len(content)).from_buffer_copy(content)
-        read = llama_cpp.llama_state_seq_set_data(self.pointer, buffer, len(content), 0)
         length = sum(map(len, batches))
-        reaches = llama_cpp.llama_memory_seq_pos_max(self._memory, 0) + 1
-        if read != len(content) or reaches != length:
-            self._forget()
+        if not self._restore(content, length):
             return False
         self._batches, self._length = batches, length
         return True
 
     def _remember(self) -> None:
         """Keep what sequence 0 is."""
-        if self._kept is None:
-            return
+        if self._kept is not None:
+            self._kept.put(self._cache(), "cache", self._batches)
+
+    def _cache(self) -> bytes:
+        """The KV cache of sequence 0."""
         size = llama_cpp.llama_state_seq_get_size(self.pointer, 0)
         buffer = (ctypes.c_uint8 * size)()
         written = llama_cpp.llama_state_seq_get_data(self.pointer, buffer, size, 0)
-        self._kept.put(bytes(buffer[:written]), "cache", self._batches)
+        return bytes(buffer[:written])
+
+    def _restore(self, state: bytes, length: int) -> bool:
+        """Make sequence 0, which is empty, what it was; false if llama.cpp does not take it."""
+        buffer = (ctypes.c_uint8 * len(state)).from_buffer_copy(state)
+        read = llama_cpp.llama_state_seq_set_data(self.pointer, buffer, len(state), 0)
+        reaches = llama_cpp.llama_memory_seq_pos_max(self._memory, 0) + 1
+        if read == len(state) and reaches == length:
+            return True
+        llama_cpp.llama_memory_clear(self._memory, True)
+        return False
 
     def _decode(self, rows: Sequence["_Row"]) -> None:
         batch = self._batch

@@ -260,9 +260,9 @@ class LlamaCpp:
         model, context = loaded.model, self._writing()
         before = loaded.evaluated
         prompt, head = self._prompt(request)
-        context.read(prompt, head, checkpoint)
-        evaluated = loaded.evaluated - before
         room = min(self._max_tokens, self._n_ctx - len(prompt))
+        context.read(prompt, head, checkpoint, more=room)
+        evaluated = loaded.evaluated - before
         reply: Tokens = []
         first_token_s = 0.0
         ended = False

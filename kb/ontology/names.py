@@ -22,6 +22,8 @@ from executive.types import Place
 SHORTEST_WITH_A_SLIP = 4
 SLIP_LIKENESS = 0.75
 """One letter in four may be wrong, missing, or swapped with the next."""
+SHORT = 4
+"""In a word of so many letters two may only be swapped: "hell" and "wall" are no "hall"."""
 
 _ENUMERATION = re.compile(r"^\s*(?:\d+\s*[.):]|[-*•])\s*")
 
@@ -135,7 +137,10 @@ class PlaceNames:
         nearest = process.extract(
             word, self._vocabulary, scorer=OSA.normalized_similarity, score_cutoff=SLIP_LIKENESS
         )
-        return str(nearest[0][0]) if len(nearest) == 1 else word
+        names = [str(name) for name, _, _ in nearest]
+        if len(word) <= SHORT:
+            names = [name for name in names if sorted(name) == sorted(word)]
+        return names[0] if len(names) == 1 else word
 
     def _longest_match(
         self, words: list[str], furniture: list[str], rooms: list[str]

@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from rdflib import OWL, RDF, URIRef
+from rdflib import OWL, RDF, RDFS, BNode, URIRef
 from rdflib.term import Identifier
 
 from kb.ontology.graph import Graph
@@ -50,6 +50,7 @@ def unused(graph: Graph, namespace: str) -> Iterator[str]:
         ):
             yield f"{ending(entity)} is deprecated, and used all the same: take it out of the file"
     yield from _renamed(graph)
+    yield from _nameless(graph, namespace)
     yield from _looks(graph, namespace)
     if rest := _rest(graph, ours):
         only = "classes, their names, default locations, rooms, favourites, looks and uses are"
@@ -85,6 +86,16 @@ def _renamed(graph: Graph) -> Iterator[str]:
     used = {p for _, p, _ in graph.triples() if p.startswith(OWLREADY)}
     for relation in sorted(used):
         yield f"{ending(relation)} is an annotation for programs in Python, and not used"
+
+
+def _nameless(graph: Graph, namespace: str) -> Iterator[str]:
+    """Classes of objects that have no name of their own."""
+    things = set(graph.downwards(URIRef(namespace + ROOT)))
+    for subject in graph.subjects():
+        above = graph.objects(subject, RDFS.subClassOf) if isinstance(subject, BNode) else ()
+        if kind := next((one for one in above if one in things), None):
+            right = "give it a name of its own (rdf:about)"
+            yield f"a class below {ending(kind)} has no name, and is not used: {right}"
 
 
 def _looks(graph: Graph, namespace: str) -> Iterator[str]:

@@ -40,6 +40,7 @@ def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterato
     told = {link.subject for link in links}
     yield from _some(_outsiders(graph, list(roots.values()), told), "in no class")
     things = list(graph.downwards(roots["Object"]))
+    yield from _some(_of_two_sorts(graph, roots), "of two sorts")
     refused = (
         why
         for root in roots.values()
@@ -69,6 +70,14 @@ def _all(graph: Graph, root: Identifier) -> Iterator[Identifier]:
     """The classes below the root, and their individuals."""
     yield from graph.downwards(root)
     yield from graph.instances(root)
+
+
+def _of_two_sorts(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
+    """What is an object and a place, or a person, too."""
+    sorts = {name: set(graph.downwards(root)) for name, root in roots.items()}
+    for kind in sorts["Object"]:
+        if others := [name for name in ROOTS[1:] if kind in sorts[name]]:
+            yield f"{ending(kind)} is below Object and below {others[0]}: take out one subClassOf"
 
 
 def _cycles(graph: Graph) -> Iterator[str]:

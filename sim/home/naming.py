@@ -24,6 +24,8 @@ _UNSEEN = re.compile(
     "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]"
 )
 """What counts as letters and marks, and shows nothing (Unicode: Default_Ignorable_Code_Point)."""
+_LIKE_LATIN = frozenset(("LATIN", "GREEK", "CYRILLIC", "ARMENIAN", "CHEROKEE"))
+"""Alphabets that have letters which look like those of another one."""
 RULE = f"use up to {LONGEST} letters, digits, and single _ - ' or blanks between them"
 
 
@@ -43,7 +45,15 @@ def name_fault(name: str) -> str | None:
         or "  " in name
     ):
         return "does not begin and end with a letter or a digit, or has two blanks in a row"
+    if word := next(filter(_is_of_two_alphabets, re.split(r"[-_' ]", name)), ""):
+        return f"has letters of two alphabets in one word, {ascii(word)}, and looks like another"
     return None
+
+
+def _is_of_two_alphabets(word: str) -> bool:
+    """Whether it may look like a word that it is not: with a Cyrillic letter in "desk"."""
+    alphabets = {unicodedata.name(letter, "").partition(" ")[0] for letter in word}
+    return len(alphabets & _LIKE_LATIN) > 1
 
 
 def folded(name: str) -> str:

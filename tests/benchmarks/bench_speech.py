@@ -4,20 +4,29 @@ python tests/benchmarks/bench_speech.py                    # 70 commands in thre
 python tests/benchmarks/bench_speech.py --part dev         # those that SURE was chosen by
 python tests/benchmarks/bench_speech.py --part answers     # how certain a yes or a no is
 python tests/benchmarks/bench_speech.py --part stops       # how well a stop is spotted
+python tests/benchmarks/bench_speech.py --part dialogue --number 200 --keep FILE.jsonl
+                                                           # asked back, answered yes or no, done
+
+What is in FILE.jsonl already is not spoken again.
 """
 
 import argparse
+import json
 import random
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
+from dialogue import Spoken, Told  # noqa: E402
 from speaking import VOICES, four_rooms, say  # noqa: E402
 
+from executive.language.control import control  # noqa: E402
 from executive.language.grammar import EnglishInterpreter  # noqa: E402
+from executive.speech.jsgf import LITTLE  # noqa: E402
+from executive.speech.sound import Sound  # noqa: E402
 from executive.speech.sphinx import PocketsphinxEars  # noqa: E402
 from executive.speech.spotting import StopSpotter  # noqa: E402
 
@@ -112,6 +121,7 @@ TEST = [
     "stop",
 ]
 ANSWERS = ("yes", "no", "yes please", "okay")
+PARTS = ("test", "dev", "answers", "stops", "dialogue")
 STOPS = [
     "stop",
     "stop it",
@@ -163,6 +173,61 @@ def judge(part: str, number: int, voices: Sequence[str]) -> Counter[str]:
     return counts
 
 
+def means_the_same(interpreter: EnglishInterpreter, one: str, other: str) -> bool:
+    """Whether a person takes the one for the other: as deeds, or word for word where it is none."""
+    deeds = deed(interpreter, one), deed(interpreter, other)
+    if any(deeds):
+        return deeds[0] == deeds[1]
+    if control(one) or control(other):
+        return control(one) == control(other)
+    telling = [[word for word in said.split() if word not in LITTLE] for said in (one, other)]
+    return telling[0] == telling[1]
+
+
+def became(interpreter: EnglishInterpreter, words: str, told: Told) -> str:
+    """The verdict on one command."""
+    if told.done:
+        if all(means_the_same(interpreter, words, done) for done in told.done):
+            return "done as said" if told.asked else "stopped as said"
+        return "STOPPED, NOT SAID" if told.done == ["stop"] else "WRONG DEED"
+    if not told.asked:
+        return "asked to repeat"
+    right = means_the_same(interpreter, words, told.asked[-1])
+    return "asked back rightly, the yes not certain" if right else "asked back wrongly, not done"
+
+
+def answerer(
+    interpreter: EnglishInterpreter, meant: str, voice: str, chance: random.Random
+) -> Callable[[str], tuple[str, Sound]]:
+    """A person who says yes to what they meant, and no to anything else; now faster, now slower."""
+
+    def answer(asked: str) -> tuple[str, Sound]:
+        said = "yes" if means_the_same(interpreter, meant, asked) else "no"
+        return said, say(said, voice, chance.randrange(130, 200))
+
+    return answer
+
+
+def dialogue(number: int, voices: Sequence[str], kept: Path) -> Counter[str]:
+    """Speak, be asked back, answer in the same voice, and count what was done."""
+    ears, interpreter = PocketsphinxEars(four_rooms()), EnglishInterpreter()
+    lines = kept.read_text("utf-8").splitlines() if kept.exists() else []
+    counts = Counter(json.loads(line)["became"] for line in lines)
+    every = [(voice, words) for words in sentences(TEST, number, 42) for voice in voices]
+    for at, (voice, words) in enumerate(every):
+        if at < len(lines):
+            continue
+        answer = answerer(interpreter, words, voice, random.Random(at))
+        told = Spoken(ears, interpreter).command(say(words, voice), answer)
+        verdict = became(interpreter, words, told)
+        counts[verdict] += 1
+        row = {"voice": voice, "words": words, "became": verdict, **vars(told)}
+        with kept.open("a", encoding="utf-8") as file:
+            print(json.dumps(row), file=file)
+        print(f"{at + 1:4} of {len(every)}  {verdict:20} {voice:9} {words} | {told}", flush=True)
+    return counts
+
+
 def answers() -> Counter[str]:
     """How often a yes or a no is certain, and how often one is taken for the other."""
     ears, interpreter, counts = PocketsphinxEars(four_rooms()), EnglishInterpreter(), Counter()
@@ -191,17 +256,20 @@ def stops() -> Counter[str]:
 def main() -> None:
     """Print the counts."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--part", choices=("test", "dev", "answers", "stops"), default="test")
+    parser.add_argument("--part", choices=PARTS, default="test")
     parser.add_argument("--number", type=int, default=70)
     parser.add_argument(
         "--voice", action="append", help="of espeak-ng; repeatable (default: three)"
     )
+    parser.add_argument("--keep", type=Path, default=Path("dialogue.jsonl"))
     options = parser.parse_args()
     match options.part:
         case "stops":
             counts = stops()
         case "answers":
             counts = answers()
+        case "dialogue":
+            counts = dialogue(options.number, options.voice or VOICES, options.keep)
         case part:
             counts = judge(part, options.number, options.voice or VOICES)
     for verdict, count in sorted(counts.items()):

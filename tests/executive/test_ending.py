@@ -29,12 +29,15 @@ def _own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTHONUNBUFFERED", "1")
 
 
-def wait_for(words: str, stream: IO[str] | None) -> None:
+def wait_for(words: str, stream: IO[str] | None, *more: str) -> None:
+    """Until these words were said; and more, in any order, as threads say them."""
     assert stream
+    waited_for = {words, *more}
     for line in stream:
-        if words in line:
+        waited_for = {words for words in waited_for if words not in line}
+        if not waited_for:
             return
-    raise AssertionError(f"never said {words!r}")
+    raise AssertionError(f"never said {waited_for}")
 
 
 # --- in the first second ---
@@ -119,8 +122,7 @@ def test_a_stop_ends_the_mission_and_not_the_session() -> None:
         print("Find an apple", file=process.stdin, flush=True)
         wait_for("Where is the apple?", process.stderr)
         print("CANCEL, please!", file=process.stdin, flush=True)
-        wait_for("Stopping.", process.stderr)
-        wait_for("What can I do for you?", process.stderr)
+        wait_for("Stopping.", process.stderr, "What can I do for you?")
         print("stop", file=process.stdin, flush=True)
         wait_for("There is nothing to stop", process.stderr)
         out, _ = process.communicate("Find an apple\nliving room\nquit\n", timeout=PATIENCE_S)
@@ -156,8 +158,7 @@ def test_at_a_real_terminal_stop_and_quit_are_heard(
     os.write(keys, b"Find an apple\n")
     wait_for("Where is the apple?", process.stderr)
     os.write(keys, b"Stop!\n")
-    wait_for("Stopping.", process.stderr)
-    wait_for("What can I do for you?", process.stderr)
+    wait_for("Stopping.", process.stderr, "What can I do for you?")
     os.write(keys, b"quit\n")
     assert process.wait(timeout=PATIENCE_S) == 130
 

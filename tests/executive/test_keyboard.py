@@ -48,6 +48,12 @@ class Typist:
         before, _, self.shown = self.shown.partition(words)
         return before
 
+    def sees_both(self, one: str, other: str) -> None:
+        """Wait until both are shown; threads say them, which comes first is not known."""
+        before = self.sees(one)
+        if other not in before:
+            self.sees(other)
+
     def types(self, keys: str) -> None:
         os.write(self.keys, keys.encode())
 
@@ -103,8 +109,7 @@ def test_ctrl_c_at_the_prompt_stops_what_is_asked_about(typist: Typist) -> None:
     typist.sees("Where is the apple?")
     typist.sees(PROMPT)
     typist.types("\x03")
-    typist.sees("Stopping.")
-    typist.sees("stopped by Ctrl-C")
+    typist.sees_both("Stopping.", "stopped by Ctrl-C")
     assert typist.ends_with() == 130
 
 

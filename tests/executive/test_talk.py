@@ -29,6 +29,15 @@ def _own_folder_and_signals(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
         ("Thanks", "You are welcome."),
         ("help", "I can find, take, bring"),
         ("What can you do?", "Say for example 'Find the apple'"),
+        ("Where is the sofa?", "The sofa is in the living room."),
+        ("Where is the bedroom?", "In the bedroom there is the bed, the desk and the bookshelf"),
+        (
+            "Where do you keep the scissors?",
+            "The scissors are usually on the desk or the sideboard.",
+        ),
+        ("Which fruits do you know?", "I know the apple, the banana,"),
+        ("What is a unicorn?", "I know no 'unicorn'."),
+        ("The mug and the pear are on the bed", "I remember that the pear is on the bed."),
     ],
 )
 def test_is_answered_without_a_run_folder(

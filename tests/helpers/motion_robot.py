@@ -16,6 +16,7 @@ PROFILE = Path(__file__).with_name("motion_robot.toml")
 REACH_M, SHOULDER_M = 1.3, 0.8
 BETWEEN_M = 0.06
 """What is so near to the point between the fingers is held."""
+FAR_MM = 3000
 CARRIED = np.array([0.3, 0.0, 1.0])
 NO_WAY = -31
 
@@ -40,8 +41,15 @@ class MotionRobot(SecondRobot):
         self.turned = Rotation.identity()
         self.grasp: tuple[np.ndarray, Rotation] | None = None
         """Where it is in the hand, if it is there."""
+        self.is_blind = False
+        self.squeezes_on = False
+        """Whether closing the fingers has no end."""
         self.motions: list[dict[str, Any]] = []
         """What it was asked for, each with the scene it was given."""
+
+    def drop(self) -> None:
+        """Lose what is in the hand."""
+        self.grasp, self.holds = None, ""
 
     async def _pursue(self, action: str) -> None:
         _, goal = self._under_way[action]
@@ -87,6 +95,8 @@ class MotionRobot(SecondRobot):
         elif not closes:
             self.grasp = None
         self.holds = "thing" if self.grasp is not None else ""
+        if closes and self.squeezes_on:
+            return
         said = {"position": position, "stalled": near, "reached_goal": not near}
         await self._end("/acme/gripper", GoalStatus.SUCCEEDED, **said)
 
@@ -117,8 +127,10 @@ class MotionRobot(SecondRobot):
         return told
 
     def _range(self) -> dict[str, Any]:
-        """Nothing was measured."""
-        return {**super()._range(), "data": bytes(len(super()._range()["data"]))}
+        """Only the uppermost row sees something, far behind what it looks at; blind, none does."""
+        said = super()._range()
+        row = b"" if self.is_blind else FAR_MM.to_bytes(2, "little") * (said["step"] // 2)
+        return {**said, "data": row.ljust(len(said["data"]), b"\0")}
 
     def _frame(self, parent: str, child: str, at: np.ndarray, turn: Rotation) -> dict[str, Any]:
         transform = {

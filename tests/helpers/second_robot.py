@@ -78,6 +78,8 @@ class SecondRobot:
         """So many cancels find no action: as by a bridge that has just begun."""
         self.unheard = 0
         """So many cancels are lost on their way."""
+        self.told: dict[str, dict[str, Any]] = {}
+        """Fields of a topic's messages that are told otherwise."""
         self.headers: list[dict[str, str]] = []
         self.port = 0
         self._clients: dict[ServerConnection, dict[str, Subscribe]] = {}
@@ -116,6 +118,11 @@ class SecondRobot:
         """Send this to whoever listens, as it is."""
         for client in tuple(self._clients):
             asyncio.run_coroutine_threadsafe(client.send(packet), self._loop).result(PATIENCE_S)
+
+    def call_off(self, action: str, **said: Any) -> None:
+        """Cancel its goal, as somebody else may."""
+        end = self._end(action, GoalStatus.CANCELED, **said)
+        asyncio.run_coroutine_threadsafe(end, self._loop).result(PATIENCE_S)
 
     # --- the server ---
 
@@ -263,7 +270,7 @@ class SecondRobot:
             for topic in (name for name in makers if name in wanted):
                 if topic in FIXED_ARRAYS and wanted[topic] == Compression.CBOR:
                     continue
-                message = made.setdefault(topic, makers[topic]())
+                message = made.setdefault(topic, makers[topic]() | self.told.get(topic, {}))
                 with suppress(ConnectionClosed):
                     await client.send(encode(Publish(topic, message), wanted[topic]))
 

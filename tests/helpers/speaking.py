@@ -18,9 +18,9 @@ needs_espeak = pytest.mark.skipif(
 )
 
 
-def say(words: str, voice: str = "en-us") -> Sound:
+def say(words: str, voice: str = "en-us", words_a_minute: int = 175) -> Sound:
     """The sentence, with a little quiet (noise that can hardly be heard) around it."""
-    command = ["espeak-ng", "-v", voice, "--stdout", words]
+    command = ["espeak-ng", "-v", voice, "-s", str(words_a_minute), "--stdout", words]
     content = subprocess.run(command, check=True, capture_output=True, timeout=PATIENCE_S).stdout
     quiet = np.random.default_rng(0).normal(0, 3, int(QUIET_S * RATE_HZ)).astype(np.int16)
     return np.concatenate([quiet, from_wav(content, words), quiet])

@@ -116,6 +116,29 @@ def test_where_it_was_not_while_nobody_saw_it_tells_when_it_was_taken() -> None:
     assert rate[8:10].sum() > 10 * rate[10:20].sum()
 
 
+WORKING_DAYS = [
+    fact
+    for day in range(28)
+    for fact in (
+        (SEEN, "scissors", "shelf", day * 24 + 8.0),
+        (SEEN, "scissors", "shelf" if day % 7 in (2, 3) else "desk", day * 24 + 12.0),
+        (SEEN, "scissors", "shelf", day * 24 + 20.0),
+    )
+]
+"""The scissors are on the desk at noon, but not on Saturdays and Sundays; day 0 was a Thursday."""
+
+
+@pytest.mark.parametrize(("day", "place"), [(28, "desk"), (29, "desk"), (30, "shelf")])
+def test_the_weekend_is_learned_apart(day: int, place: str) -> None:
+    today = (SEEN, "scissors", "shelf", day * 24 + 8.0)
+    assert shares(learned([*WORKING_DAYS, today], day * 24 + 12.5), "scissors")[place] > 0.7
+
+
+def test_what_is_taken_to_a_place_daily_is_taken_there_from_a_new_one_too() -> None:
+    today = (PUT, "scissors", "delivery", 28 * 24 + 8.0)
+    assert shares(learned([*WORKING_DAYS, today], 28 * 24 + 12.5), "scissors")["desk"] > 0.5
+
+
 def test_a_thing_that_was_at_very_many_places_is_followed_all_the_same() -> None:
     facts = [(SEEN, "mug", f"place {hour % 40}", float(hour)) for hour in range(200)]
     said = said_by(learned(facts, now_h=201), "mug")

@@ -2,6 +2,7 @@
 
 import os
 import random
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -49,7 +50,9 @@ def test_what_is_damaged_is_not_found(cache: Path):
 
 
 @given(at=st.integers(0, 41), byte=st.integers(0, 255), length=st.integers(0, 60))
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], deadline=None
+)
 def test_whatever_is_changed_in_a_file_it_is_as_it_was_or_not_there(cache, at, byte, length):
     kept = Kept()
     kept.put(b"many bytes", "mug")
@@ -160,6 +163,22 @@ def rank(thing: str) -> Scored:
     return scored
 
 
+@pytest.fixture(scope="module")
+def asked_once(tmp_path_factory: pytest.TempPathFactory) -> tuple[Scored, Path]:
+    """What a model answered that had read nothing, and what it has kept."""
+    folder = tmp_path_factory.mktemp("asked once")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(folder))
+        return rank("hammer"), folder
+
+
+@pytest.fixture
+def first(cache: Path, asked_once: tuple[Scored, Path]) -> Scored:
+    """What was answered before; what was kept of it is in the cache."""
+    shutil.copytree(asked_once[1], cache.parents[1], dirs_exist_ok=True)
+    return asked_once[0]
+
+
 def written(thing: str) -> Replied:
     """Have it write where the thing is."""
 
@@ -187,28 +206,27 @@ def damage(path: Path, chance: random.Random) -> None:
 
 
 @pytest.mark.llm
-def test_the_next_process_evaluates_only_what_is_about_its_own_thing(cache: Path):
+def test_the_next_process_evaluates_only_what_is_about_its_own_thing(
+    cache: Path, asked_once: tuple[Scored, Path]
+):
     rank("mug")
     next_one = rank("hammer")
     assert 0 < next_one.usage.evaluated_tokens < 70
-    for path in cache.iterdir():
-        path.unlink()
-    anew = rank("hammer")
+    anew, _ = asked_once
     assert anew.scores == next_one.scores
     assert anew.usage.evaluated_tokens > 300
 
 
 @pytest.mark.llm
-def test_what_was_asked_before_is_known(cache: Path):
-    first, second = rank("hammer"), rank("hammer")
+def test_what_was_asked_before_is_known(first: Scored):
+    second = rank("hammer")
     assert second.scores == first.scores
     assert second.usage.input_tokens == first.usage.input_tokens
     assert second.usage.evaluated_tokens == 0
 
 
 @pytest.mark.llm
-def test_whatever_is_damaged_no_score_is_another(cache: Path):
-    first = rank("hammer")
+def test_whatever_is_damaged_no_score_is_another(cache: Path, first: Scored):
     chance = random.Random(17)
     for _ in range(3):
         for path in sorted(cache.iterdir()):
@@ -220,9 +238,8 @@ def test_whatever_is_damaged_no_score_is_another(cache: Path):
 
 @pytest.mark.llm
 def test_a_cache_that_llama_cpp_refuses_is_evaluated_anew(
-    cache: Path, monkeypatch: pytest.MonkeyPatch
+    first: Scored, monkeypatch: pytest.MonkeyPatch
 ):
-    first = rank("hammer")
     refused = bytes(5000)
     monkeypatch.setattr(Kept, "get", lambda self, *asked: refused if "cache" in asked else None)
     assert rank("hammer").scores == first.scores

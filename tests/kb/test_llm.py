@@ -153,6 +153,26 @@ def test_scoring_does_not_disturb_the_prefix_of_writing(real):
 
 
 @pytest.mark.llm
+@pytest.mark.parametrize("appended", [0, 3])
+def test_a_context_that_makes_room_goes_on_as_one_that_had_it(monkeypatch, appended: int):
+    gguf = Gguf(embedded_model())
+    tokens = gguf.tokenize("The mug is in the kitchen, on the table by the door. " * 30)
+    likely = []
+    for smallest in (256, 1024):
+        monkeypatch.setattr("kb.llm.context.SMALLEST_WINDOW", smallest)
+        context = Context(gguf, 1024)
+        context.read(tokens[:200], 0, lambda: None)
+        context.read(tokens, 0, lambda: None, more=appended)
+        for token in tokens[:appended]:
+            context.append([token])
+        likely.append((context.evaluated, context.log_probabilities().tolist()))
+        context.close()
+    gguf.close()
+    assert len(tokens) > 256
+    assert likely[0] == likely[1]
+
+
+@pytest.mark.llm
 def test_the_batched_scores_are_those_of_one_token_after_the_other(real):
     model, inbox = real
     scored = end_of(inbox, model.rank(RANK))

@@ -445,3 +445,20 @@ def test_the_turtle_that_the_docs_show_says_what_the_docs_say(tmp_path):
     assert known.preferred(("apple", "pear")) == ("pear",)
     assert known.objects_for("write a letter with") == ("pen",)
     assert [*known.faults(), *known.unused(), *known.warnings()] == []
+
+
+def test_a_class_of_objects_without_a_name_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    content = f'<owl:Class><rdfs:subClassOf rdf:resource="{HOUSE}Mug"/></owl:Class>'
+    said = "a class below Mug has no name, and is not used: give it a name of its own"
+    assert any(said in line for line in checked(tmp_path, content, capsys))
+
+
+def test_what_is_a_thing_and_a_place_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    above = f'<rdfs:subClassOf rdf:resource="{HOUSE}Furniture"/>'
+    content = f'<owl:Class rdf:about="{HOUSE}Mug">{above}</owl:Class>'
+    said = "Mug is below Object and below Furniture: take out one subClassOf"
+    assert said in checked(tmp_path, content, capsys)

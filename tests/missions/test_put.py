@@ -163,6 +163,12 @@ def test_beside_a_thing_is_where_that_is_believed_to_be(serve: Serve) -> None:
     assert (outcome.status, world.resting_place("hammer")) == (MissionStatus.DONE, "sofa")
 
 
+def test_beside_one_of_two_things_is_beside_the_one_that_is_found(serve: Serve) -> None:
+    session, world = serve()
+    outcome = session.run("Put the apple next to the mug or the hammer")
+    assert (outcome.status, world.resting_place("apple")) == (MissionStatus.DONE, "coffee_table")
+
+
 def test_what_it_is_to_be_put_beside_is_found_first(serve: Serve) -> None:
     session, world = serve()
     outcome = session.run("Take the hammer from the shelf in the lobby and put it next to the mug")

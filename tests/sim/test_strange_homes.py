@@ -114,6 +114,7 @@ def test_a_name_that_means_something_else_is_refused(said, name: str) -> None:
         ("no_smoking_table", "leave 'no' out"),
         ("salt and pepper rack", "leave 'and' out"),
         ("the", "it has no word that says which place it is; add one"),
+        ("d\u0435sk", "has letters of two alphabets in one word"),
     ],
 )
 def test_a_name_that_is_mistaken_for_another_is_refused(said, name: str, sentence: str) -> None:

@@ -10,12 +10,22 @@ const MOST = 500;
 const NEAR_END_PX = 80;
 const FIRST = 3; // reasons that are shown at once
 
+let atEnd = true;
+
+/** Whoever has not scrolled up keeps seeing the end, whatever takes room below. */
+scroll.addEventListener("scroll", () => { atEnd = isNearEnd(); });
+new ResizeObserver(() => atEnd && toEnd()).observe(scroll);
+
+function isNearEnd() {
+  return scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < NEAR_END_PX;
+}
+
 export function forget() {
   list.replaceChildren();
 }
 
 export function add(entry) {
-  const follows = scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < NEAR_END_PX;
+  const follows = atEnd;
   list.append(item(entry));
   while (list.children.length > MOST) list.firstElementChild.remove();
   if (follows || entry.who === "person") toEnd();

@@ -8,6 +8,7 @@ const list = document.getElementById("places");
 const MARGIN_M = 0.1;
 const LETTER_M = 0.15;
 const ABOVE_M = 0.36;
+const LEAST = 0.005; // who says less, of several, says nothing
 const MARKS = { open: "?", current: "→", empty: "✕", unreached: "!", found: "✓" };
 const layers = {};
 let home = null;
@@ -164,7 +165,8 @@ function plan({ places, ask_after: askAfter }) {
 }
 
 function said(sources) {
-  const named = Object.entries(sources).filter(([source]) => source);
+  const all = Object.entries(sources).filter(([source]) => source);
+  const named = all.filter(([, share]) => share === null || share >= LEAST || all.length === 1);
   return named.map(([source, share], at) => {
     const name = textOr(`sources.${source}`, source);
     const one = share !== null && named.length > 1 ? `${name} ${percent(share)}` : name;

@@ -16,7 +16,10 @@ const trouble = document.getElementById("trouble");
 const form = document.getElementById("form");
 const words = document.getElementById("words");
 const stopButton = document.getElementById("stop");
+const views = document.querySelectorAll(".views button");
+const HOME = "#home";
 const troubles = new Map();
+const TROUBLES = ["stop", "wire", "choice", "say"]; // what matters most comes first
 const LONGEST = 1000;
 const TWO_TAPS_MS = 400;
 let board = {};
@@ -44,8 +47,14 @@ const show = {
   },
   doing: showDoing,
   outcome: () => showDoing(board.doing),
-  question: showQuestion,
-  asked_back: askBack,
+  question(question) {
+    setTrouble("choice", ""); // it was about another one
+    showQuestion(question);
+  },
+  asked_back(asked) {
+    setTrouble("choice", "");
+    askBack(asked);
+  },
   speech(may) {
     voice.offer(may);
     ears.offer(may);
@@ -123,14 +132,20 @@ function offer(question) {
 /** What can be chosen is taken away at once; it comes back if the choice did not reach the robot. */
 async function chosen(said, question) {
   chosenAt = performance.now();
+  setTrouble("choice", "");
   offer(null);
   try {
     await answer(said, question.id);
     setTrouble("say", "");
   } catch (error) {
-    setTrouble("say", text(error === OVER ? "too_late" : "not_chosen", { text: said }));
+    notChosen(error, said);
     if (error !== OVER) showQuestion(board.question);
   }
+}
+
+function notChosen(error, said) {
+  if (error === OVER) setTrouble("say", text("too_late", { text: said }));
+  else setTrouble("choice", text("not_chosen"));
 }
 
 function askBack(asked) {
@@ -141,12 +156,13 @@ function askBack(asked) {
 
 async function settled(asked, agrees) {
   chosenAt = performance.now();
+  setTrouble("choice", "");
   askBack(null);
   try {
     await settle(asked.id, agrees);
     setTrouble("say", "");
   } catch (error) {
-    setTrouble("say", text(error === OVER ? "too_late" : "not_chosen", { text: text(agrees ? "yes" : "no") }));
+    notChosen(error, text(agrees ? "yes" : "no"));
     if (error !== OVER) askBack(board.asked_back);
   }
 }
@@ -164,7 +180,7 @@ function focusWords() {
 function setTrouble(name, message) {
   if (message) troubles.set(name, message);
   else troubles.delete(name);
-  const shown = [...troubles.values()].join(" ");
+  const shown = TROUBLES.map((one) => troubles.get(one)).filter(Boolean).join(" ");
   trouble.hidden = !shown;
   if (trouble.textContent !== shown) trouble.textContent = shown;
 }
@@ -206,15 +222,21 @@ document.addEventListener("keydown", (event) => {
     stop();
   }
 }, true);
-for (const button of document.querySelectorAll(".views button")) {
+/** On a small screen: what the address says is shown, so that one goes back with the browser's button. */
+function showView() {
+  const view = location.hash === HOME ? "home" : "talk";
+  document.body.dataset.view = view;
+  for (const button of views) button.setAttribute("aria-pressed", String(button.dataset.view === view));
+  conversation.toEnd();
+}
+
+for (const button of views) {
   button.addEventListener("click", () => {
-    document.body.dataset.view = button.dataset.view;
-    for (const other of document.querySelectorAll(".views button")) {
-      other.setAttribute("aria-pressed", String(other === button));
-    }
-    conversation.toEnd();
+    location.hash = button.dataset.view === "home" ? HOME : "";
   });
 }
+addEventListener("hashchange", showView);
+showView();
 
 const connection = {
   open: () => setTrouble("wire", ""),

@@ -2,8 +2,11 @@
 
 let texts = {};
 
+const AGAIN_MS = 1500;
+
+/** Get the file; without it nothing can be said, so it is tried until it is there. */
 export async function load(file) {
-  texts = await (await fetch(file)).json();
+  texts = await got(file);
   document.documentElement.lang = texts.language;
   document.title = texts.title;
   for (const element of document.querySelectorAll("[data-text]")) {
@@ -11,6 +14,16 @@ export async function load(file) {
   }
   for (const element of document.querySelectorAll("[data-label]")) {
     element.setAttribute("aria-label", text(element.dataset.label));
+  }
+}
+
+async function got(file) {
+  for (;;) {
+    try {
+      return await (await fetch(file)).json();
+    } catch {
+      await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
+    }
   }
 }
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from llama_server import llama_server
+from patience import PATIENCE_S
 
 from executive.campaign.__main__ import main
 from executive.campaign.journal import Entry, Journal, Row
@@ -83,10 +84,12 @@ def test_the_workers_of_a_cluster_share_one_server_of_the_language_model(
 ) -> None:
     file, out = tmp_path / "commands.txt", tmp_path / "out"
     file.write_text("Find an apple.")
+    (tmp_path / "patient.toml").write_text(f"llm_timeout_s = {10 * PATIENCE_S}")
     address = address_of(start("scheduler", "--port", "0", "--host", "127.0.0.1"))
     worker = ("worker", address, "--nthreads", "1", "--no-nanny")
     start(*worker), start(*worker)
     options = ["--seeds", "2", "--commands", str(file), "--systems", "okb+llm", "--out", str(out)]
+    options += ["--config", str(tmp_path / "patient.toml")]
     with llama_server(tmp_path / "log") as server:
         assert main([*options, "--llm", server.url, "--cluster", address]) == 0
     rows = rows_of(out)

@@ -96,7 +96,7 @@ IT = Things((Thing("it", pronoun=True, definite=True),))
         ("Bring both the mug and the pear", asks(Task(CommandKind.BRING, certain("mug", "pear")))),
         (
             "Bring a couple of the mugs",
-            asks(Task(CommandKind.BRING, Things((Thing("mugs"),)))),
+            asks(Task(CommandKind.BRING, Things((Thing("mugs", number=2, definite=True),)))),
         ),
         ("Put it back", asks(Task(CommandKind.PUT_BACK, IT))),
         ("Put it down", asks(Task(CommandKind.PUT_DOWN, IT))),

@@ -81,3 +81,52 @@ names = st.text(min_size=1, max_size=8)
 def test_a_recording_keeps_all_of_it(spoken: Spoken) -> None:
     words = after(read.read("If there is an apple on the desk, bring it, otherwise a pear"), spoken)
     assert Spoken.from_json(words.to_json()) == words
+
+
+@pytest.mark.parametrize(
+    ("words", "target"),
+    [
+        ("Take the mug if it is on the desk", "mug"),
+        ("If there is a mug on the desk, bring it", "mug"),
+        ("Is the mug on the desk? If so, bring it", "mug"),
+        ("Is there a mug on the desk? If so, bring me one", "mug"),
+    ],
+)
+def test_it_in_a_condition_is_what_the_same_sentence_names(words: str, target: str) -> None:
+    [[made]] = read.commands(words, FRUIT)
+    assert made.target == target
+    assert not made.sought or made.sought.target == target
+
+
+def asked_before(words: str) -> Spoken:
+    return after(read.read(words), NOTHING)
+
+
+def test_if_so_is_about_the_question_before() -> None:
+    [[made]] = read.commands("If so, bring me one", asked_before("Is there a mug on the desk?"))
+    assert (made.kind, made.target, made.conditional) == ("bring", "mug", True)
+    assert made.sought
+    assert made.sought.source == "desk"
+
+
+def test_if_not_is_about_the_question_before() -> None:
+    [[made]] = read.commands("If not, bring the pear", asked_before("Is the mug on the desk?"))
+    assert (made.kind, made.target) == ("check", "mug")
+    assert made.unless
+    assert made.unless.target == "pear"
+
+
+def test_if_so_after_no_question_is_not_done() -> None:
+    assert not read.commands("If so, bring me one", FRUIT)
+    assert "depends" in read.remark("If so, bring me one", FRUIT)
+
+
+@pytest.mark.parametrize("words", ["No, five", "I mean five", "Make it five"])
+def test_another_number_is_of_the_same_things(words: str) -> None:
+    [[made]] = read.commands(words, asked_before("Bring two tools"))
+    assert (made.kind, made.target, made.number) == ("bring", "tools", 5)
+
+
+def test_what_was_brought_and_is_to_go_elsewhere_is_put_there() -> None:
+    [[made]] = read.commands("No, to the kitchen", asked_before("Bring the mug"))
+    assert (made.kind, made.target, made.goal) == ("put", "mug", "kitchen")

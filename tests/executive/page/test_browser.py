@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
-from browsing import answer, opened, said, say, wait_until_ready
+from browsing import PHONE, answer, opened, said, say, wait_until_ready
 from paging import TOKEN, Robot, heard, robot
 from playwright.sync_api import Browser, Route, expect
 
@@ -132,7 +132,10 @@ def test_a_question_is_stopped_as_well(browser: Browser, talking: Robot, how: st
         expect(tab.locator("#answers")).to_be_hidden()
 
 
-def test_it_is_stopped_at_any_moment(browser: Browser, tmp_path: Path) -> None:
+def test_it_is_stopped_at_any_moment(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sim.fake.SPEED_M_S", 0.1)  # not there before a busy machine says stop
     chance = random.Random(0)
     with (
         robot(tmp_path, world="paging:in_real_time") as made,
@@ -177,6 +180,68 @@ def test_a_page_that_is_closed_and_opened_again_goes_on(browser: Browser, talkin
         answer(tab, "high table").click()
         wait_until_ready(tab)
     assert [outcome.status for outcome in talking.outcomes] == ["done"]
+
+
+def test_the_end_of_the_conversation_stays_in_sight(browser: Browser, talking: Robot) -> None:
+    with opened(browser, talking.page, viewport=PHONE) as tab:
+        wait_until_ready(tab)
+        say(tab, "Bring a fruit")
+        for label in ("peach", "sofa", "high table"):
+            answer(tab, label).click()
+        expect(tab.locator("#last")).to_have_text("Last time: done.")
+        expect(tab.locator("#said > li").last).to_contain_text("Here is the peach")
+        expect(tab.locator("#said > li").last).to_be_in_viewport(ratio=0.95)
+
+
+def test_a_choice_that_was_lost_on_the_way_is_told_until_its_question_is_over(
+    browser: Browser, talking: Robot
+) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find a fruit")
+        expect(answer(tab, "peach")).to_be_visible()
+        tab.route("**/say*", lambda route: route.abort())
+        answer(tab, "peach").click()
+        expect(tab.get_by_role("alert")).to_have_text(
+            "Your answer could not be sent: choose again."
+        )
+        expect(answer(tab, "peach")).to_be_visible()
+        talking.page.says("banana")
+        expect(tab.get_by_role("alert")).to_be_hidden()
+
+
+def test_the_browsers_buttons_go_between_what_is_shown_on_a_phone(
+    browser: Browser, talking: Robot
+) -> None:
+    with opened(browser, talking.page, viewport=PHONE) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find a fruit")
+        tab.get_by_role("button", name="Home and camera").click()
+        expect(tab.locator("#map")).to_be_visible()
+        tab.reload()
+        expect(tab.locator("#map")).to_be_visible()
+        tab.go_back()
+        expect(answer(tab, "peach")).to_be_visible()
+        expect(tab.locator("#map")).to_be_hidden()
+
+
+def test_texts_that_are_lost_on_the_way_are_asked_for_again(
+    browser: Browser, talking: Robot
+) -> None:
+    lost: list[str] = []
+
+    def lose_once(route: Route) -> None:
+        if lost:
+            route.continue_()
+        else:
+            lost.append(route.request.url)
+            route.abort()
+
+    with opened(browser, talking.page) as tab:
+        tab.route("**/english.json", lose_once)
+        tab.reload()
+        wait_until_ready(tab)
+    assert lost
 
 
 def test_a_lost_connection_is_told_and_made_again(browser: Browser) -> None:

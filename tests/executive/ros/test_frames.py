@@ -1,5 +1,6 @@
 """Where a robot's frames are, from what it says on /tf."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from executive.ros.frames import KEPT, FrameTree
+from executive.ros.packets import PacketError
 from executive.types import Pose
 
 COORDINATE = st.floats(-10, 10)
@@ -85,6 +87,17 @@ def test_a_clock_that_is_set_back_begins_anew() -> None:
     tree.take(said("map", "base", Pose((5.0, 0.0, 0.0)), 100.0))
     tree.take(said("map", "base", Pose((1.0, 0.0, 0.0)), 3.0))
     assert tree.pose("base", "map") == Pose((1.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("wrong", [math.nan, math.inf, "nan", 2.0**40])
+def test_a_stamp_that_is_no_time_spoils_none_that_come_after(wrong: object) -> None:
+    tree = FrameTree()
+    odd = said("map", "base", Pose())
+    odd["transforms"][0]["header"]["stamp"]["sec"] = wrong
+    with pytest.raises(PacketError, match="a time that is none"):
+        tree.take(odd)
+    tree.take(said("map", "base", Pose((1.0, 0.0, 0.0)), 3.0))
+    assert tree.pose("base", "map", 3.0) == Pose((1.0, 0.0, 0.0))
 
 
 def test_unknown_frames_and_rings_are_nowhere() -> None:

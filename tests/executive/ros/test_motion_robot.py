@@ -3,6 +3,7 @@
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,12 @@ class Linked:
 
 
 @pytest.fixture
-def linked() -> Iterator[Linked]:
+def profile_file() -> Path:
+    return PROFILE
+
+
+@pytest.fixture
+def linked(profile_file: Path) -> Iterator[Linked]:
     home, inbox = four_rooms(), Inbox()
     with MotionRobot(home.robot_start) as there:
 
@@ -49,7 +55,7 @@ def linked() -> Iterator[Linked]:
 
         here = connect(
             read_address(there.url),
-            load_profile(str(PROFILE)),
+            load_profile(str(profile_file)),
             home,
             inbox,
             PROFILE.name,
@@ -188,7 +194,9 @@ def test_a_thing_without_a_model_is_not_grasped(linked: Linked) -> None:
 
 def test_what_was_not_taken_is_not_put_down(linked: Linked) -> None:
     assert linked.bench.do(DriveTo("desk")) == Succeeded()
-    assert linked.bench.do(PutDown("desk")) == Failed("I do not know how I hold it")
+    assert linked.bench.do(PutDown("desk")) == Failed(
+        "I do not know how I hold it, it has to be taken out of my hand"
+    )
 
 
 def test_its_head_turns_to_what_it_looks_at(linked: Linked) -> None:
@@ -199,6 +207,75 @@ def test_its_head_turns_to_what_it_looks_at(linked: Linked) -> None:
     pan, tilt = linked.there.head
     assert pan == pytest.approx(np.pi / 2, abs=0.2)
     assert tilt > 0.3
+
+
+def test_nothing_is_put_down_on_what_is_not_seen(linked: Linked) -> None:
+    taken(linked)
+    linked.there.is_blind = True
+    assert linked.bench.do(PutDown("desk")) == Failed("my camera shows nothing of the desk")
+
+
+class TestViews:
+    @pytest.fixture
+    def profile_file(self, tmp_path: Path) -> Path:
+        file = tmp_path / "views.toml"
+        file.write_text(PROFILE.read_text().replace('mount = "neck"', 'mount = "neck"\nviews = 2'))
+        return file
+
+    def test_more_views_than_there_are_surfaces_look_there_again(self, linked: Linked) -> None:
+        assert linked.bench.do(DriveTo("desk")) == Succeeded()
+        for view in range(2):
+            assert linked.bench.do(LookAt("desk", view)) == Succeeded()
+
+
+def test_what_the_fingers_have_closed_on_when_it_is_stopped_can_be_put_down(
+    linked: Linked,
+) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.there.squeezes_on = True
+    linked.here.robot.start(Pick(seen(at)))
+    while not linked.there.holds:
+        linked.bench.wait(0.02)
+    assert linked.bench.do(Halt()) == Succeeded()
+    assert linked.bench.do(PutDown("desk")) == Succeeded()
+
+
+def test_fingers_that_somebody_else_has_called_off_hold_nothing(linked: Linked) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.there.squeezes_on = True
+    request = linked.here.robot.start(Pick(seen(at)))
+    while not linked.there.holds:
+        linked.bench.wait(0.02)
+    linked.there.call_off("/acme/gripper", stalled=True)
+    assert linked.bench.end_of(request) == Failed("it was called off")
+
+
+class TestTouch:
+    """One that feels what is between its fingers."""
+
+    @pytest.fixture
+    def profile_file(self, tmp_path: Path) -> Path:
+        file = tmp_path / "touch.toml"
+        hand = 'topic = "/acme/fingers"\njoint = "finger"\nbetween = [0.005, 0.035]'
+        file.write_text(f"{PROFILE.read_text()}\n[hand]\n{hand}\n")
+        return file
+
+    def test_what_fell_on_the_way_is_told_when_it_is_there(self, linked: Linked) -> None:
+        taken(linked)
+        request = linked.here.robot.start(DriveTo("coffee_table"))
+        linked.bench.wait(0.1)
+        linked.there.drop()
+        fell = Failed("what I held fell on the way to the coffee_table", lost=True)
+        assert linked.bench.end_of(request) == fell
+
+    def test_what_fell_is_not_put_down(self, linked: Linked) -> None:
+        taken(linked)
+        linked.there.drop()
+        linked.bench.wait(0.1)
+        fell = Failed(f"the {THING} fell from my hand", lost=True)
+        assert linked.bench.do(PutDown("desk")) == fell
 
 
 def test_a_halt_in_the_middle_of_a_pick_ends_all_motions(linked: Linked) -> None:
@@ -222,6 +299,16 @@ def test_it_does_not_drive_with_its_arm_out(linked: Linked) -> None:
     assert linked.bench.do(Halt()) == Succeeded()
     assert linked.bench.do(DriveTo("person")) == Succeeded()
     assert "joint_constraints" in linked.there.motions[-1]["goal_constraints"][0]
+
+
+def test_joints_that_the_robot_does_not_have_are_told(
+    linked: Linked, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "joints.toml"
+    file.write_text(f'{PROFILE.read_text()}\n[joints]\ntopic = "/acme/fingers"\n')
+    assert look(["check", linked.there.url, "--profile", str(file)]) == 2
+    said = capsys.readouterr().err
+    assert "arm.carry: the robot has no joint elbow; /acme/fingers tells of finger" in said
 
 
 def test_look_proposes_its_arm_and_gripper(

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 from odd_wire import Mischief, OddWire
+from patience import until
 from second_robot import PROFILE, SPEED_M_S, SecondRobot
 
 from executive.events import Inbox
@@ -52,13 +53,14 @@ def odd(request: pytest.FixtureRequest) -> Iterator[tuple[SecondRobot, OddWire, 
 def test_every_goal_ends_and_what_moves_is_stopped(
     odd: tuple[SecondRobot, OddWire, Connection, Bench],
 ) -> None:
-    there, wire, _, bench = odd
+    there, wire, here, bench = odd
     for goal in (DriveTo("desk"), LookAt("desk"), DriveTo("person"), Halt(), DriveTo("desk")):
         assert bench.do(goal)
     bench.robot.start(DriveTo("person"))
     bench.wait(0.1)
     wire.mischief = Mischief()
     bench.wait(2.0)
+    until(lambda: not here.line.link.loss, "the link")
     assert Succeeded() in [bench.do(Halt()) for _ in range(HALTS)]
     assert not there.busy
     assert not there.speed

@@ -1,6 +1,7 @@
 """`--robot` and `--profile`: missions with a robot over the wire, and what is said before them."""
 
 import json
+import math
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -98,6 +99,27 @@ def test_what_does_not_fit_the_robot_is_said_before_anything_moves(
     assert not there.goals
 
 
+def test_what_is_of_another_type_is_not_proposed(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file = tmp_path / "other.toml"
+    file.write_text(PROFILE.read_text().replace("/go", "/goo").replace("action/Go", "action/Run"))
+    assert look(["check", there.url, "--profile", str(file)]) == 2
+    said = capsys.readouterr().err
+    assert "drive: the robot has no action /acme/goo; it has nothing of this type" in said
+
+
+@pytest.mark.parametrize("velocity", [[], [math.nan]])
+def test_joints_that_do_not_tell_whether_they_move_are_refused(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path, velocity: list[float]
+) -> None:
+    there.told["/acme/fingers"] = {"velocity": velocity}
+    file = tmp_path / "joints.toml"
+    file.write_text(f'{PROFILE.read_text()}\n[joints]\ntopic = "/acme/fingers"\n')
+    assert look(["check", there.url, "--profile", str(file)]) == 2
+    assert "nobody tells on /acme/fingers whether my joints move" in capsys.readouterr().err
+
+
 def test_a_robot_that_is_nowhere_in_the_map_is_refused(
     there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
@@ -105,6 +127,15 @@ def test_a_robot_that_is_nowhere_in_the_map_is_refused(
     file.write_text(PROFILE.read_text().replace('"world"', '"map"'))
     assert run("--robot", there.url, "--profile", str(file), "Find a mug") == 2
     assert "nobody tells where body is in map" in capsys.readouterr().err
+
+
+def test_a_room_that_the_home_does_not_have_is_refused(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file = tmp_path / "slip.toml"
+    file.write_text(f'{PROFILE.read_text()}\n[limits]\nrooms = ["kitchen", "kichen"]\n')
+    assert run("--robot", there.url, "--profile", str(file), "Find a mug") == 2
+    assert "limits.rooms: the home has no room kichen; it has kitchen" in capsys.readouterr().err
 
 
 def test_faults_are_not_for_robots_over_the_wire(
@@ -121,7 +152,9 @@ def test_look_lists_what_the_robot_offers_and_proposes_a_profile(
     assert look(["look", there.url]) == 0
     said = capsys.readouterr().out
     assert "/acme/go  acme_msgs/action/Go" in said
-    assert 'topic = "/acme/odom"' in said
+    assert '\ntopic = "/acme/odom"' in said
+    assert "# [joints]  # if velocities are told there" in said
+    assert '# topic = "/acme/fingers"' in said
 
 
 def test_check_says_that_a_profile_fits(

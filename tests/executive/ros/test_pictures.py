@@ -73,6 +73,8 @@ def test_a_lens_is_read_as_ros_1_and_ros_2_spell_it() -> None:
     assert (lens.fx, lens.fy, lens.cx, lens.cy) == (60.0, 61.0, 32.0, 24.0)
 
 
-def test_a_camera_that_is_not_calibrated_is_refused() -> None:
-    with pytest.raises(PacketError, match="not calibrated"):
-        lens_of({"width": 64, "height": 48, "k": [0.0] * 9})
+@pytest.mark.parametrize("middle", [None, np.inf])
+def test_a_camera_that_is_not_calibrated_is_refused(middle: float | None) -> None:
+    for k in ([0.0] * 9, [60.0, 0.0, middle, 0.0, 60.0, 24.0, 0.0, 0.0, 1.0]):
+        with pytest.raises(PacketError, match="not calibrated"):
+            lens_of({"width": 64, "height": 48, "k": k})

@@ -36,6 +36,12 @@ def fault_of(tmp_path: Path, text: str) -> str:
         ('color = "/acme/rgb"', "", "camera.color is missing"),
         ("[frames]", "[frames]\nhat = 1", "there is no key frames.hat"),
         ("[frames]", '[limits]\nhours = ["8", "9"]\n[frames]', "limits.hours"),
+        ("[frames]", '[limits]\nhours = ["٠٨:00", "20:00"]\n[frames]', "should be like"),
+        ('base = "body"', 'base = ""', "frames.base is ''; string should have at least 1"),
+        ("[0.005, 0.035]", "[0.035, 0.005]", "hand: between should be two positions, the smaller"),
+        ('where = "$pose"', "where = 7", "drive.goal has none of $pose, $place: all would be"),
+        ('what = "$label", cloud = "$points"', "what = 1", "pick.goal has none of $label, $points"),
+        ("hurry = true", "hurry = { by = [nan] }", "drive.goal: inf and nan cannot be sent"),
     ],
 )
 def test_what_is_wrong_is_told_with_its_key(tmp_path: Path, then: str, now: str, said: str) -> None:
@@ -54,6 +60,8 @@ def test_who_can_pick_up_has_to_put_down(tmp_path: Path) -> None:
         ('mount = "neck"', "", "joints and mount are missing"),
         ("carry = { shoulder = 0.0, elbow = 2.0 }", "", "arm.carry is missing"),
         ("opens_m = 0.08", "opens_m = 0", "gripper.opens_m is '0'"),
+        ("open = 0.08", "open = 1e308", "gripper.open is '1e+308'; input should be less than"),
+        ("effort = 10.0", "effort = 0\nnewtons = true", "gripper: effort is not above 0"),
         ("closed = 0.0", "closed = 0.08", "gripper: open and closed are the same"),
         ("GripperCommand", "ParallelGripperCommand", "gripper: joint is missing: the name of"),
         ('tip = "grip"', 'tip = ""', "arm.tip is ''; string should have at least 1 character"),

@@ -8,11 +8,13 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from patience import until
 from second_robot import ACTIONS, PROFILE, SPEED_M_S, SecondRobot
 
 from executive.events import Inbox
 from executive.ros.address import read_address
 from executive.ros.connection import Connection, connect
+from executive.ros.link import LinkError
 from executive.ros.profile import Profile, load_profile
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.camera import CameraBench, CameraContract
@@ -81,6 +83,12 @@ def test_blue_comes_as_blue(linked: Linked) -> None:
     assert linked.here.camera.capture().color[0, 0].tolist() == [0, 0, 200]
 
 
+def test_a_picture_that_cannot_be_read_is_told_with_its_fault(linked: Linked) -> None:
+    linked.there.told["/acme/lens"] = {"height": "high"}
+    with pytest.raises(LinkError, match="its picture cannot be read: ValueError: .*'high'"):
+        linked.here.camera.capture()
+
+
 def test_a_goal_looks_as_the_profile_has_it(linked: Linked) -> None:
     assert linked.bench.do(DriveTo("desk")) == Succeeded()
     [(action, goal)] = linked.there.goals
@@ -132,8 +140,7 @@ class TestLimits:
 def test_fingers_that_something_keeps_open_hold_it(linked: Linked) -> None:
     assert linked.here.robot.holding is False
     linked.there.holds = "mug"
-    linked.bench.wait(0.2)
-    assert linked.here.robot.holding is True
+    until(lambda: linked.here.robot.holding is True, "what it feels")
 
 
 def test_an_action_that_never_answers_is_given_up(linked: Linked) -> None:
@@ -146,7 +153,7 @@ def test_an_action_that_never_answers_is_given_up(linked: Linked) -> None:
 def test_what_cannot_be_stopped_is_said(linked: Linked) -> None:
     linked.there.stubborn.add("/acme/go")
     linked.here.robot.start(DriveTo("desk"))
-    linked.bench.wait(0.2)
+    until(lambda: linked.there.speed, "the drive")
     result = linked.bench.do(Halt())
     assert isinstance(result, Failed)
     assert "cannot stop my base" in result.reason
@@ -154,7 +161,7 @@ def test_what_cannot_be_stopped_is_said(linked: Linked) -> None:
 
 def test_a_halt_that_is_lost_on_its_way_is_told_again(linked: Linked) -> None:
     linked.here.robot.start(DriveTo("desk"))
-    linked.bench.wait(0.2)
+    until(lambda: linked.there.busy, "the drive")
     linked.there.unheard = len(ACTIONS) + 1  # of each action, and of its goal
     assert linked.bench.do(Halt()) == Succeeded()
     assert not linked.there.unheard
@@ -178,7 +185,7 @@ def test_a_halt_without_a_link_does_not_pretend() -> None:
 
 def test_a_link_that_is_lost_is_told(linked: Linked) -> None:
     request = linked.here.robot.start(DriveTo("desk"))
-    linked.bench.wait(0.2)
+    until(lambda: linked.there.busy, "the drive")
     linked.there.cut()
     result = linked.bench.end_of(request)
     assert isinstance(result, Failed)
@@ -187,26 +194,23 @@ def test_a_link_that_is_lost_is_told(linked: Linked) -> None:
 
 def test_what_nobody_remembers_is_stopped_when_there_is_a_link_again(linked: Linked) -> None:
     linked.here.robot.start(DriveTo("desk"))
-    linked.bench.wait(0.2)
+    until(lambda: linked.there.busy, "the drive")
     linked.there.cut()
-    linked.bench.wait(2.0)
-    assert not linked.there.busy
-    assert not linked.there.speed
+    until(lambda: not linked.there.busy and not linked.there.speed, "rest")
 
 
 def test_a_bridge_that_has_just_begun_is_asked_again_until_all_is_stopped(linked: Linked) -> None:
     linked.here.robot.start(DriveTo("desk"))
-    linked.bench.wait(0.2)
+    until(lambda: linked.there.busy, "the drive")
     linked.there.undiscovered = 5
     linked.there.cut()
-    linked.bench.wait(3.0)
-    assert not linked.there.undiscovered
-    assert not linked.there.busy
+    until(lambda: not linked.there.undiscovered and not linked.there.busy, "rest")
 
 
 def test_after_a_loss_it_drives_on(linked: Linked) -> None:
+    began = len(linked.there.headers)
     linked.there.cut()
-    linked.bench.wait(0.3)
+    until(lambda: len(linked.there.headers) > began, "another link")
     assert linked.bench.do(DriveTo("desk")) == Succeeded()
 
 

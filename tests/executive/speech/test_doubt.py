@@ -3,10 +3,13 @@
 import io
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from executive.events import Heard, Inbox, Listened, StopRequested
+from executive.language.control import Control, control
 from executive.language.grammar import EnglishInterpreter
-from executive.speech.doubt import PATIENCE_S, UNCLEAR, Doubt
+from executive.speech.doubt import FRESH_S, PATIENCE_S, UNCLEAR, Doubt
 from executive.speech.interfaces import Reading
 from executive.user import Console
 
@@ -23,8 +26,8 @@ class Talk:
         self.person.tell("I begin.")
         self.doubt = Doubt(self.person, ENGLISH, self.inbox, now=lambda: self.time)
 
-    def hears(self, text: str, *, sure: bool = False) -> None:
-        self.doubt.hear(Reading("ears", text, 0.5, sure))
+    def hears(self, text: str, *, sure: bool = False, began: float | None = None) -> None:
+        self.doubt.hear(Reading("ears", text, 0.5, sure), began=began)
 
     @property
     def done(self) -> list[str]:
@@ -117,6 +120,32 @@ def test_who_shows_what_is_asked_back_is_told_when_it_changes(talk: Talk) -> Non
 def test_to_end_the_session_is_asked_back_too(talk: Talk) -> None:
     talk.hears("quit")
     assert "Did you say: quit?" in talk.out.getvalue()
+
+
+@pytest.mark.parametrize("answer", ["yes", "no"])
+def test_what_was_said_before_something_was_asked_back_is_no_answer_to_it(
+    talk: Talk, answer: str
+) -> None:
+    talk.time = 10.0
+    talk.hears("bring the mug")
+    talk.hears(answer, sure=True, began=9.0)
+    assert talk.done == []
+    talk.hears("yes", sure=True, began=11.0)
+    assert talk.done == ["bring the mug"]
+
+
+def test_a_certain_yes_that_was_said_long_ago_answers_nothing_unasked(talk: Talk) -> None:
+    talk.time = 10.0
+    talk.hears("yes", sure=True, began=9.0 - FRESH_S)
+    assert talk.done == []
+    assert "Did you say: yes?" in talk.out.getvalue()
+
+
+@given(st.text(max_size=60) | st.from_regex(r"(yes|no|bring|the mug|bye|[.,!? ])+", fullmatch=True))
+def test_of_what_is_not_certain_nothing_but_a_stop_is_done(text: str) -> None:
+    talk = Talk()
+    talk.hears(text)
+    assert talk.done == ["stop"] * (control(text) is Control.STOP)
 
 
 @pytest.mark.parametrize("sure", [True, False])

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
+from patience import PATIENCE_S
 
 from executive.errors import InputError
 from executive.events import Heard, Inbox, Listened, StopRequested
@@ -74,7 +75,7 @@ class Room:
     def listen_to(self, blocks: Iterator[Sound]) -> None:
         listening = Listening(blocks, self, self.doubt, self.person, spotter=self, voice=self)  # type: ignore[arg-type]
         listening.start()
-        listening._thread.join(20)
+        listening._thread.join(PATIENCE_S)
 
     def _blocks(self, parts: tuple[list[Block], ...]) -> Iterator[Sound]:
         for sound, self.saying in (block for part in parts for block in part):
@@ -133,7 +134,7 @@ def test_a_stop_is_heard_while_the_robot_speaks_and_silences_it(busy: bool) -> N
 
 def test_a_stop_is_heard_while_the_ears_think_and_what_they_think_about_is_forgotten() -> None:
     room, stopped = Room("bring the mug"), threading.Event()
-    room.think = lambda: stopped.wait(20)
+    room.think = lambda: stopped.wait(PATIENCE_S)
 
     def blocks() -> Iterator[Sound]:
         yield from (sound for sound, _ in (*speech(1), *silence()))
@@ -149,7 +150,7 @@ def test_a_stop_is_heard_while_the_ears_think_and_what_they_think_about_is_forgo
 
 def test_who_says_more_than_ears_can_hear_is_told() -> None:
     room, done = Room(*[""] * 9), threading.Event()
-    room.think = lambda: done.wait(20)
+    room.think = lambda: done.wait(PATIENCE_S)
 
     def blocks() -> Iterator[Sound]:
         for sound, _ in (*speech(0.5), *silence()) * 6:

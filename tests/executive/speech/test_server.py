@@ -12,6 +12,7 @@ import pytest
 from audio_server import Answer, Server, hearing, says
 from hypothesis import given
 from hypothesis import strategies as st
+from patience import PATIENCE_S
 
 from executive.errors import InputError
 from executive.servers.key import EARS_KEY, Key
@@ -36,7 +37,7 @@ class TestServerEars(EarsContract):
             yield ServerEars(server.url)
 
 
-def heard(*answers: Answer, timeout_s: float = 10.0, key: str = "") -> tuple[str, str]:
+def heard(*answers: Answer, timeout_s: float = PATIENCE_S, key: str = "") -> tuple[str, str]:
     """What ears make of a server's answers: the words, and what went wrong."""
     with hearing(*answers) as server:
         reading = ServerEars(server.url, timeout_s=timeout_s, key=Key(key)).hear(SOUND)

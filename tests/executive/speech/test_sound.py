@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from patience import PATIENCE_S
 
 from executive.errors import InputError
 from executive.speech.microphone import from_files, microphone
@@ -109,7 +110,7 @@ def test_a_microphone_that_is_not_there_or_busy_is_told_at_once(
     tmp_path: Path, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     arecord(tmp_path, f"echo 'arecord: main:850: audio open error: {why}' >&2; exit 1", monkeypatch)
-    monkeypatch.setattr("executive.speech.microphone.START_S", 20.0)
+    monkeypatch.setattr("executive.speech.microphone.START_S", PATIENCE_S)
     said = f"--microphone arecord: nothing is recorded: audio open error: {why}; see what arecord"
     with pytest.raises(InputError, match=said):
         microphone("arecord")

@@ -60,6 +60,21 @@ def test_what_a_server_heard_is_done_when_the_local_ears_hear_the_yes_too(tmp_pa
     assert out.getvalue().splitlines() == ["Did you say: What's on the bed?"]
 
 
+@needs_espeak
+def test_a_pipe_of_sound_is_heard_whole_and_is_not_typed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("pocketsphinx", reason="needs the extra speech")
+    sound = io.BytesIO(say("what is on the bed").astype("<i2").tobytes())
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(sound))
+    settings = load_settings(ears="pocketsphinx", microphone="-", runs=tmp_path, **FAKE)
+    with Session(settings, out=(out := io.StringIO())) as session:
+        person = session.parts.user
+        assert isinstance(person, Console)
+        assert session.next_command(person) is None
+    assert out.getvalue().splitlines() == ["Did you say: what is on the bed?"]
+
+
 def test_what_the_robot_says_is_said_aloud(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = tmp_path / "said"
     program = tmp_path / "espeak-ng"

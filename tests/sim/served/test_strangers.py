@@ -8,6 +8,7 @@ import cbor2
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from patience import PATIENCE_S
 from served import Raw, place_goal, served
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
@@ -115,7 +116,7 @@ def test_a_packet_that_is_too_large_ends_only_its_senders_connection(robot: Simu
 
 def test_what_is_no_websocket_is_sent_away(robot: Simulation) -> None:
     host, port = robot.server.address.removeprefix("ws://").split(":")
-    with socket.create_connection((host, int(port)), timeout=5) as plain:
+    with socket.create_connection((host, int(port)), timeout=PATIENCE_S) as plain:
         plain.sendall(b"\0\1\2 hello\r\n\r\n")
         assert b"101" not in plain.recv(100)
     with Raw(robot) as client:

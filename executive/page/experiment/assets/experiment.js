@@ -24,7 +24,9 @@ const pair = [2, 3].map((at) => new Reel(reels[at], (step) => {
   if (together.checked) pair.filter((reel) => reel.id !== pair[at - 2].id).forEach((reel) => reel.go(step));
 }, text(at === 2 ? "first_run" : "second_run")));
 const wizard = stepIn(document.getElementById("wizard"));
-const listPast = past(openOne, openTwo);
+const listPast = past((run) => visit("one", run), (first, second) => visit("two", first, second));
+const RUNS_OF = { one: 1, two: 2 };
+let shownPair = "";
 let mission = 0;
 let known = -1;
 let marked = 0;
@@ -38,8 +40,22 @@ function view(name) {
   if (name === "past") listPast();
 }
 
+/** What is looked at stands in the address: so the browser's buttons go back, and load it again. */
+function visit(name, ...runs) {
+  location.hash = [name, ...runs].map(encodeURIComponent).join("/");
+}
+
+function showAddress() {
+  const [name, ...runs] = location.hash.slice(1).split("/").map(decodeURIComponent);
+  const isWhole = tabs.some((tab) => tab.dataset.view === name) && runs.length === (RUNS_OF[name] ?? 0);
+  const shown = isWhole ? name : tabs.find((tab) => !tab.hidden).dataset.view;
+  view(shown);
+  if (shown === "one") openOne(...runs);
+  if (shown === "two") openTwo(...runs);
+}
+
 function openOne(run) {
-  view("one");
+  if (run === one.run) return;
   document.getElementById("one-title").textContent = run;
   deed.textContent = "";
   told.hidden = true;
@@ -47,7 +63,8 @@ function openOne(run) {
 }
 
 async function openTwo(first, second) {
-  view("two");
+  if (shownPair === `${first}/${second}`) return;
+  shownPair = `${first}/${second}`;
   const box = document.getElementById("parting");
   box.replaceChildren(element("p", { role: "status" }, text("comparing", { one: first, other: second })));
   try {
@@ -104,7 +121,11 @@ function showPast({ folder }) {
   if (!document.getElementById("live").hidden) view("past");
 }
 
-for (const tab of tabs) tab.addEventListener("click", () => view(tab.dataset.view));
+for (const tab of tabs) {
+  const runs = { one: () => [one.run], two: () => shownPair.split("/") }[tab.dataset.view] ?? (() => []);
+  tab.addEventListener("click", () => visit(tab.dataset.view, ...runs()));
+}
+addEventListener("hashchange", showAddress);
 document.getElementById("replay").addEventListener("click", () => act("replay", "replaying"));
 document.getElementById("view").addEventListener("click", () => act("view", "opening"));
 
@@ -114,3 +135,4 @@ follow(Object.keys(show), (name, value) => show[name](value), (how) => {
   trouble.hidden = !connection[how];
   trouble.textContent = connection[how] ? textOr(connection[how], "") : "";
 }, "/experiment");
+showAddress();

@@ -99,6 +99,21 @@ def test_a_past_run_is_found_and_gone_through_by_the_keyboard(
         expect(tab.locator("#one [aria-selected=true]")).to_have_count(1)
 
 
+def test_what_is_looked_at_outlives_loading_and_one_goes_back(
+    browser: Browser, busy: Robot
+) -> None:
+    with desk(browser, busy) as tab:
+        open_past(tab, "peach done")
+        title = tab.locator("#one-title").inner_text()
+        tab.reload()
+        expect(tab.locator("#one-title")).to_have_text(title)
+        expect(tab.locator("#one .moment")).to_contain_text("Tick 0 of")
+        tab.go_back()
+        expect(tab.locator("#runs tbody tr").first).to_be_visible()
+        tab.go_back()
+        expect(tab.locator("#live")).to_be_visible()
+
+
 def test_a_run_is_held_against_todays_tree(browser: Browser, busy: Robot) -> None:
     with desk(browser, busy) as tab:
         open_past(tab, "peach done")

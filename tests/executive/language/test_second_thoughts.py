@@ -1,0 +1,52 @@
+"""Who corrects themselves in the same breath gets what they meant in the end, or nothing."""
+
+import pytest
+
+from executive.language.grammar import EnglishInterpreter
+
+read = EnglishInterpreter()
+
+
+def asked(words: str) -> list[tuple[str, ...]]:
+    """The tasks, each by verb, thing and place."""
+    commands = (one for group in read.commands(words) for one in group)
+    return [(one.kind.value, one.target, one.source or one.goal) for one in commands]
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("bring me the apple no wait the pear", [("bring", "pear", "")]),
+        ("bring me the apple, sorry, I mean the pear", [("bring", "pear", "")]),
+        ("Bring me the apple, actually, the pear", [("bring", "pear", "")]),
+        ("bring the apple no the pear no sorry the mug", [("bring", "mug", "")]),
+        ("Bring two apples, no, three", [("bring", "apples", "")]),
+        ("go to the kitchen sorry the bedroom", [("go", "", "bedroom")]),
+        ("Take the mug to the kitchen, no, to the desk", [("put", "mug", "desk")]),
+        ("bring the mug from the desk no from the sofa", [("bring", "mug", "sofa")]),
+        ("Bring the mug, no, put it on the desk", [("put", "mug", "desk")]),
+        (
+            "Find the pear and take the mug, no, the apple",
+            [("find", "pear", ""), ("take", "apple", "")],
+        ),
+    ],
+)
+def test_what_is_said_last_counts(words: str, meant: list[tuple[str, ...]]) -> None:
+    assert asked(words) == meant
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Bring me the apple, no pear",
+        "bring me the mug, no, no mug",
+        "Bring me the mug, no, leave it",
+        "bring me the mug no don't",
+        "Bring me the mug, actually, don't bring me the mug",
+        "Bring me the mug, no, nothing",
+        "Bring me the mug, I mean, no",
+        "Bring me the mug and the apple, no, the pear",
+    ],
+)
+def test_a_no_that_may_mean_no_leads_to_no_deed(words: str) -> None:
+    assert asked(words) == []

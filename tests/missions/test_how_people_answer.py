@@ -1,0 +1,56 @@
+"""Answers and wishes as people give them: all, several, all but one, a thing without a verb."""
+
+import pytest
+
+from executive.testing.bench import run_mission
+from executive.types import MissionStatus
+
+
+def moved(run) -> set[str]:
+    return {one for one in ("apple", "pear", "mug") if run.world.resting_place(one) == "delivery"}
+
+
+@pytest.mark.parametrize("answer", ["the apple and the pear", "both the apple and the pear"])
+def test_several_may_be_meant_where_one_is_asked_for(answer: str) -> None:
+    run = run_mission("Bring me a fruit", answers=[answer], llm=False, search="plan")
+    assert run.outcome.status == MissionStatus.DONE
+    assert moved(run) == {"apple", "pear"}
+
+
+def test_all_that_were_offered_may_be_meant() -> None:
+    run = run_mission("Put a tool on the desk", answers=["all of them"], llm=False, search="plan")
+    tools = ("hammer", "power_drill", "adjustable_wrench")
+    assert [run.world.resting_place(tool) for tool in tools] == ["desk"] * 3
+
+
+@pytest.mark.parametrize("answer", ["not the apple", "do not bring the apple"])
+def test_what_is_not_meant_is_not_offered_again(answer: str) -> None:
+    run = run_mission("Bring me a fruit", answers=[answer, "the pear"], llm=False, search="plan")
+    assert "apple" not in run.user.asked[1].text
+    assert moved(run) == {"pear"}
+
+
+def test_a_name_alone_is_asked_back() -> None:
+    run = run_mission("The mug, please", answers=["yes"], llm=False, search="plan")
+    assert run.user.asked[0].text == "Do you mean: bring the mug?"
+    assert moved(run) == {"mug"}
+
+
+def test_a_place_is_not_called_unknown_where_a_thing_is_wanted() -> None:
+    run = run_mission("Bring me the sofa", answers=[], llm=False, search="plan")
+    assert "the sofa is a place" in run.outcome.reason
+
+
+def test_what_has_its_places_inside_has_none_on_top() -> None:
+    run = run_mission(
+        "Put the mug on top of the fridge", answers=["on the desk"], llm=False, search="plan"
+    )
+    assert "on top of the fridge" in run.user.asked[0].text
+    assert run.world.resting_place("mug") == "desk"
+
+
+def test_where_nothing_can_be_put_is_asked_about() -> None:
+    run = run_mission(
+        "Put the mug behind the sofa", answers=["on the sofa"], llm=False, search="plan"
+    )
+    assert "not 'behind the sofa'" in run.user.asked[0].text
