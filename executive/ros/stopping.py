@@ -92,17 +92,22 @@ class Brake:
     async def _cancel(self, action: str) -> str:
         """Cancel all goals of an action; why that could not be, or nothing.
 
-        It ends when all that was asked is answered: what is still on its way would hit what is
-        begun next.
+        What was asked before what is answered is answered, too, or lost. What was asked later is
+        waited for as long again: still on its way, it would hit what is begun next.
         """
         time = asyncio.get_running_loop().time
-        latest = time() + CANCELLING_S
-        asked: set[asyncio.Task[str]] = set()
+        began = time()
+        latest = began + CANCELLING_S
+        asked: list[asyncio.Task[str]] = []
         try:
             while not any(one.done() for one in asked) and (left := latest - time()) > 0:
-                asked.add(asyncio.create_task(self._ask_to_cancel(action, left)))
+                asked.append(asyncio.create_task(self._ask_to_cancel(action, left)))
                 await asyncio.wait(asked, timeout=ASKING_S, return_when=asyncio.FIRST_COMPLETED)
-            return min(await asyncio.gather(*asked), key=len)
+            await asyncio.wait(asked, return_when=asyncio.FIRST_COMPLETED)
+            answered = max(number for number, one in enumerate(asked) if one.done())
+            if later := asked[answered + 1 :]:
+                await asyncio.wait(later, timeout=time() - began)
+            return min((one.result() for one in asked if one.done()), key=len)
         finally:
             for one in asked:
                 one.cancel()
