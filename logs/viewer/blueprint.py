@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 import numpy as np
+import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
@@ -17,13 +18,30 @@ DIALOG = "dialog"
 LOG = "log"
 
 
-def mission_blueprint(entities: Iterable[Entity] = ()) -> rrb.Blueprint:
+class Layout(rrb.Blueprint):
+    """A blueprint that lets go what it is sent by.
+
+    rerun sends a blueprint by a stream of its own, which holds itself: it and its two threads would
+    stay for as long as the process lives.
+    """
+
+    def _log_to_stream(self, stream: rr.RecordingStream) -> None:
+        super()._log_to_stream(stream)
+        self._sent_by = stream
+
+    def let_go(self) -> None:
+        """It was sent."""
+        self._sent_by.disconnect()
+        del self._sent_by
+
+
+def mission_blueprint(entities: Iterable[Entity] = ()) -> Layout:
     """Left what the robot does and sees, in the middle why, right what is thought and said.
 
     Args:
         entities: the scene, once it is known, for a bird's eye view of all that stands in `map`.
     """
-    return rrb.Blueprint(
+    return Layout(
         rrb.Vertical(
             rrb.Horizontal(
                 rrb.Vertical(_world(entities), _camera(), row_shares=[3, 2]),

@@ -75,7 +75,9 @@ class RerunSink:
             self._stream.send_recording_name(path.parent.name)
         if self._viewer is not None:
             sinks.append(rr.GrpcSink(self._viewer.address))
-        self._stream.set_sinks(*sinks, default_blueprint=blueprint.mission_blueprint())
+        layout = blueprint.mission_blueprint()
+        self._stream.set_sinks(*sinks, default_blueprint=layout)
+        layout.let_go()
         self._stream.set_time(MISSION_TIME, duration=0.0)
         self._stream.set_time(TICK, sequence=0)
         scene.log_frames(self._stream)
@@ -140,7 +142,9 @@ class RerunSink:
             case Scene(entities):
                 scene.log_scene(self._stream, entities)
                 self._candidates.place(entities)
-                self._stream.send_blueprint(blueprint.mission_blueprint(entities))
+                layout = blueprint.mission_blueprint(entities)
+                self._stream.send_blueprint(layout)
+                layout.let_go()
             case PlannedPath():
                 scene.log_path(self._stream, record)
             case Finished(outcome):
