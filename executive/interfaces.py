@@ -187,6 +187,14 @@ class Knowledge(Protocol):
         """The objects that are for this: "to drink from", "clean the bathroom with", "nails"."""
         ...
 
+    def colors(self, name: str) -> tuple[str, ...]:
+        """The colours of an object, the chief one first, as they are said."""
+        ...
+
+    def uses(self, name: str) -> tuple[str, ...]:
+        """What an object is for: "to drink from", "for tea"."""
+        ...
+
     def nearest_names(self, words: str) -> tuple[str, ...]:
         """Known names that look most like the words, best first (at most 3)."""
         ...

@@ -16,7 +16,7 @@ from executive.language.meaning import (
     Where,
 )
 from executive.language.wording import Wording, beginning, either, listed
-from executive.types import Candidate, CommandKind, Source
+from executive.types import PERSON, Candidate, CommandKind, Source
 
 SAYS: Mapping[str, str] = {
     Source.ONTOLOGY: "that is its place",
@@ -47,12 +47,14 @@ class Standing:
         doing: what the robot is doing, as a sentence; empty if nothing.
         visits: where it went to look, and who had named the place, the last one at the end.
         reason: how the last mission ended, in words; empty if there was none.
+        stands: where it is, at rest; empty if it was stopped on its way.
     """
 
     holds: str | None = None
     doing: str = ""
     visits: Sequence[Candidate] = ()
     reason: str = ""
+    stands: str = ""
 
 
 def reply(said: Said, standing: Standing, knowledge: Knowledge, facts: Facts) -> str:
@@ -70,7 +72,7 @@ def reply(said: Said, standing: Standing, knowledge: Knowledge, facts: Facts) ->
         case Question(about=About.DOING):
             return standing.doing or IDLE
         case Question(about=About.WHERE):
-            return standing.doing or AT_REST
+            return standing.doing or f"{_where_i_am(standing.stands, say)} {AT_REST}"
         case Question(about=About.KNOWN, things=Things() as things):
             return _known(things, knowledge)
         case Request(tasks=[Task(verb=CommandKind.FIND, things=Things(members=[thing]))]):
@@ -91,8 +93,14 @@ def about(said: Said, knowledge: Knowledge) -> tuple[str, ...]:
     return ()
 
 
+def _where_i_am(place: str, say: Wording) -> str:
+    if place == PERSON:
+        return "I am with you."
+    return f"I am at {say.in_full(place)}." if place else "I stopped on my way."
+
+
 def _known(things: Things, knowledge: Knowledge) -> str:
-    """What is known of things without looking: which there are, and where one usually is."""
+    """What is known of things without looking: which there are; of one, what it is like, too."""
     say, words = Wording(knowledge.called), " or ".join(t.words for t in things.members)
     if any(thing.pronoun for thing in things.members):
         return f"I do not know what '{words}' is."
@@ -102,9 +110,13 @@ def _known(things: Things, knowledge: Knowledge) -> str:
         return f"I know {known}." if names else f"I know no '{words}'."
     [name] = names
     usual = either(say.at_each(knowledge.usual_places(name)))
-    there = f"{say.agree(name, 'is', 'are')} usually {usual}" if usual else ""
-    told = f"{beginning(say.the(name))} {there or 'may be anywhere'}"
-    return f"{told}. More than where things are I cannot tell you of them."
+    there = f"{say.is_(name)} usually {usual}" if usual else "may be anywhere"
+    looks = listed(
+        [part for part in (listed(knowledge.colors(name)), *knowledge.uses(name)) if part]
+    )
+    is_ = say.agree(name, "It is", "They are")
+    told = f"{beginning(say.the(name))} {there}." + f" {is_} {looks}." * bool(looks)
+    return f"{told} More I cannot tell you of {say.it(name)}."
 
 
 def _where_it_stands(words: str, knowledge: Knowledge) -> str:

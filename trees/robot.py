@@ -72,8 +72,8 @@ class BodyAction(Action):
 class RobotAction(BodyAction):
     """Pursues one goal of the robot.
 
-    Writes ending.restless, dialogue.at where it drove to, and hand.lost if it lost what it held;
-    what failed goes to search.looks or hand.unplaced.
+    Writes ending.restless, dialogue.at and dialogue.stands where it drove to, and hand.lost if it
+    lost what it held; what failed goes to search.looks or hand.unplaced.
     """
 
     searches = False
@@ -99,6 +99,8 @@ class RobotAction(BodyAction):
         self._goal = self.goal()
         self.feedback_message = _in_words(self._goal)
         self.situation.ending.restless = True
+        if isinstance(self._goal, DriveTo):
+            self.situation.dialogue.stands = ""
         return self.context.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
@@ -106,7 +108,7 @@ class RobotAction(BodyAction):
         self.situation.ending.restless = not isinstance(result, Succeeded)
         if isinstance(result, Succeeded):
             if isinstance(self._goal, DriveTo):
-                self.situation.dialogue.at = self._goal.place
+                self.situation.dialogue.at = self.situation.dialogue.stands = self._goal.place
             return Status.SUCCESS
         if isinstance(result, Failed) and result.lost:
             self.situation.hand.lost, self.situation.hand.in_hand = self.why(result), None

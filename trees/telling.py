@@ -1,6 +1,7 @@
 """How the person is told things: on one line, and in words."""
 
 from executive.language.commands import THING
+from executive.language.phrases import is_plural
 from executive.language.wording import as_said, either
 from executive.records import Utterance
 from executive.text import printable
@@ -29,6 +30,7 @@ def sentence(text: str) -> str:
 def in_one_sentence(context: MissionContext, command: Command) -> str:
     """All that a command asks for, in words: "bring the mug from the desk"."""
     what, goal = _things(context, command), to_where(context, command)
+    there = _where(context, command, command.source) if command.source else ""
     source = f"from {_place(context, command, command.source)}" if command.source else ""
     match command.kind:
         case CommandKind.PUT_DOWN:
@@ -39,6 +41,17 @@ def in_one_sentence(context: MissionContext, command: Command) -> str:
             parts = ("come to you",)
         case CommandKind.GO:
             parts = ("go to", _place(context, command, command.goal or command.target))
+        case CommandKind.CHECK if there:
+            are = "are" if is_plural(command.target) else "is"
+            parts = ("check whether", what, are, there)
+        case CommandKind.CHECK:
+            parts = ("look for", what)
+        case CommandKind.TELL if there and not command.target:
+            parts = ("tell what is", there)
+        case CommandKind.FIND | CommandKind.COUNT | CommandKind.TELL:
+            parts = (command.kind, what, there)
+        case CommandKind.CLEAR if command.source and not command.target:
+            parts = ("clear", _place(context, command, command.source))
         case _:
             parts = (command.kind.replace("_", " "), what, source, goal)
     return " ".join(filter(None, parts))
@@ -61,6 +74,8 @@ def _things(context: MissionContext, command: Command) -> str:
         what = " and ".join(map(context.say.the, names))
     elif len(named) == 1:
         what = context.say.the(named[0])
+    elif knowledge.is_place(target):
+        what = _place(context, command, target)
     else:
         what = as_said(command.words, target)
     left_out = either([_one_thing(context, but) for but in command.exceptions])
@@ -90,10 +105,15 @@ def to_where(context: MissionContext, command: Command) -> str:
     """Where it is to go, with a preposition."""
     if not command.goal or command.goal in TO_THE_PERSON:
         return "to you" if command.goal else ""
-    named = context.knowledge.places_named(command.goal)
+    return _where(context, command, command.goal, "to")
+
+
+def _where(context: MissionContext, command: Command, words: str, unknown: str = "at") -> str:
+    """A place that it names, with a preposition; that of what is no place is given."""
+    named = context.knowledge.places_named(words)
     if len(named) == 1:
         return context.say.at(named[0])
-    if command.goal.startswith(NEXT_TO):
-        things = context.knowledge.objects_named(command.goal.removeprefix(NEXT_TO))
-        return f"{NEXT_TO}{context.say.the(things[0])}" if len(things) == 1 else command.goal
-    return f"{'in' if named else 'to'} {_place(context, command, command.goal)}"
+    if words.startswith(NEXT_TO):
+        things = context.knowledge.objects_named(words.removeprefix(NEXT_TO))
+        return f"{NEXT_TO}{context.say.the(things[0])}" if len(things) == 1 else words
+    return f"{'in' if named else unknown} {_place(context, command, words)}"

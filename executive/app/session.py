@@ -41,7 +41,7 @@ from executive.records import EventTaken, Finished
 from executive.replies import Standing, about, reply
 from executive.situation import Ending, Situation
 from executive.text import one_line, too_long, writable
-from executive.types import Answered, Halt, MissionStatus, Outcome
+from executive.types import PERSON, Answered, Halt, MissionStatus, Outcome
 from executive.user import NOTHING_TO_STOP, Console
 from logs.recorder import FanOut, Sink
 
@@ -117,6 +117,7 @@ class Session:
         self._sinks = tuple(sinks)
         self._build = build
         self._in_hand: str | None = None
+        self._stands = PERSON
         self._spoken = NOTHING
         self._last: Outcome | None = None
         self._restless = False
@@ -205,6 +206,8 @@ class Session:
             self._carry_out_safely(situation, folder, started)
         finally:
             self._in_hand, self._restless = situation.hand.in_hand, situation.ending.restless
+            if situation.dialogue.stands is not None:
+                self._stands = situation.dialogue.stands
             self._leave()
             self._last = outcome = situation.outcome(
                 mission_time_s=self._mission_time(),
@@ -328,7 +331,8 @@ class Session:
         said = resolved(parts.interpreter.read(words), self._spoken)
         last = self._last
         visits = [one for one in last.candidates if one.place in last.visited] if last else ()
-        standing = Standing(self._in_hand, visits=visits, reason=last.reason if last else "")
+        reason = last.reason if last else ""
+        standing = Standing(self._in_hand, visits=visits, reason=reason, stands=self._stands)
         answer = reply(said, standing, parts.knowledge, parts.facts)
         if answer:
             self._spoken = after(said, self._spoken, things=about(said, parts.knowledge))

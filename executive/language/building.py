@@ -44,6 +44,7 @@ class Builder(Deeds):
             in_order,
             too=any(is_a(p, "TOO", "LATER") for p in parts),
             agrees=any(is_a(p, "YES") for p in parts),
+            later=any(is_a(p, "TOO") and p.endswith("later") for p in parts),
         )
 
     def _tasks(self, parts: list[Part]) -> list[Task]:

@@ -5,8 +5,8 @@ from functools import cache, lru_cache
 from itertools import chain
 
 from executive.language.commands import NOT_KNOWN_WHAT, agrees, commands_in, talk
-from executive.language.meaning import Answer, Choice, Request, Said, Task, Unread
-from executive.language.reader import Reader, english
+from executive.language.meaning import Answer, Choice, Request, Said, Task, Unable, Unread
+from executive.language.reader import AT_A_TIME, Reader, english
 from executive.language.slips import brought, without_slips
 from executive.language.spoken import NOTHING, Spoken, resolved
 from executive.types import Command, CommandKind, Commands
@@ -49,6 +49,8 @@ class EnglishInterpreter:
     def _read(self, words: str, spoken: Spoken, holds: bool) -> Commands | str | None:
         """The tasks; or what to say; nothing to say if somebody else may read it."""
         said = resolved(self._reader.read(words), spoken, holds=holds)
+        if isinstance(said, Request) and said.later:  # than what? Nothing is under way
+            said = Unable(AT_A_TIME)
         read, denial = self._with_denial(said, words)
         return f"I do nothing: {NOT_KNOWN_WHAT.format(denial)}" if denial else read
 

@@ -148,6 +148,8 @@ class Request:
     """Whether it comes on top of what was asked for before: "..., too"."""
     agrees: bool = False
     """Whether it begins with a yes: "okay, bring it"."""
+    later: bool = False
+    """Whether it is not to be done now, but after what is under way: "bring it later"."""
 
 
 @dataclass(frozen=True, slots=True)

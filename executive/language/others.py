@@ -28,14 +28,19 @@ def is_other(text: str, own: Collection[str]) -> bool:
         text: the words.
         own: words of the language that is spoken, which tell nothing.
     """
-    letters = [letter for letter in text if letter.isalpha()]
-    latin = sum("LATIN" in unicodedata.name(letter, "") for letter in letters)
-    if latin * 2 < len(letters):
+    if not text.isascii() and not _is_latin(text):
         return True
     words = text.replace("-", " ").replace(",", " ").split()
     ours = sum(word in own for word in words)
     theirs = sum(word in _WORDS and word not in own for word in words)
     return theirs > ours and (theirs > 1 or len(words) < 3)
+
+
+def _is_latin(text: str) -> bool:
+    """Whether at least half of the letters are such as English has, with or without accents."""
+    letters = [letter for letter in text if letter.isalpha()]
+    latin = sum("LATIN" in unicodedata.name(letter, "") for letter in letters)
+    return latin * 2 >= len(letters)
 
 
 def denial(text: str) -> str:

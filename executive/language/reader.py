@@ -28,7 +28,7 @@ _QUOTES = re.compile('["“”„«»]')
 _LEADING_SIGNS = re.compile("^[\\s\U0001f300-\U0001faff\u2600-\u27bf\ufe0f]+(?=[^\\W\\d_])")
 """Pictures of hands and faces, as one writes them before a sentence."""
 KEPT = 64
-"""Sentences whose meaning is kept: in a mission several ask for that of the same one."""
+"""Sentences that are kept, with their meaning: in a mission several ask for the same one."""
 AT_A_TIME = "do things at a set time, only at once"
 NOTHING = r"(?!)x"
 """A pattern that fits nothing."""
@@ -49,6 +49,12 @@ class Reader:
         """Words that ask for a deed."""
         self.read: Callable[[str], Said] = lru_cache(KEPT)(self._read_anew)
         """What words mean; what cannot be read is `Unread`, and says where."""
+        self.plain: Callable[[str], str] = lru_cache(KEPT)(self._plain_anew)
+        """Lower case, one space between words, no punctuation but the comma, no short forms.
+
+        A full stop between sentences is a comma, and so are a dash and a bracket; what was no text
+        is left out.
+        """
         self._gerunds = gerunds = {_gerund(deed): deed for deed in self.deeds}
         self._short: dict[str, str] = words["short_forms"]
         self._short_form = re.compile(rf"\b(?:{_any_of(self._short)})(?!\w)")
@@ -110,12 +116,7 @@ class Reader:
         vocabulary = self.vocabulary
         return not all(w.isalpha() and w not in vocabulary for w in self.plain(words).split())
 
-    def plain(self, words: str) -> str:
-        """Lower case, one space between words, no punctuation but the comma, no short forms.
-
-        A full stop between sentences is a comma, and so are a dash and a bracket; what was no text
-        is left out.
-        """
+    def _plain_anew(self, words: str) -> str:
         text = plain_letters(words[:LONGEST])[:LONGEST].replace("\ufffd", " ")
         for spelling, whole in self._spellings:
             text = spelling.sub(whole, text)

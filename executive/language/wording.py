@@ -58,8 +58,11 @@ class Wording:
 
     def at_in_full(self, place: str) -> str:
         """The same with the room: "on the high table in the kitchen"."""
-        called = self._of(place)
-        return f"{called.preposition} {_in_room(called)}"
+        return f"{self._of(place).preposition} {self.in_full(place)}"
+
+    def in_full(self, place: str) -> str:
+        """A place with its room: "the high table in the kitchen"."""
+        return _in_room(self._of(place))
 
     def stands(self, place: str) -> str:
         """In which room it is, as a clause: "the sofa is in the living room"."""

@@ -21,6 +21,8 @@ class Dialogue:
     """Whether the robot has left the person."""
     at: str = field(default=PERSON, metadata=NOT_LOGGED)
     """The place that the robot has driven to last."""
+    stands: str | None = field(default=None, metadata=NOT_LOGGED)
+    """Where it came to in this mission; empty if it is on its way, None if it did not drive."""
     inquiries: int = 0
     no_help: str = ""
     """Why the person cannot or will not help, as a clause; empty if they may."""

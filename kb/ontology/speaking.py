@@ -47,7 +47,8 @@ def _less_room(place: Place) -> tuple[str, bool]:
     room = {*words_of(place.room), *words_of(spoken(place.room_kind))}
     words = spoken(place.name).split()
     if stem(words[0]) in room:
-        return " ".join(words), False
+        less_room = spoken(place.name).removesuffix(f" {spoken(place.room)}")
+        return less_room, less_room != spoken(place.name)
     kept = [word for word in words if stem(word) not in room]
     return " ".join(kept), len(kept) < len(words)
 

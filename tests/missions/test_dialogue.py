@@ -47,6 +47,18 @@ def test_it_is_what_was_found_before(talk: Talk) -> None:
     assert done(talk("Find the mug").run("Bring it")) == ("bring", "mug", "coffee_table")
 
 
+@pytest.mark.parametrize(
+    ("words", "where"),
+    [
+        ("Go to the sofa", "I am at the sofa in the living room."),
+        ("Bring the mug", "I am at the delivery table."),
+        ("Come here", "I am with you."),
+    ],
+)
+def test_it_says_where_it_came_to(talk: Talk, words: str, where: str) -> None:
+    assert talk(words, "Throw the ball").run("Where are you?").reason.startswith(where)
+
+
 def test_there_is_where_something_was_put(talk: Talk) -> None:
     session = talk("Put the hammer on the sofa")
     assert session.run("Put the mug there").goals == ("sofa",)

@@ -33,6 +33,13 @@ def test_a_color_answers_which_one_is_meant() -> None:
     assert run.outcome.object == "mustard_bottle"
 
 
+def test_what_is_asked_for_by_its_use_and_may_be_anywhere_is_brought_after_a_question() -> None:
+    words = "I need something to clean the bathroom with"
+    run = run_mission(words, answers=["In the kitchen"], llm=False)
+    assert "Where is the bleach cleanser?" in told(run)
+    assert (run.outcome.status, run.outcome.object) == ("done", "bleach_cleanser")
+
+
 @pytest.mark.parametrize(("answer", "thing"), [("yes", "mug"), ("no", None)])
 def test_a_thing_of_another_color_is_offered_and_never_simply_brought(
     answer: str, thing: str | None

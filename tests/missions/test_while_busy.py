@@ -108,6 +108,21 @@ def test_a_further_wish_is_done_afterwards_and_told_so(heard: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("heard", "wish"),
+    [
+        ("Is the mug on the desk, too?", "check whether the mug is on the desk"),
+        ("What is on the sofa?", "tell what is on the sofa"),
+        ("Count the fruit in the kitchen", "count fruit in the kitchen"),
+        ("Clear the desk", "clear the desk"),
+        ("Find the mug in the bedroom", "find the mug in the bedroom"),
+        ("Bring the mug later", "bring the mug"),
+    ],
+)
+def test_what_is_to_be_done_afterwards_is_said_in_whole_sentences(heard: str, wish: str) -> None:
+    assert f"All right: I {wish} afterwards." in answers(run("Bring the hammer", heard))
+
+
+@pytest.mark.parametrize(
     ("heard", "answer"),
     [
         ("What are you doing?", "I drive to the shelf in the lobby, to bring the hammer."),

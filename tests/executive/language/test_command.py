@@ -89,3 +89,16 @@ def test_who_is_to_clear_is_told_what_it_takes(words: str) -> None:
     read = EnglishInterpreter()
     assert not read.commands(words)
     assert read.remark(words).startswith("I can clear only at a place; say which.")
+
+
+def test_a_sentence_is_put_in_plain_form_once_for_all_who_ask(monkeypatch) -> None:
+    def counted(text: str) -> str:
+        asked.append(text)
+        return text.lower()
+
+    asked: list[str] = []
+    monkeypatch.setattr("executive.language.reader.plain_letters", counted)
+    words, it = "Bring me the tin that nobody spoke of in any test", EnglishInterpreter()
+    for ask in (it.commands, it.remark, it.denial, it.declines, it.agrees, it.talk):
+        ask(words)
+    assert asked.count(words) == 1

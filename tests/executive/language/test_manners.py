@@ -3,7 +3,7 @@
 import pytest
 
 from executive.language.grammar import EnglishInterpreter
-from executive.language.meaning import About, Choice, Courtesy, Question, Refusal
+from executive.language.meaning import About, Choice, Courtesy, Question, Refusal, Request
 
 read = EnglishInterpreter()
 
@@ -28,6 +28,11 @@ read = EnglishInterpreter()
         "Would you mind getting me the banana?",
         "would you mind grabbing me the banana",
         "lemme have the banana",
+        "Can't you bring me the banana?",
+        "Couldn't you please bring me the banana",
+        "Won't you bring the banana?",
+        "Why don't you just bring me the banana?",
+        "Bring me the banana, won't you?",
     ],
 )
 def test_manners_and_hesitation_change_nothing(words: str) -> None:
@@ -63,6 +68,46 @@ def test_who_says_do_not_in_many_words_is_not_obeyed_as_if_they_asked() -> None:
         assert isinstance(read.read(words), Refusal)
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Can't you not bring the apple",
+        "Don't you bring the apple",
+        "You can't bring the apple",
+        "Why don't you leave the apple",
+        "Can't you leave the apple on the desk?",
+        "Why don't you not bring the apple",
+        "Can you not bring the apple",
+        "Don't bring the apple, won't you",
+        "Don't forget not to bring the apple",
+        "Don't forget that I told you to leave the apple",
+        "Don't forget the apple must stay",
+        "Never mind the apple",
+    ],
+)
+def test_a_negation_beside_that_of_manners_is_one(words: str) -> None:
+    assert read.commands(words) == read.without_slips(words) == ()
+
+
+@pytest.mark.parametrize("words", ["Don't forget the mug", "Do not forget about the mug, please"])
+def test_what_is_not_to_be_forgotten_is_a_thing_without_a_verb(words: str) -> None:
+    assert read.read(words) == read.read("the mug")
+    [[command]] = read.without_slips(words)
+    assert (command.kind, command.target) == ("bring", "mug")
+
+
+def test_what_is_to_be_done_later_may_follow_what_is_under_way() -> None:
+    said = read.read("Bring the mug later")
+    assert isinstance(said, Request)
+    assert said.later
+
+
+@pytest.mark.parametrize("when", ["Later,", "When I am back,", "Tomorrow"])
+def test_a_set_time_may_come_first(when: str) -> None:
+    assert read.command(f"{when} bring me the mug") is None
+    assert "set time" in read.remark(f"{when} bring me the mug")
+
+
 def test_a_thing_to_do_at_a_place_is_not_passed_over() -> None:
     assert read.command("Go to the desk and dance there") is None
 
@@ -77,6 +122,12 @@ def test_a_thing_to_do_at_a_place_is_not_passed_over() -> None:
         "every day",
         "before lunch",
         "tonight",
+        "later",
+        "later on",
+        "in a while",
+        "when I am back",
+        "once we get home",
+        "after my meeting",
     ],
 )
 def test_what_is_to_be_done_at_a_set_time_is_not_done_at_once(when: str) -> None:

@@ -62,6 +62,8 @@ def test_places_that_share_a_name_are_told_apart_by_the_room() -> None:
     [
         ("bathroom_cabinet", "bathroom", "on the bathroom cabinet"),
         ("nightstand_bedroom_2", "bedroom", "on nightstand 2 in the bedroom"),
+        ("dining_table_dining_room", "dining_room", "on the dining table in the dining room"),
+        ("kitchen_table_kitchen", "kitchen", "on the kitchen table"),
         ("bed_1", "bedroom_1", "on the bed in bedroom 1"),
         ("anna's_desk", "bedroom", "on anna's desk in the bedroom"),
     ],
