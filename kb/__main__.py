@@ -205,7 +205,9 @@ def parser() -> argparse.ArgumentParser:
             default=True,
             help="whether to load defaults.owl (default: yes)",
         )
-    remembered = commands.add_parser("facts", help="what was seen, missed, said, taken and put")
+    remembered = commands.add_parser(
+        "facts", help="what was seen, missed, looked at, said, taken and put"
+    )
     for command in (asked, remembered):
         command.add_argument("--json", action="store_true", help="print JSON")
     remembered.add_argument(

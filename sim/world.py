@@ -40,7 +40,7 @@ from sim.navigation.durations import durations_in
 from sim.navigation.grid import OccupancyGrid
 from sim.navigation.navigator import Navigator
 from sim.objects.objects import ObjectModel
-from sim.pictures.beside import CameraBeside, OtherCamera
+from sim.pictures.beside import Beside, CameraBeside
 from sim.pictures.scene import Actors, Blueprint
 from sim.robot import SimulatedRobot
 from sim.transforms import FrameTree
@@ -75,7 +75,6 @@ class PhysicsWorld:
         injector: FaultInjector | None = None,
         left: Collection[str] = (),
         beside: bool = False,
-        looks_beside: bool = False,
     ) -> None:
         """Build the home with the robot in it.
 
@@ -89,16 +88,16 @@ class PhysicsWorld:
             camera_hz: pictures for the log per second while something moves; 0 for none.
             injector: what goes wrong by order.
             left: things that are where they were left, so that the seed leaves them there.
-            beside: whether another process draws the pictures for the log.
-            looks_beside: whether another process draws what the robot looks at.
+            beside: whether another process draws the pictures for the log, and what `eyes` see.
+                It cannot where pictures are spoilt by order.
         """
         self._home = home
         self._models = models
         self._recorder = recorder
         self._client = connect(gui)
         self._client.setPhysicsEngineParameter(deterministicOverlappingPairs=1)
-        drawn_beside = (beside and camera_hz) or looks_beside
-        blueprint = Blueprint(self._client) if drawn_beside else None
+        beside = beside and not (injector and injector.spoils_pictures)
+        blueprint = Blueprint(self._client) if beside else None
         self._fixtures = build_home(self._client, home)
         if gui:
             aim_window(self._client, home.extent())
@@ -134,22 +133,15 @@ class PhysicsWorld:
         self._frames = FrameTree(self._client, self._hardware, movable)
         self._robots_frames = FrameTree(self._client, self._hardware, {})
         self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
-        self._beside: list[CameraBeside] = []
         self._log_camera: Camera = self._glancing
-        spoilt = injector is not None and injector.spoils_pictures
-        self.draws_looks_beside = looks_beside and not spoilt
-        if blueprint and not spoilt:
-            actors = Actors(self._client, movable, self._hardware.body)
-            if beside and camera_hz:
-                self._log_camera = CameraBeside(glancing, actors, blueprint, recorder)
-                self._beside.append(self._log_camera)
-            if self.draws_looks_beside:
-                self.camera = CameraBeside(camera, actors, blueprint, recorder, "pictures")
-                self._beside.append(self.camera)
         self.eyes: Camera = self.camera
-        """The same camera; a detector that needs no more than the picture need not draw it here."""
-        if isinstance(self._log_camera, CameraBeside) and not (injector or looks_beside):
-            self.eyes = OtherCamera(camera, self._log_camera)
+        """The same camera, for who needs no more than the picture: it need not be drawn here."""
+        self._beside: Beside | None = None
+        if blueprint:
+            actors = Actors(self._client, movable, self._hardware.body)
+            self._beside = Beside(actors, blueprint, recorder)
+            self._log_camera = CameraBeside(glancing, self._beside)
+            self.eyes = CameraBeside(camera, self._beside)
 
     # --- SimulatedHome ---
 
@@ -181,8 +173,8 @@ class PhysicsWorld:
 
     def close(self) -> None:
         """Free the simulator."""
-        for camera in self._beside:
-            camera.close()
+        if self._beside:
+            self._beside.close()
         self.robot.close()
         self._planning.close()
         self._client.disconnect()

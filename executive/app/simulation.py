@@ -72,7 +72,7 @@ def physics(setup: Setup) -> Embodiment:
         camera_hz=settings.camera_hz,
         injector=injector,
         left=setup.left,
-        beside=worthwhile(),
+        beside=settings.camera_hz > 0 and worthwhile(),
     )
     clock = SimulatedClock(setup.inbox, world)
     simulated = settings.detector == "simulated"

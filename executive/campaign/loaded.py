@@ -14,6 +14,7 @@ with all_is_kept(), suppress(Exception):
     import executive.campaign.weeks.household  # noqa: F401
     import kb.llm.llama  # noqa: F401
     import kb.llm.loaded  # noqa: F401
+    import sim.manipulation.rrt  # noqa: F401
     import sim.world  # noqa: F401
 
 atexit.register(os._exit, 0)  # some libraries complain of what the end of Python finds

@@ -11,7 +11,6 @@ from executive.geometry import Floats
 from sim.home.home import Furniture
 from sim.manipulation.grasps import HandPose
 from sim.manipulation.planning import CHECKED, PlanningWorld
-from sim.manipulation.rrt import connect
 
 NEAREST_M = 0.40
 """From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
@@ -207,6 +206,8 @@ def any_path(world: PlanningWorld, base: Floats, start: Floats, end: Floats) -> 
 def _roundabout(
     world: PlanningWorld, base: Floats, start: Floats, end: Floats
 ) -> list[Floats] | None:
+    from sim.manipulation.rrt import connect  # most missions do without
+
     lower, upper = world.limits
     found = connect(
         start / CHECKED,

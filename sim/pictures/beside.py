@@ -1,8 +1,9 @@
 """Pictures that are drawn beside the physics, by a process with its own copy of the world.
 
-What it draws is the same to the bit: a frame's pixels come later. For those of the log nobody
-waits; for what the robot looks at the mission waits, but a stop is heard meanwhile. Where there is
-no such process, or too much waits for it, pictures are drawn here and at once.
+A world has one such process at most, for those of the log and for what the robot looks at. What it
+draws is the same to the bit: a frame's pixels come later. For those of the log nobody waits; for
+what the robot looks at the mission waits, but a stop is heard meanwhile. Where there is no such
+process, or too much waits for it, pictures are drawn here and at once.
 """
 
 import logging
@@ -34,30 +35,19 @@ def _cores() -> int:
     return os.cpu_count() or 1
 
 
-class CameraBeside:
-    """A Camera whose pictures are drawn by another process, and by this one where that cannot."""
+class Beside:
+    """The process of one world, which draws what any camera in it sees, as long as it can."""
 
-    def __init__(
-        self,
-        camera: SimulatedCamera,
-        actors: Actors,
-        blueprint: Blueprint,
-        recorder: Recorder,
-        what: str = "pictures for the log",
-    ) -> None:
-        """Start the process.
+    def __init__(self, actors: Actors, blueprint: Blueprint, recorder: Recorder) -> None:
+        """Start it.
 
         Args:
-            camera: the same, drawn here; both count their pictures together.
-            actors: what moves in its world.
-            blueprint: of its world, which is built.
-            recorder: is told when the other process draws no more.
-            what: what it draws, in words.
+            actors: what moves in the world.
+            blueprint: of the world, which is built.
+            recorder: is told when the process draws no more.
         """
-        self._camera = camera
         self._actors = actors
         self._recorder = recorder
-        self._what = what
         self._painter: Painter | None = None
         self._untold = ""
         """Why there is no painter, until that is told."""
@@ -67,22 +57,17 @@ class CameraBeside:
         except (OSError, RuntimeError) as error:  # no process, or no thread, is to be had
             self._untold = f"no process can be started for them: {error}"
 
-    def capture(self) -> Frame:
-        """The picture of this moment."""
-        return self.taken_by(self._camera)
-
-    def taken_by(self, camera: SimulatedCamera) -> Frame:
-        """The picture of this moment by another camera in the same world."""
+    def draw(self, camera: SimulatedCamera) -> Frame | None:
+        """The picture of this moment, which will come; None if it has to be drawn here."""
         coming = self._coming(camera)
         if self._untold:
-            text = f"{self._what} are not drawn beside the physics: {self._untold}"
-            log.warning("%s", printable(text))
-            self._recorder.record(Note("warning", printable(text)))
+            text = printable(f"pictures are not drawn beside the physics: {self._untold}")
+            log.warning("%s", text)
+            self._recorder.record(Note("warning", text))
             self._untold = ""
-        return coming or camera.capture()
+        return coming
 
     def _coming(self, camera: SimulatedCamera) -> Frame | None:
-        """Ask the other process; None if it has to be drawn here."""
         if self._painter is None:
             return None
         pose, lens = camera.pose(), camera.lens
@@ -101,14 +86,14 @@ class CameraBeside:
             self._painter = None
 
 
-class OtherCamera:
-    """A Camera in the same world, whose pictures the same process draws."""
+class CameraBeside:
+    """A Camera whose pictures are drawn by that process, and by this one where that cannot."""
 
-    def __init__(self, camera: SimulatedCamera, beside: CameraBeside) -> None:
-        """Have what `camera` sees drawn as that of `beside`."""
+    def __init__(self, camera: SimulatedCamera, beside: Beside) -> None:
+        """See what `camera` sees; both count their pictures together."""
         self._camera = camera
         self._beside = beside
 
     def capture(self) -> Frame:
         """The picture of this moment."""
-        return self._beside.taken_by(self._camera)
+        return self._beside.draw(self._camera) or self._camera.capture()

@@ -103,14 +103,14 @@ class PhysicsBody:
         """Serve the robot of this world."""
         self.world = world
         self._robot = world.robot
-        self.camera = world.camera
+        self.camera = world.eyes
         self.advance = world.advance
         self.start = world.robot.start
         self.cancel = world.robot.cancel
         self.frames = world.robots_frames
         self.joints = world.hardware.joint_states
         self.close = world.close
-        self.draws_beside = world.draws_looks_beside
+        self.draws_beside = world.eyes is not world.camera
 
     @property
     def busy(self) -> bool:

@@ -99,7 +99,7 @@ def _physics(plan: Plan, inbox: Inbox, recorder: _Teller, injector: FaultInjecto
         gui=plan.gui,
         camera_hz=0.0,
         injector=injector,
-        looks_beside=worthwhile(),
+        beside=worthwhile(),
     )
     return PhysicsBody(world)
 

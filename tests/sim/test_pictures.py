@@ -11,12 +11,15 @@ import numpy as np
 import pytest
 from patience import PATIENCE_S
 
+from executive.app.embodiment import Setup
+from executive.app.simulation import physics as physics_of
+from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.perception.pipeline import CameraPerception
 from executive.records import Note, Picture, Seen
-from executive.testing.bench import Notebook, four_rooms
-from executive.types import FLOOR, DriveTo, Frame, LookAt, Pose, Saw
-from sim.bullet.camera import GLANCING, SimulatedCamera, view_from
+from executive.testing.bench import Notebook, four_rooms, ontology
+from executive.types import DriveTo, Frame, Pose, Saw
+from sim.bullet.camera import GLANCING, view_from
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_fault
 from sim.objects.objects import load_objects
@@ -25,6 +28,7 @@ from sim.pictures.beside import worthwhile
 from sim.pictures.coming import NotDrawnError
 from sim.pictures.painter import Asked, Stage
 from sim.pictures.scene import Moment
+from sim.served.bodies import PhysicsBody
 from sim.world import PhysicsWorld
 
 MODELS = load_objects()
@@ -36,7 +40,7 @@ physics = pytest.mark.physics
 class Filmed(PhysicsWorld):
     """A world whose robot drives, with two pictures a second for the log."""
 
-    def __init__(self, camera_hz: float = 2.0, faults: Sequence[Any] = ()) -> None:
+    def __init__(self, faults: Sequence[Any] = ()) -> None:
         self.notes = Notebook()
         self.seconds = 0.0
         injector = FaultInjector(faults, self.notes, lambda: self.seconds) if faults else None
@@ -46,7 +50,7 @@ class Filmed(PhysicsWorld):
             Inbox(),
             self.notes,
             seed=3,
-            camera_hz=camera_hz,
+            camera_hz=2.0,
             injector=injector,
             beside=True,
         )
@@ -105,27 +109,24 @@ def test_pictures_drawn_beside_the_physics_are_the_same_to_the_bit(
 
 
 @physics
-def test_what_a_served_robot_looks_at_is_drawn_beside_the_same_to_the_bit():
-    world = PhysicsWorld(four_rooms(), MODELS, Inbox(), Notebook(), camera_hz=0, looks_beside=True)
-    world.robot.start(LookAt(FLOOR, 1))
-    while world.busy:
-        world.advance(1.0)
-    beside_it = world.camera.capture()
-    here = SimulatedCamera(world._client, world._camera_pose).capture()
-    assert type(beside_it) is not Frame
-    assert np.array_equal(beside_it.color, here.color)
-    assert np.array_equal(beside_it.depth, here.depth)
-    world.close()
-
-
-@physics
-def test_what_the_robot_looks_at_is_drawn_beside_and_the_same_to_the_bit():
-    world = Filmed()
+@pytest.mark.parametrize("faults", [[], ORDERED], ids=["none", "ordered"])
+def test_what_the_robot_looks_at_is_drawn_beside_and_the_same_to_the_bit(faults: list[Any]):
+    world = Filmed(faults=faults)
+    world.film(1.0)
     beside_it, at_once = world.eyes.capture(), world.camera.capture()
     assert beside_it.coming
     assert not at_once.coming
     assert at_once.number == beside_it.number + 1
     assert same(beside_it, replace(at_once, number=beside_it.number))
+    world.close()
+
+
+@physics
+def test_a_served_robot_looks_with_the_eyes_that_are_drawn_beside():
+    world = Filmed()
+    body = PhysicsBody(world)
+    assert body.draws_beside
+    assert body.camera.capture().coming
     world.close()
 
 
@@ -181,16 +182,22 @@ def test_where_no_process_can_be_started_that_is_told_once_and_pictures_are_draw
 
 
 @physics
-@pytest.mark.parametrize(
-    ("camera_hz", "faults"), [(0.0, []), (2.0, [parse_fault("noise=0.1")])], ids=["none", "noisy"]
-)
-def test_no_process_is_started_for_no_pictures_nor_for_spoilt_ones(
-    here: None, camera_hz: float, faults: list[Any]
-):
-    world = Filmed(camera_hz, faults)
+def test_no_process_is_started_for_spoilt_pictures(here: None):
+    world = Filmed([parse_fault("noise=0.1")])
     world.film(1.0)
+    assert not PhysicsBody(world).draws_beside
     world.close()
     assert not world.warnings()
+
+
+@physics
+def test_no_process_is_started_for_a_mission_without_pictures_for_the_log(here: None):
+    settings = load_settings(camera_hz=0, detector="simulated")
+    notes = Notebook()
+    body = physics_of(Setup(settings, four_rooms(), Inbox(), notes, ontology(True)))
+    body.begin()
+    body.close()
+    assert not notes.all(Note)
 
 
 def test_the_process_ends_when_whoever_asks_is_gone():

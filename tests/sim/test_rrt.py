@@ -1,5 +1,7 @@
 """Ways around obstacles, on a plane."""
 
+import subprocess
+import sys
 from itertools import pairwise
 
 import numpy as np
@@ -43,3 +45,8 @@ def test_there_is_no_way_through_a_closed_wall() -> None:
 def test_the_same_question_has_the_same_answer() -> None:
     one, other = (connect(START, GOAL, LOWER, UPPER, beside_a_wall, samples=500) for _ in "ab")
     assert np.array_equal(np.array(one), np.array(other))
+
+
+def test_ompl_is_not_imported_before_a_way_around_is_sought() -> None:
+    show = "import sim.world, sys; sys.exit('ompl' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", show]).returncode == 0

@@ -1,5 +1,6 @@
 // What was said, and why.
 
+import { inWords } from "./chances.js";
 import { element } from "./elements.js";
 import { why } from "./robot.js";
 import { spoken, text, textOr } from "./texts.js";
@@ -96,9 +97,15 @@ function reasons(decisions) {
 function reason(decision) {
   const source = decision.source && textOr(`said_by.${decision.source}`, decision.source);
   const others = decision.alternatives.map((other) =>
-    element("li", {}, text("why_not", { what: spoken(other.what), why_not: other.why_not })));
+    element("li", {}, text("why_not", { what: told(other.what), why_not: told(other.why_not) })));
   return element("li", {},
-    element("strong", {}, `${decision.question}: `), spoken(decision.answer),
+    element("strong", {}, `${decision.question}: `), spoken(inWords(decision.answer)),
     source ? element("em", {}, ` (${source})`) : null,
     others.length ? element("ul", {}, ...others) : null);
+}
+
+/** What the program calls its own parts is said as the person calls them. */
+function told(noted) {
+  return spoken(inWords(noted))
+    .replace(/\b(?:the )?(ontology|llm)\b/g, (whole, part) => textOr(`parts.${part}`, whole));
 }

@@ -1,5 +1,6 @@
 // The home from above, and the places that the search is about. In `map` y points up; here down.
 
+import { percent, said } from "./chances.js";
 import { drawn, element } from "./elements.js";
 import { spoken, text, textOr } from "./texts.js";
 
@@ -8,7 +9,6 @@ const list = document.getElementById("places");
 const MARGIN_M = 0.1;
 const LETTER_M = 0.15;
 const ABOVE_M = 0.36;
-const LEAST = 0.005; // who says less, of several, says nothing
 const MARKS = { open: "?", current: "→", empty: "✕", unreached: "!", found: "✓" };
 const layers = {};
 let home = null;
@@ -162,20 +162,6 @@ function plan({ places, ask_after: askAfter }) {
   const order = planned.map(({ place }) => labelOf(place)).join(", ");
   const key = askAfter < 0 ? "plan" : askAfter < planned.length ? "plan_ask" : "plan_then_ask";
   return element("p", {}, text(key, { order, count: askAfter }));
-}
-
-function said(sources) {
-  const all = Object.entries(sources).filter(([source]) => source);
-  const named = all.filter(([, share]) => share === null || share >= LEAST || all.length === 1);
-  return named.map(([source, share], at) => {
-    const name = textOr(`sources.${source}`, source);
-    const one = share !== null && named.length > 1 ? `${name} ${percent(share)}` : name;
-    return at < named.length - 1 ? `${one}, ` : one;
-  });
-}
-
-function percent(share) {
-  return share > 0 && share < 0.01 ? "<\u00a01\u00a0%" : `${Math.round(share * 100)}\u00a0%`;
 }
 
 function row({ place, state, chance, sources, why, turn }, chances) {

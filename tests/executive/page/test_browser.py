@@ -99,6 +99,51 @@ def test_why_is_told_beside_the_sentence(browser: Browser, talking: Robot) -> No
         expect(because).to_have_count(0)
 
 
+def test_why_is_told_in_the_persons_words(browser: Browser, tmp_path: Path) -> None:
+    planning = robot(tmp_path, recorded=True, search="plan", place={"sugar_box": "high_table"})
+    with planning as talking, opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find the sugar_box")
+        talking.ended(1)
+        tab.get_by_role("button", name=re.compile("^Why did the robot say: I look for")).click()
+        because = tab.locator(".because")
+        expect(because).to_contain_text("I look at high table 32\u00a0% (known of homes): asking")
+        expect(because).to_contain_text("not “counter wagon”: 32\u00a0% (known of homes), 9 s away")
+        expect(because).not_to_contain_text(re.compile(r"ontology|anywhere|\d\.\d\d"))
+
+
+@pytest.mark.parametrize(
+    ("noted", "told"),
+    [
+        (
+            "0.51 (ontology 0.49, llm 0.02), 9 s away",
+            "51 % (known of homes 49 %, language model 2 %), 9 s away",
+        ),
+        ("0.41 (my_shelf 0.40, anywhere 0.00)", "41 % (my shelf)"),
+        ("desk 0.62, sofa 0.00", "desk 62 %, sofa < 1 %"),
+        (
+            "llm ranks places: the ontology has 3 places for it",
+            "the language model ranks places: my knowledge of homes has 3 places for it",
+        ),
+        ("noise=0.25, and 0.45 m too high", "noise=0.25, and 0.45 m too high"),
+    ],
+)
+def test_what_was_not_taken_is_told_in_the_persons_words(
+    browser: Browser, talking: Robot, noted: str, told: str
+) -> None:
+    because = {
+        "question": "which",
+        "answer": "",
+        "alternatives": [{"what": "it", "why_not": noted}],
+    }
+    with opened(browser, talking.page) as tab:
+        tab.route("**/why*", lambda route: route.fulfill(json=[because]))
+        wait_until_ready(tab)
+        say(tab, "Find the peach")
+        tab.get_by_role("button", name=re.compile("^Why did the robot say")).first.click()
+        expect(tab.locator(".because li li")).to_have_text(f"not “it”: {told}")
+
+
 def test_by_the_keyboard_alone(browser: Browser, talking: Robot) -> None:
     with opened(browser, talking.page) as tab:
         wait_until_ready(tab)
