@@ -183,15 +183,6 @@ def test_a_halt_without_a_link_does_not_pretend() -> None:
     assert "I cannot be told to stop, and may go on" in result.reason
 
 
-def test_a_link_that_is_lost_is_told(linked: Linked) -> None:
-    request = linked.here.robot.start(DriveTo("desk"))
-    until(lambda: linked.there.busy, "the drive")
-    linked.there.cut()
-    result = linked.bench.end_of(request)
-    assert isinstance(result, Failed)
-    assert "the link to the robot was lost" in result.reason
-
-
 def test_what_nobody_remembers_is_stopped_when_there_is_a_link_again(linked: Linked) -> None:
     linked.here.robot.start(DriveTo("desk"))
     until(lambda: linked.there.busy, "the drive")
