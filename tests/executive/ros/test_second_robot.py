@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from patience import until
 from second_robot import ACTIONS, PROFILE, SPEED_M_S, SecondRobot
@@ -141,6 +142,12 @@ def test_fingers_that_something_keeps_open_hold_it(linked: Linked) -> None:
     assert linked.here.robot.holding is False
     linked.there.holds = "mug"
     until(lambda: linked.here.robot.holding is True, "what it feels")
+
+
+def test_fingers_that_tell_no_number_do_not_tell_that_nothing_is_held(linked: Linked) -> None:
+    assert linked.here.robot.holding is False
+    linked.there.told["/acme/fingers"] = {"position": np.array([math.nan])}
+    until(lambda: linked.here.robot.holding is None, "what it does not tell")
 
 
 def test_an_action_that_never_answers_is_given_up(linked: Linked) -> None:
