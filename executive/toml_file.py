@@ -31,6 +31,7 @@ _SHOWN = 60
 _PYTHONS = re.compile(
     r"\btuple\b|\bdictionary( or instance of \w+)?\b| after validation|Value error, ", re.IGNORECASE
 )
+_BOOL = "should be true or false"
 _TOMLS = {"tuple": "list", " after validation": "", "value error, ": ""}
 
 
@@ -126,13 +127,13 @@ def misread(tables: Mapping[str, Any], read: object) -> Iterator[Misread]:
 
 
 def refuse_misread_bools(tables: Mapping[str, Any], read: object, where: str) -> None:
-    """See that no bool of a file was taken for a number.
+    """See that no bool of a file was taken for a number, and nothing else for a bool.
 
     Raises:
         InputError: if one was.
     """
     for one in misread(tables, read):
-        if isinstance(one.value, bool):
+        if isinstance(one.value, bool) or one.right == _BOOL:
             raise InputError(where, f"{one.key} is {one.shown}", one.right)
 
 
@@ -150,7 +151,7 @@ def _item(made: object, number: int) -> object:
 def _other_kind(said: bool | float | str, made: object) -> str:
     """What a value should have been; empty if it is of the kind that was made of it."""
     if isinstance(made, bool):
-        return "" if isinstance(said, bool) else "should be true or false"
+        return "" if isinstance(said, bool) else _BOOL
     is_number = isinstance(made, int | float)
     if is_number and isinstance(said, bool):
         return "should be a number"

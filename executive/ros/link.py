@@ -42,6 +42,11 @@ class Link(Protocol):
         """Why there is no link now, as a clause; empty if there is one."""
         ...
 
+    @property
+    def losses(self) -> int:
+        """How often it was lost so far."""
+        ...
+
     async def ready(self, within_s: float) -> None:
         """Wait for the link, if there is none.
 

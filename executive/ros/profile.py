@@ -277,6 +277,8 @@ class Profile(_Section):
     about: str = ""
     tried: str = "not on hardware"
     """Where this was tried, for who reads it."""
+    link_wait_s: Annotated[float, Field(ge=0, le=3600)] = 30.0
+    """So long a drive or a look waits for a link that was lost (s, real time), to be done again."""
     frames: Frames = Frames()
     drive: Drive
     look: Look | None = None

@@ -47,7 +47,7 @@ class RclpyLink:
         except ImportError as error:
             why = "source its setup.bash, with this version of Python; or use rosbridge"
             raise LinkError(f"rclpy cannot be imported ({error}): {why}") from None
-        self.loss = ""
+        self.loss, self.losses = "", 0
         self._loop = asyncio.get_running_loop()
         self._context = rclpy.Context()
         rclpy.init(context=self._context)

@@ -13,6 +13,7 @@ from executive.ros.actions import Actions
 from executive.ros.arm import Arm, Hands, Planar
 from executive.ros.link import GoalEnd, Link, LinkError
 from executive.ros.looking import Looking
+from executive.ros.losses import Losses
 from executive.ros.messages import (
     UPRIGHT,
     planar_pose,
@@ -98,6 +99,7 @@ class WireRobot:
         self._places = places
         self._inbox = inbox
         self._actions = Actions(link, profile)
+        self._losses = Losses(link, profile.link_wait_s, brake.settled)
         self._looking = Looking(profile, senses, places.view_targets)
         self._link = link
         self._real = profile.clock is None or profile.clock.counts_while_idle
@@ -206,9 +208,10 @@ class WireRobot:
     async def _done(self, goal: Goal) -> Succeeded | Failed:
         match goal:
             case DriveTo(place):
-                return await self._drive(place)
+                had = self._senses.holding
+                return await self._losses.outlived(lambda: self._drive(place, had))
             case LookAt(place, view, point):
-                return await self._look(place, view, point)
+                return await self._losses.outlived(lambda: self._look(place, view, point))
             case Pick(detection):
                 return await self._pick(detection)
             case PutDown(place):
@@ -235,7 +238,8 @@ class WireRobot:
 
     # --- driving ---
 
-    async def _drive(self, place: str) -> Succeeded | Failed:
+    async def _drive(self, place: str, had: bool | None) -> Succeeded | Failed:
+        """Drive to a place; `had` is whether something was in the hand when that was asked for."""
         if why := self._forbidden(place):
             return Failed(why)
         stand = self._stand(place)
@@ -244,7 +248,6 @@ class WireRobot:
         self._at = None
         if self._arm is not None and (why := await self._arm.fold()):
             return Failed(f"I cannot fold my arm: {why}")
-        had = self._senses.holding
         pose = planar_pose(*stand, self._profile.frames.map)
         for leg in await self._actions.legs(pose):
             end = await self._act("drive", {"pose": leg, "place": place})

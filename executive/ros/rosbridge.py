@@ -42,12 +42,19 @@ class RosbridgeLink:
         self._greeting: Callable[[], Awaitable[None]] | None = None
         self._greeter: asyncio.Task[None] | None = None
         self._ready = asyncio.Event()
+        self._was_up = False
+        self._losses = 0
         self._advertised: set[str] = set()
 
     @property
     def loss(self) -> str:
         """Why there is no link now; both sockets make one."""
         return self._work.loss or self._stop.loss
+
+    @property
+    def losses(self) -> int:
+        """How often one of both was lost, after there were both."""
+        return self._losses
 
     async def ready(self, within_s: float) -> None:
         """Wait for both sockets, and until the robot is greeted."""
@@ -66,6 +73,8 @@ class RosbridgeLink:
     def _changed(self) -> None:
         """A socket was connected or lost."""
         self._ready.clear()
+        self._losses += self._was_up and bool(self.loss)
+        self._was_up = not self.loss
         if self._greeter is not None:
             self._greeter.cancel()
             self._greeter = None

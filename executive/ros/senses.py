@@ -143,7 +143,11 @@ class Senses:
             self._felt.set()
             return
         positions = dict(zip(message["name"], numbers(message["position"]), strict=True))
-        if hand.joint in positions:
-            low, high = hand.between
-            self._holding = low < positions[hand.joint] < high
-            self._felt.set()
+        if hand.joint not in positions:
+            return
+        (low, high), position = hand.between, positions[hand.joint]
+        if not math.isfinite(position):  # it does not tell, which is not the same as nothing
+            self._holding = None
+            return
+        self._holding = low < position < high
+        self._felt.set()

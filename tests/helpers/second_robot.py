@@ -16,6 +16,7 @@ import numpy as np
 from patience import PATIENCE_S
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
 
 from executive.ros.packets import PacketError
 from executive.ros.protocol import (
@@ -80,6 +81,8 @@ class SecondRobot:
         """So many cancels are lost on their way."""
         self.told: dict[str, dict[str, Any]] = {}
         """Fields of a topic's messages that are told otherwise."""
+        self.shut = False
+        """Whether nobody is let in."""
         self.headers: list[dict[str, str]] = []
         self.port = 0
         self._clients: dict[ServerConnection, dict[str, Subscribe]] = {}
@@ -109,9 +112,10 @@ class SecondRobot:
     def busy(self) -> bool:
         return bool(self._under_way)
 
-    def cut(self) -> None:
-        """Break off all connections."""
-        for client in tuple(self._clients):
+    def cut(self, *, only_stop: bool = False) -> None:
+        """Break off all connections, or that for stopping, where nothing is subscribed to."""
+        clients = self._clients.items()
+        for client in [one for one, topics in clients if not (only_stop and topics)]:
             self._loop.call_soon_threadsafe(client.transport.abort)
 
     def say(self, packet: str | bytes) -> None:
@@ -130,12 +134,16 @@ class SecondRobot:
         self._loop.run_until_complete(self._serve())
 
     async def _serve(self) -> None:
-        async with serve(self._talk, "127.0.0.1", 0, compression=None) as server:
+        how: dict[str, Any] = {"compression": None, "process_request": self._let_in}
+        async with serve(self._talk, "127.0.0.1", 0, **how) as server:
             self.port = next(iter(server.sockets)).getsockname()[1]
             life = asyncio.create_task(self._live())
             self._started.set()
             await self._over.wait()
             life.cancel()
+
+    def _let_in(self, client: ServerConnection, _: Request) -> Response | None:
+        return client.respond(503, "not now") if self.shut else None
 
     async def _talk(self, client: ServerConnection) -> None:
         self._clients[client] = {}

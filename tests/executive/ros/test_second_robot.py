@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from patience import until
 from second_robot import ACTIONS, PROFILE, SPEED_M_S, SecondRobot
@@ -143,6 +144,12 @@ def test_fingers_that_something_keeps_open_hold_it(linked: Linked) -> None:
     until(lambda: linked.here.robot.holding is True, "what it feels")
 
 
+def test_fingers_that_tell_no_number_do_not_tell_that_nothing_is_held(linked: Linked) -> None:
+    assert linked.here.robot.holding is False
+    linked.there.told["/acme/fingers"] = {"position": np.array([math.nan])}
+    until(lambda: linked.here.robot.holding is None, "what it does not tell")
+
+
 def test_an_action_that_never_answers_is_given_up(linked: Linked) -> None:
     linked.there.deaf.add("/acme/go")
     result = linked.bench.do(DriveTo("desk"))
@@ -181,15 +188,6 @@ def test_a_halt_without_a_link_does_not_pretend() -> None:
         here.close()
     assert isinstance(result, Failed)
     assert "I cannot be told to stop, and may go on" in result.reason
-
-
-def test_a_link_that_is_lost_is_told(linked: Linked) -> None:
-    request = linked.here.robot.start(DriveTo("desk"))
-    until(lambda: linked.there.busy, "the drive")
-    linked.there.cut()
-    result = linked.bench.end_of(request)
-    assert isinstance(result, Failed)
-    assert "the link to the robot was lost" in result.reason
 
 
 def test_what_nobody_remembers_is_stopped_when_there_is_a_link_again(linked: Linked) -> None:

@@ -1,0 +1,192 @@
+"""A link that is lost during a drive or a look is waited for, and the goal is done again."""
+
+import asyncio
+import logging
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from patience import until
+from second_robot import PROFILE, SPEED_M_S, SecondRobot
+
+from executive.events import Inbox
+from executive.ros.address import read_address
+from executive.ros.connection import connect
+from executive.ros.link import LinkError
+from executive.ros.losses import Losses
+from executive.ros.profile import load_profile
+from executive.testing.bench import four_rooms
+from executive.testing.contracts.robot import Bench, nothing_there
+from executive.types import DriveTo, Failed, Halt, LookAt, Pick, Result, Succeeded
+from sim.fake import straight_s
+
+LOOK = '[look]\naction = "/acme/go"\ntype = "acme_msgs/action/Go"\nsilent_s = 1.0\n'
+WAIT_S = 20.0
+
+
+class House:
+    """The second robot, its link, and a drive to its desk."""
+
+    def __init__(self, there: SecondRobot, bench: Bench, link: Any) -> None:
+        self.there, self.bench, self.link = there, bench, link
+
+    @property
+    def goals(self) -> int:
+        return len(self.there.goals)
+
+    def drive(self) -> int:
+        request = self.bench.robot.start(DriveTo("desk"))
+        until(lambda: self.there.busy, "the drive")
+        return request
+
+    def lose(self) -> None:
+        self.there.shut = True
+        self.there.cut()
+        until(lambda: self.link.loss, "the loss")
+
+    def find(self) -> None:
+        self.there.shut = False
+        until(lambda: not self.link.loss, "another link")
+
+
+@pytest.fixture
+def wait_s() -> float:
+    return WAIT_S
+
+
+@pytest.fixture
+def house(tmp_path: Path, wait_s: float) -> Iterator[House]:
+    home, inbox, file = four_rooms(), Inbox(), tmp_path / "mine.toml"
+    look = f'{LOOK}goal = {{ at = "$point" }}\n'
+    file.write_text(f"link_wait_s = {wait_s}\n{PROFILE.read_text()}\n{look}")
+    with SecondRobot(home.robot_start) as there:
+
+        def ways(start: str, place: str) -> float:
+            return straight_s(home, start, place, SPEED_M_S)
+
+        def advance(at_most: float) -> float:
+            began = there.time_s
+            time.sleep(min(at_most, 0.02))
+            return there.time_s - began
+
+        address, profile = read_address(there.url), load_profile(str(file))
+        here = connect(address, profile, home, inbox, file.name, ways)
+        try:
+            yield House(there, Bench(here.robot, inbox, advance), here.line.link)
+        finally:
+            here.close()
+
+
+def reason(result: Result) -> str:
+    assert isinstance(result, Failed)
+    return result.reason
+
+
+def test_a_drive_is_done_again_when_there_is_a_link_again(
+    house: House, caplog: pytest.LogCaptureFixture
+) -> None:
+    with caplog.at_level(logging.WARNING):
+        request = house.drive()
+        house.lose()
+        house.find()
+        assert house.bench.end_of(request) == Succeeded()
+    assert house.goals == 2
+    assert house.there.at[:2] == pytest.approx(four_rooms().stand("desk")[:2])
+    assert "I lost the link to my robot: I wait for it, 20 s at most" in caplog.text
+
+
+def test_a_drive_that_is_called_off_because_the_link_was_lost_is_done_again(house: House) -> None:
+    request = house.drive()
+    house.there.cut(only_stop=True)
+    assert house.bench.end_of(request) == Succeeded()
+    assert house.goals == 2
+
+
+def test_a_look_is_done_again(house: House) -> None:
+    assert house.bench.do(DriveTo("desk")) == Succeeded()
+    house.there.deaf.add("/acme/go")
+    request = house.bench.robot.start(LookAt("desk"))
+    until(lambda: house.goals == 2, "the look")
+    house.there.cut()
+    assert "no sign of /acme/go" in reason(house.bench.end_of(request))
+    assert house.goals == 3
+
+
+def test_a_grasp_is_not_done_again(house: House) -> None:
+    house.there.deaf.add("/acme/grab")
+    request = house.bench.robot.start(Pick(nothing_there()))
+    until(lambda: house.goals, "the grasp")
+    house.there.cut()
+    assert "the link to the robot was lost" in reason(house.bench.end_of(request))
+    assert house.goals == 1
+
+
+def test_what_falls_while_there_is_no_link_is_told(house: House) -> None:
+    house.there.holds = "mug"
+    until(lambda: house.bench.robot.holding is True, "what it feels")
+    request = house.drive()
+    house.lose()
+    house.there.holds = ""
+    house.find()
+    assert house.bench.end_of(request) == Failed("what I held fell on the way to the desk", True)
+
+
+@pytest.mark.parametrize("halts", [False, True])
+def test_one_that_is_called_off_while_there_is_no_link_never_moves_again(
+    house: House, halts: bool
+) -> None:
+    request = house.drive()
+    house.lose()
+    house.bench.robot.cancel(request)
+    halt = house.bench.robot.start(Halt()) if halts else None
+    house.find()
+    if halt is not None:
+        assert house.bench.end_of(halt) == Succeeded()
+    until(lambda: not house.there.busy, "rest")
+    house.bench.wait(0.5)
+    assert house.goals == 1
+    assert not house.there.speed
+
+
+@pytest.mark.parametrize("wait_s", [0.3])
+def test_a_link_that_does_not_come_back_is_told(house: House) -> None:
+    request = house.drive()
+    house.lose()
+    said = reason(house.bench.end_of(request))
+    assert said.startswith("I waited 0.3 s, and there is no link to the robot: ")
+
+
+@pytest.mark.parametrize("wait_s", [0])
+def test_who_does_not_want_to_wait_is_told_at_once(house: House) -> None:
+    request = house.drive()
+    house.there.cut()
+    assert "the link to the robot was lost" in reason(house.bench.end_of(request))
+    assert house.goals == 1
+
+
+class Gone:
+    """A link that is lost and does not come back."""
+
+    loss, losses, waits = "it broke off", 1, 0
+
+    async def ready(self, _: float) -> None:
+        self.waits += 1
+        raise LinkError("there is no link")
+
+
+def test_what_was_waited_for_in_vain_is_not_waited_for_with_each_goal() -> None:
+    link: Any = Gone()
+
+    async def settled() -> None:
+        pass
+
+    async def attempt() -> Succeeded:
+        raise LinkError("there is no link")
+
+    losses = Losses(link, WAIT_S, settled)
+    for said in ("I waited 20 s, and there is no link", "^there is no link"):
+        with pytest.raises(LinkError, match=said):
+            asyncio.run(losses.outlived(attempt))
+    assert link.waits == 1
