@@ -121,19 +121,19 @@ def test_what_all_prompts_begin_with_is_prepared_for_writing(fresh, caplog):
 def test_a_request_takes_over_after_one_batch_what_was_prepared(fresh, monkeypatch):
     model, inbox = fresh
     ranker, requests = Ranker(ontology(True)), []
-    read = Context.append
+    read = Context._decode
 
-    def read_and_ask(context: Context, tokens) -> None:
-        read(context, tokens)
+    def read_and_ask(context: Context, rows) -> None:
+        read(context, rows)
         if not requests:
             requests.append(model.rank(ranker.ranking("hammer", ())))
 
-    monkeypatch.setattr(Context, "append", read_and_ask)
+    monkeypatch.setattr(Context, "_decode", read_and_ask)
     model.prepare(ranker.ranking("thing", ()))
     until(lambda: requests, "the request")
     usage = end_of(inbox, requests[0]).usage
     assert 0 < usage.prepared_tokens <= 128
-    monkeypatch.setattr(Context, "append", read)
+    monkeypatch.setattr(Context, "_decode", read)
     unprepared = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024)
     cold = end_of(inbox, unprepared.rank(ranker.ranking("hammer", ()))).usage
     unprepared.close()
@@ -154,8 +154,8 @@ def test_what_cannot_be_prepared_fails_when_it_is_asked_for(fresh):
 
 @pytest.mark.llm
 def test_closing_while_it_prepares_ends_the_models_thread(no_cache, monkeypatch):
-    batches, read = [], Context.append
-    monkeypatch.setattr(Context, "append", lambda *given: batches.append(read(*given)) or None)
+    batches, read = [], Context._decode
+    monkeypatch.setattr(Context, "_decode", lambda *given: batches.append(read(*given)) or None)
     before = threading.enumerate()
     model = LlamaCpp(embedded_model(), Inbox(), n_ctx=1024)
     model.prepare(Ranker(ontology(True)).ranking("thing", ()))
