@@ -17,8 +17,8 @@ def test_the_profile_of_the_page_is_right(tmp_path: Path) -> None:
 
 
 def test_the_page_has_every_section_and_every_word_of_goals() -> None:
-    sections = set(Profile.model_fields) - {"about", "tried"}
-    assert {name for name in sections if f"[{name}]" not in PAGE} == set()
+    names = set(Profile.model_fields) - {"about", "tried"}
+    assert {name for name in names if f"[{name}]" not in PAGE and f"`{name}`" not in PAGE} == set()
     assert {kind for kind in GOALS if kind not in PAGE} == set()
     words = {word for offered in OFFERED.values() for word in offered}
     assert {word for word in words if f"`{word}`" not in PAGE} == set()
