@@ -52,8 +52,14 @@ def name_fault(name: str) -> str | None:
 
 def _is_of_two_alphabets(word: str) -> bool:
     """Whether it may look like a word that it is not: with a Cyrillic letter in "desk"."""
-    alphabets = {unicodedata.name(letter, "").partition(" ")[0] for letter in word}
-    return len(alphabets & _LIKE_LATIN) > 1
+    return _of_one_alphabet(word) != word
+
+
+def _of_one_alphabet(word: str) -> str:
+    """The word without letters of a second one that look like those of its first."""
+    alphabets = [unicodedata.name(letter, "").partition(" ")[0] for letter in word]
+    others = _LIKE_LATIN - {next((one for one in alphabets if one in _LIKE_LATIN), "")}
+    return "".join(letter for letter, of in zip(word, alphabets, strict=True) if of not in others)
 
 
 def folded(name: str) -> str:
@@ -87,6 +93,7 @@ def alike(names: Sequence[str], rooms: Sequence[str] = ()) -> Iterator[tuple[str
 def usable(text: str) -> str:
     """The text with what no name may have left out; `home` if nothing remains."""
     kept = "".join(c if _is_of_words(c) or c in "_-" else "_" for c in text)
+    kept = re.sub("[^_-]+", lambda word: _of_one_alphabet(word[0]), kept)
     begun = dropwhile(lambda c: c in _BETWEEN or unicodedata.category(c)[0] == "M", kept)
     return "".join(begun)[:LONGEST].rstrip("_-") or "home"
 

@@ -163,6 +163,7 @@ def test_a_home_is_named_after_its_file_whatever_that_is_called(tmp_path: Path) 
 
 @given(st.text(max_size=100))
 @example("\u0301_\u0301-a")
+@example("A\u0370-\u0370A")
 def test_what_is_made_of_any_text_is_a_name(text: str) -> None:
     assert name_fault(usable(text)) is None
 
