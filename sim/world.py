@@ -141,7 +141,7 @@ class PhysicsWorld:
             actors = Actors(self._client, movable, self._hardware.body)
             self._beside = Beside(actors, blueprint, recorder)
             self._log_camera = CameraBeside(glancing, self._beside)
-            self.eyes = CameraBeside(camera, self._beside)
+            self.eyes = CameraBeside(camera, self._beside, awaited=True)
 
     # --- SimulatedHome ---
 

@@ -57,9 +57,9 @@ class Beside:
         except (OSError, RuntimeError) as error:  # no process, or no thread, is to be had
             self._untold = f"no process can be started for them: {error}"
 
-    def draw(self, camera: SimulatedCamera) -> Frame | None:
+    def draw(self, camera: SimulatedCamera, *, awaited: bool) -> Frame | None:
         """The picture of this moment, which will come; None if it has to be drawn here."""
-        coming = self._coming(camera)
+        coming = self._coming(camera, awaited)
         if self._untold:
             text = printable(f"pictures are not drawn beside the physics: {self._untold}")
             log.warning("%s", text)
@@ -67,11 +67,13 @@ class Beside:
             self._untold = ""
         return coming
 
-    def _coming(self, camera: SimulatedCamera) -> Frame | None:
+    def _coming(self, camera: SimulatedCamera, awaited: bool) -> Frame | None:
         if self._painter is None:
             return None
         pose, lens = camera.pose(), camera.lens
-        pixels = self._painter.paint(Asked(view_from(pose, lens), self._actors.where()))
+        pixels = self._painter.paint(
+            Asked(view_from(pose, lens), self._actors.where()), awaited=awaited
+        )
         if pixels is not None:
             return ComingFrame(next(camera.numbers), lens, pose, pixels)
         if self._painter.failure:
@@ -89,11 +91,16 @@ class Beside:
 class CameraBeside:
     """A Camera whose pictures are drawn by that process, and by this one where that cannot."""
 
-    def __init__(self, camera: SimulatedCamera, beside: Beside) -> None:
-        """See what `camera` sees; both count their pictures together."""
+    def __init__(self, camera: SimulatedCamera, beside: Beside, *, awaited: bool = False) -> None:
+        """See what `camera` sees; both count their pictures together.
+
+        Of pictures that are awaited there is one at a time, and none is drawn here only because
+        others wait: a stop would not be heard meanwhile.
+        """
         self._camera = camera
         self._beside = beside
+        self._awaited = awaited
 
     def capture(self) -> Frame:
         """The picture of this moment."""
-        return self._beside.draw(self._camera) or self._camera.capture()
+        return self._beside.draw(self._camera, awaited=self._awaited) or self._camera.capture()

@@ -200,6 +200,17 @@ def test_no_process_is_started_for_a_mission_without_pictures_for_the_log(here: 
     assert not notes.all(Note)
 
 
+@physics
+def test_what_the_robot_looks_at_is_drawn_beside_however_many_pictures_wait(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    monkeypatch.setattr(process, "MOST_WAITING", 0)
+    world = Filmed()
+    assert all(type(frame) is Frame for frame in world.film(1.0))
+    assert world.eyes.capture().coming
+    world.close()
+
+
 def test_the_process_ends_when_whoever_asks_is_gone():
     painter = subprocess.Popen(process.command(), stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     painter.communicate(timeout=PATIENCE_S)
