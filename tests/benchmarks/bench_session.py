@@ -29,6 +29,7 @@ from executive import Session, load_settings
 from executive.campaign.report.paper import COMMANDS
 from executive.shell import all_is_kept
 from sim.manipulation import manipulator
+from sim.pictures import beside
 
 atexit.register(gc.unfreeze)  # what `all_is_kept` keeps: libraries tell of it at the end
 
@@ -59,7 +60,8 @@ def run_missions(trial: Row) -> Row:
     with tempfile.TemporaryDirectory() as folder:
         settings = load_settings(user="oracle", llm=trial["llm"], seed=trial["seed"], runs=folder)
         stretches = Stretches()
-        with all_is_kept():
+        as_the_command = mock.patch.object(beside, "worthwhile", return_value=True)
+        with all_is_kept(), as_the_command:  # which is no worker and draws pictures beside
             opened = Session(settings, out=io.StringIO())
         with (
             opened as session,

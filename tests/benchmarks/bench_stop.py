@@ -32,6 +32,7 @@ from executive.shell import all_is_kept
 from executive.types import MissionStatus, Question
 from logs.recorder import FanOut
 from logs.viewer import sink as _imported_by_the_command  # noqa: F401
+from sim.pictures import beside
 
 atexit.register(gc.unfreeze)  # what `all_is_kept` keeps: libraries tell of it at the end
 
@@ -149,7 +150,8 @@ def stop_once(trial: Row) -> Row:
             runs=folder,
         )
         silent = Silent(inbox) if asks else None
-        with all_is_kept():
+        as_the_command = mock.patch.object(beside, "worthwhile", return_value=True)
+        with all_is_kept(), as_the_command:  # which is no worker and draws pictures beside
             opened = Session(settings, inbox=inbox, user=silent, out=io.StringIO())
         with opened as session:
             stopper = Stopper(inbox, kind, which, after_s)
