@@ -574,8 +574,8 @@ def test_a_cancelled_request_is_hung_up_on_and_the_next_is_served() -> None:
     hung_up = threading.Event()
 
     def talks_on(handler: Handler, body: dict[str, Any]) -> None:
-        send(handler, word("on"))
         try:
+            send(handler, word("on"))
             while True:
                 handler.wfile.write(f"data: {json.dumps(word('and on'))}\n\n".encode())
                 time.sleep(0.01)
