@@ -6,7 +6,7 @@ import os
 import threading
 import time
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -265,7 +265,7 @@ class LlamaCpp:
         reply: Tokens = []
         first_token_s = 0.0
         ended = False
-        with self._sampler(loaded, request) as sampler:
+        with closing(self._sampler(loaded, request)) as sampler:
             while not ended and len(reply) < room:
                 checkpoint()
                 token = sampler.sample(context)

@@ -1,7 +1,6 @@
 """Chooses the next token from the model's scores."""
 
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import llama_cpp
 
@@ -50,16 +49,3 @@ class Sampler:
     def close(self) -> None:
         """Free it."""
         llama_cpp.llama_sampler_free(self._chain)
-
-    def __enter__(self) -> Self:
-        """Use it in a `with` block."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Free it."""
-        self.close()

@@ -7,6 +7,7 @@ import asyncio
 import json
 import math
 import threading
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -117,6 +118,12 @@ class SecondRobot:
         clients = self._clients.items()
         for client in [one for one, topics in clients if not (only_stop and topics)]:
             self._loop.call_soon_threadsafe(client.transport.abort)
+
+    def advance(self, at_most: float) -> float:
+        """Let a little of its time pass; how much did (s)."""
+        began = self.time_s
+        time.sleep(min(at_most, 0.02))
+        return self.time_s - began
 
     def say(self, packet: str | bytes) -> None:
         """Send this to whoever listens, as it is."""

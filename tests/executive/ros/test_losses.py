@@ -2,7 +2,6 @@
 
 import asyncio
 import logging
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -66,15 +65,10 @@ def house(tmp_path: Path, wait_s: float) -> Iterator[House]:
         def ways(start: str, place: str) -> float:
             return straight_s(home, start, place, SPEED_M_S)
 
-        def advance(at_most: float) -> float:
-            began = there.time_s
-            time.sleep(min(at_most, 0.02))
-            return there.time_s - began
-
         address, profile = read_address(there.url), load_profile(str(file))
         here = connect(address, profile, home, inbox, file.name, ways)
         try:
-            yield House(there, Bench(here.robot, inbox, advance), here.line.link)
+            yield House(there, Bench(here.robot, inbox, there.advance), here.line.link)
         finally:
             here.close()
 

@@ -1,6 +1,5 @@
 """A robot that has MoveIt 2 and a gripper, but no skills, takes things and puts them down."""
 
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,11 +47,6 @@ def linked(profile_file: Path) -> Iterator[Linked]:
         def ways(start: str, place: str) -> float:
             return straight_s(home, start, place, SPEED_M_S)
 
-        def advance(at_most: float) -> float:
-            began = there.time_s
-            time.sleep(min(at_most, 0.02))
-            return there.time_s - began
-
         here = connect(
             read_address(there.url),
             load_profile(str(profile_file)),
@@ -63,7 +57,7 @@ def linked(profile_file: Path) -> Iterator[Linked]:
             hands=KnownThings(home),
         )
         try:
-            yield Linked(there, here, Bench(here.robot, inbox, advance))
+            yield Linked(there, here, Bench(here.robot, inbox, there.advance))
         finally:
             here.close()
 

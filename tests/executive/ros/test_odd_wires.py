@@ -1,6 +1,5 @@
 """Over a network that delays, cuts, halves and reorders, every goal ends and the robot stops."""
 
-import time
 from collections.abc import Iterator
 
 import pytest
@@ -38,14 +37,9 @@ def odd(request: pytest.FixtureRequest) -> Iterator[tuple[SecondRobot, OddWire, 
         profile = load_profile(str(PROFILE))
         here = connect(read_address(wire.url), profile, home, inbox, PROFILE.name, straight)
 
-        def advance(at_most: float) -> float:
-            began = there.time_s
-            time.sleep(min(at_most, 0.02))
-            return there.time_s - began
-
         wire.mischief = CASES[request.param]
         try:
-            yield there, wire, here, Bench(here.robot, inbox, advance)
+            yield there, wire, here, Bench(here.robot, inbox, there.advance)
         finally:
             here.close()
 

@@ -1,7 +1,6 @@
 """A robot with other names and encodings keeps the contracts by its profile alone."""
 
 import math
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
@@ -48,16 +47,11 @@ def linked(profile: Profile) -> Iterator[Linked]:
     with SecondRobot(home.robot_start) as there:
         here = connect(read_address(there.url), profile, home, inbox, PROFILE.name, straight)
 
-        def advance(at_most: float) -> float:
-            began = there.time_s
-            time.sleep(min(at_most, 0.02))
-            return there.time_s - began
-
         def moving() -> tuple[str, ...]:
             return ("base",) if there.speed else ()
 
         try:
-            yield Linked(there, here, inbox, Bench(here.robot, inbox, advance, moving=moving))
+            yield Linked(there, here, inbox, Bench(here.robot, inbox, there.advance, moving=moving))
         finally:
             here.close()
 
