@@ -7,6 +7,7 @@ from py_trees.behaviour import Behaviour
 
 from executive.records import Activity
 from trees.context import MissionContext
+from trees.driving import Visit
 from trees.hearing import consult, wants_advice, what_is_known
 from trees.nodes import Check, FirstOf, as_long_as, beside, fallback, sequence
 from trees.planning import (
@@ -19,7 +20,6 @@ from trees.planning import (
     TellWhere,
     Ways,
 )
-from trees.robot import Visit
 from trees.search import GiveUpSearch, look_over, look_where_the_words_say, search_by_stages
 
 

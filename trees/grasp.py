@@ -7,8 +7,9 @@ from executive.records import Activity
 from trees.by_plan import search
 from trees.context import MissionContext
 from trees.deeds.deed import meaning
+from trees.driving import DriveToCandidate
+from trees.handling import PickUp
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.robot import DriveToCandidate, PickUp
 from trees.search import look_over
 
 

@@ -8,12 +8,13 @@ from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Source
 from trees.context import MissionContext
+from trees.driving import Visit
 from trees.held import HoldWhereToLook
 from trees.location import resolve_location
+from trees.looking import LookAtCandidate, LookCloser, SeeTarget
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Announce, AskWhere
 from trees.recall import MemoryKnowsPlaces, Recall
-from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
 from trees.telling import tell
 
 

@@ -12,11 +12,12 @@ from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Detection, Result, Saw, Source
 from trees.context import MissionContext
+from trees.driving import Visit
 from trees.expected import seen_soonest, whereabouts
+from trees.looking import LookAtCandidate, SeeTarget
 from trees.meant import things_meant
 from trees.nodes import EachOf, Optionally, Step, sequence
 from trees.person import is_place, places_in
-from trees.robot import LookAtCandidate, SeeTarget, Visit
 from trees.telling import tell
 from trees.unknown import nearest, unresolved
 

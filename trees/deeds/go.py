@@ -9,10 +9,10 @@ from executive.records import Activity
 from executive.types import PERSON, CommandKind, Outcome, Result, Succeeded, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.driving import DriveToGoal
 from trees.nodes import Check, FirstOf, fallback, sequence
 from trees.person import Report
 from trees.places import destination
-from trees.robot import DriveToGoal
 
 
 class Go(Deed):

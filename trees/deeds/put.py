@@ -10,10 +10,11 @@ from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to
 from trees.deeds.fall import pick_up_again
 from trees.deeds.put_down import go_and_put
+from trees.driving import DriveToGoal
+from trees.handling import PutDownAtGoal
 from trees.held import HoldGoal, each_untried
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut, Report
-from trees.robot import DriveToGoal, PutDownAtGoal
 
 
 class Put(Deed):

@@ -8,10 +8,11 @@ from py_trees.common import Status
 from executive.types import DELIVERY, HAND, HELD, SOMETHING, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.driving import DriveToSurface
+from trees.handling import PutDownThere
 from trees.held import HoldSurface, each_untried
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut, Report
-from trees.robot import DriveToSurface, PutDownThere
 
 NEAR = 3
 """How many pieces of furniture by the person are tried before they are asked."""
