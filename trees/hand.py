@@ -8,7 +8,6 @@ from trees.context import MissionContext
 from trees.deeds.deed import meaning
 from trees.deeds.put_down import go_and_put, put_down_somewhere
 from trees.nodes import FirstOf, Step, fallback, sequence
-from trees.person import full_hand
 from trees.places import taken_from
 from trees.telling import sentence, tell
 
@@ -57,7 +56,7 @@ class HandIsFree(Step):
         held = self.situation.hand.in_hand
         if held in (None, self.situation.request.object) or not meaning(self.situation).grasps:
             return Status.SUCCESS
-        return self.fail(full_hand(held, self.context.say))
+        return self.fail(f"my hand holds {self.context.say.the(held)}")
 
 
 class SayWhatFirst(Step):

@@ -8,10 +8,10 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.types import HELD, Source
+from trees.clarification import AskDoYouMean, AskWhichObject
 from trees.context import MissionContext
-from trees.meant import meant
+from trees.meant import meant, without_exceptions
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import AskDoYouMean, AskWhichObject, without_exceptions
 from trees.survey import found_where, nothing_there, survey
 from trees.telling import tell
 

@@ -21,7 +21,7 @@ from executive.types import (
 )
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
-from trees.person import NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
+from trees.person import AskForPlace, AskWhere, is_place, places_in
 from trees.recall import is_here
 from trees.telling import NEXT_TO, TO_THE_PERSON, tell
 
@@ -249,7 +249,7 @@ class UsualPlace(Step):
         return self.succeed(", ".join(usual))
 
 
-class AskWhereTo(Ask):
+class AskWhereTo(AskForPlace):
     """Asks where the thing, or the robot, is to go.
 
     Reads request.command and request.object; writes request.goals.
@@ -268,7 +268,7 @@ class AskWhereTo(Ask):
         what = say.the(about) if about else "them"
         text = "Where shall I go?" if goes else f"Where shall I put {what}?"
         if self._tries:
-            text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
+            text = self.once_more(text)
         elif goal:
             text = f"{self.unresolved()}. {text}"
         return Question(kind, about, text)
