@@ -52,7 +52,6 @@ def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
         FirstOf(
             "try again",
             lambda: more_tries,
-            lambda _: None,
             sequence(
                 "another approach",
                 Check("it was there", context, lambda: not situation.search.gone),

@@ -27,7 +27,7 @@ def hand_is_free(context: MissionContext) -> Behaviour:
         HandIsFree("nothing else is in it", context),
         fallback(
             "make room",
-            FirstOf("back where it was", back, choose, put_back_first(context)),
+            FirstOf("back where it was", back, put_back_first(context), choose=choose),
             sequence(
                 "by the person",
                 SayWhatFirst("say so", context, "I put {held} down by you first."),

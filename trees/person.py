@@ -1,18 +1,17 @@
 """Leaves that tell the person how it goes, and ask them for places."""
 
-import re
-
 from py_trees.common import Status
 
 from executive.language.wording import beginning
 from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.situation import candidates_from
 from executive.text import printable
-from executive.types import DELIVERY, Question, QuestionKind, Source
+from executive.types import Question, QuestionKind, Source
 from trees.asking import Ask
 from trees.context import MissionContext
 from trees.nodes import Step
-from trees.telling import NEXT_TO, sentence, tell
+from trees.place_words import places_in
+from trees.telling import sentence, tell
 
 
 class AskForPlace(Ask):
@@ -158,16 +157,3 @@ def who_says(context: MissionContext, source: str, **others: tuple[str, str]) ->
         **{own.name: own.says for own in context.sources},
     }
     return printable(says.get(source, f"so says the {source}"))
-
-
-def places_in(context: MissionContext, answer: str) -> tuple[str, ...]:
-    """The places that words name; the table by the person is one, too."""
-    if DELIVERY in re.findall(r"[a-z]+", answer.lower()):
-        return (DELIVERY,)
-    return context.knowledge.places_named(answer)
-
-
-def is_place(context: MissionContext, words: str) -> bool:
-    """Whether words name places, or what is beside them, and nothing that would be passed over."""
-    delivery = DELIVERY in re.findall(r"[a-z]+", words.lower())
-    return delivery or context.knowledge.is_place(words.lower().removeprefix(NEXT_TO))

@@ -68,12 +68,12 @@ def look_where_the_words_say(context: MissionContext) -> Behaviour:
     return FirstOf(
         "look where the words say",
         named,
-        choose,
         fallback(
             "there",
             sequence("look", Announce("announce", context), visit_candidates(context)),
             SayNotThere("say it is not there", context),
         ),
+        choose=choose,
     )
 
 
@@ -91,7 +91,6 @@ def visit_candidates(context: MissionContext) -> Behaviour:
     return FirstOf(
         "visit",
         lambda: context.situation.search.candidates,
-        choose,
         sequence(
             "go and look",
             HoldWhereToLook("choice", context),
@@ -99,6 +98,7 @@ def visit_candidates(context: MissionContext) -> Behaviour:
             look_over(context),
             activity=Activity.SEARCHING,
         ),
+        choose=choose,
     )
 
 
@@ -120,8 +120,8 @@ def look_over(context: MissionContext) -> Behaviour:
         FirstOf(
             "each view",
             views,
-            choose,
             sequence("glance", LookAtCandidate("aim", context), see(context)),
+            choose=choose,
         ),
         NotHere("not here", context),
     )

@@ -17,7 +17,7 @@ from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
-from trees.person import places_in
+from trees.place_words import places_in
 from trees.telling import in_one_sentence
 
 
@@ -32,7 +32,7 @@ def understand(context: MissionContext) -> Behaviour:
         return [request.command] if request.command else []
 
     readers: list[Behaviour] = [
-        FirstOf("on the agenda", at_hand, lambda _: None, TakeUp("take it up", context)),
+        FirstOf("on the agenda", at_hand, TakeUp("take it up", context)),
         ReadCommand("grammar reads it", context),
         sequence(
             "a slip",

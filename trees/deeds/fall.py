@@ -28,8 +28,8 @@ def pick_up_again(context: MissionContext, *spots: str, at_goal: bool = False) -
         FirstOf(
             "look around",
             views,
-            choose,
             sequence("glance", LookForLost("aim", context), SeeLost("see", context)),
+            choose=choose,
         ),
         PickUp("pick", context),
     )

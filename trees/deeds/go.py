@@ -31,7 +31,7 @@ class Go(Deed):
             "go",
             asked_to(context, self.kind),
             destination(context),
-            FirstOf("there", lambda: request.goals, choose, GoThere("drive", context)),
+            FirstOf("there", lambda: request.goals, GoThere("drive", context), choose=choose),
             fallback(
                 "say so",
                 sequence(

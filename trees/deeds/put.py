@@ -71,13 +71,13 @@ def put_at_goal(context: MissionContext) -> Behaviour:
     holds = Check("still in my hand", context, lambda: situation.hand.in_hand is not None)
     return fallback(
         "put it there",
-        FirstOf("where it is to go", goals, choose_goal, carry(context)),
+        FirstOf("where it is to go", goals, carry(context), choose=choose_goal),
         sequence(
             "elsewhere",
             holds,
             Check("person may help", context, lambda: not situation.dialogue.no_help),
             AskWhereToPut("ask where to put it", context),
-            FirstOf("there", lambda: situation.hand.surfaces, choose, go_and_put(context)),
+            FirstOf("there", lambda: situation.hand.surfaces, go_and_put(context), choose=choose),
             PutElsewhere("put elsewhere", context),
         ),
         NotAtGoal("not there", context),
@@ -92,7 +92,6 @@ def carry(context: MissionContext) -> Behaviour:
         return FirstOf(
             "after a fall",
             lambda: [hand.lost] if hand.lost else [],
-            lambda _: None,
             sequence("once more", pick_up_again(context, FLOOR, at_goal=at_goal), step),
         )
 

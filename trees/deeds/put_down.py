@@ -55,7 +55,7 @@ def empty_hand(context: MissionContext) -> Behaviour:
         HoldsWhatIsMeant("holds it", context),
         fallback(
             "put it down",
-            FirstOf("where it was sent", sent_to, choose, go_and_put(context)),
+            FirstOf("where it was sent", sent_to, go_and_put(context), choose=choose),
             put_down_somewhere(context, "by the person", DELIVERY),
             StillHolds("still in my hand", context),
         ),
@@ -76,14 +76,17 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
     return fallback(
         name,
         FirstOf(
-            "near the person", near, choose, go_and_put(context, HoldSurface("choice", context))
+            "near the person",
+            near,
+            go_and_put(context, HoldSurface("choice", context)),
+            choose=choose,
         ),
         sequence(
             "where the person says",
             Check("still in my hand", context, lambda: situation.hand.in_hand is not None),
             Check("person may help", context, lambda: not situation.dialogue.no_help),
             AskWhereToPut("ask where to put it", context),
-            FirstOf("there", lambda: situation.hand.surfaces, choose, go_and_put(context)),
+            FirstOf("there", lambda: situation.hand.surfaces, go_and_put(context), choose=choose),
         ),
         NotPutDown("no room", context),
     )
