@@ -23,18 +23,6 @@ SLOW = 1.0
 """Simulated seconds in a real one: a drive of some seconds can be called off."""
 
 
-@pytest.fixture(scope="module")
-def robot() -> Iterator[Simulation]:
-    with served() as simulation:
-        yield simulation
-
-
-@pytest.fixture
-def client(robot: Simulation) -> Iterator[Raw]:
-    with Raw(robot) as raw:
-        yield raw
-
-
 @pytest.fixture
 def slow() -> Iterator[Raw]:
     with served(speed=SLOW) as simulation, Raw(simulation) as raw:
