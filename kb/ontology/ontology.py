@@ -1,20 +1,19 @@
 """The ontology: which things there are, what they are called, and where they usually are."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 
-from rapidfuzz import fuzz, process
-from rdflib import RDF, Literal, URIRef
+from rdflib import URIRef
 from rdflib.term import Identifier
 
 from executive.errors import InputError
 from executive.language.phrases import MOST_WORDS, spoken, words_of
 from executive.text import printable
 from executive.types import Called, OtherColor, Place, Thing
+from kb.ontology.additions import INDIVIDUALS, HomeAdditions
 from kb.ontology.descriptions import Descriptions, Look
 from kb.ontology.graph import Graph
-from kb.ontology.home_file import home_file
 from kb.ontology.library import Library
 from kb.ontology.names import PlaceNames, index_by_words, unique
 from kb.ontology.owl import OwlFile, ending, read
@@ -29,9 +28,9 @@ from kb.ontology.properties import (
     said,
     texts,
 )
+from kb.ontology.similarity import SimilarNames
 from kb.ontology.speaking import places_called, thing_called
 from kb.ontology.table import Table
-from kb.ontology.things import put_thing
 from kb.ontology.unused import unused
 from kb.ontology.uses import Uses
 from kb.ontology.usual import kind_of, meant_here, standing_for
@@ -40,7 +39,6 @@ from kb.ontology.validation import ROOTS, faults
 HOUSEHOLD = Path(__file__).parents[1] / "household.owl"
 DEFAULTS = Path(__file__).parents[1] / "defaults.owl"
 CLASSES = "http://robot-executive.org/household.owl#"
-INDIVIDUALS = "http://robot-executive.org/home.owl#"
 VOCABULARY = (
     *("Object", "Furniture", "Room", "Person"),
     *("isIn", "hasDefaultLocation", "preferredBy", "preposition"),
@@ -55,11 +53,6 @@ PREFIXES = {
 """Names that a query may use without declaring them."""
 
 PREPOSITIONS = ("in", "on")
-MOST_NAMES = 3
-LEAST_SIMILARITY = 60.0
-"""Of 100, as rapidfuzz counts; below it two names share little but a few letters."""
-SLIP_SIMILARITY, SLIP_MARGIN = 75.0, 10.0
-"""A slip of the finger is as similar as this, and more similar by this than to anything else."""
 
 
 class Ontology:
@@ -104,20 +97,16 @@ class Ontology:
         self._graph = Graph(t for file in self._library.files for t in file.triples)
         self._expect_vocabulary()
         self._graph.expect_bounded([_class(root) for root in ROOTS])
-        self._home = f"{printable(home)}: " if home else ""
         self._places = {place.name: place for place in places}
         self._usual_places: dict[str, tuple[str, ...]] = {}
         """As far as somebody asked."""
         self._order = {name: number for number, name in enumerate(self._places)}
-        self._kinds = {
-            root: _by_name(self._graph.downwards(_class(root)))
-            for root in ("Furniture", "Room", "Object")
-        }
+        self._home = HomeAdditions(self._graph, CLASSES, home)
         for place in places:
-            self._add(place)
+            self._home.add_furniture(place)
+        for own in things:
+            self._home.add_thing(own)
         self._properties = Properties(self._graph, CLASSES)
-        self._own_colors: dict[str, str] = {}
-        self._added = self._add_things(things)
         label, names = self._graph.label, self._graph.names
         self._things = tuple(self._graph.downwards(_class("Object")))
         self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
@@ -187,13 +176,16 @@ class Ontology:
 
     def nearest_names(self, words: str) -> tuple[str, ...]:
         """Known names that look most like the words, best first (at most 3)."""
-        return tuple(self._similar(words))[:MOST_NAMES]
+        return self._similar.nearest(words)
 
     def near_name(self, words: str) -> str | None:
         """The one known name that the words are most likely a slip of, if it is clear."""
-        (best, similarity), (_, next_best) = (*self._similar(words).items(), *2 * [("", 0.0)])[:2]
-        clear = similarity >= SLIP_SIMILARITY and similarity - next_best >= SLIP_MARGIN
-        return best if clear else None
+        return self._similar.slip(words)
+
+    @cached_property
+    def _similar(self) -> SimilarNames:
+        graph = self._graph
+        return SimilarNames((n, graph.label(one)) for one in self._things for n in graph.names(one))
 
     def names_in(self, words: str) -> tuple[str, ...]:
         """The names of objects and classes that a text has in it, in their order."""
@@ -295,19 +287,13 @@ class Ontology:
 
     def preposition(self, place: Place) -> str:
         """How things are with this piece of furniture: "in" or "on"."""
-        kinds = self._graph.upwards(self._kinds["Furniture"][place.kind])
+        kinds = self._graph.upwards(self._home.kinds["Furniture"][place.kind])
         given = (str(p) for kind in kinds for p in self._graph.objects(kind, _class("preposition")))
         return next(filter(PREPOSITIONS.__contains__, given), "on")
 
     def files(self) -> Mapping[str, bytes]:
         """The loaded files by name, and what the home adds to them, to be kept with the log."""
-        kinds, rooms = self._kinds["Furniture"], self._kinds["Room"]
-        color = self._properties.iri(COLOR)
-        things = {
-            name: (kind, self._own_colors.get(name, "")) for name, kind in self._added.items()
-        }
-        home = home_file(INDIVIDUALS, _class("isIn"), color, self.places(), kinds, rooms, things)
-        return {**self._library.contents(), "home.owl": home}
+        return {**self._library.contents(), "home.owl": self._home.file()}
 
     def faults(self) -> Iterator[str]:
         """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
@@ -347,26 +333,6 @@ class Ontology:
                 right = f"keep {iri} as household.owl has it"
                 raise InputError("ontology", f"declares no {ending(iri)}", right)
 
-    def _similar(self, words: str) -> dict[str, float]:
-        """Names that look like the words, most similar first, and how similar (of 100)."""
-        graph = self._graph
-        names = [
-            (spoken(name), graph.label(thing))
-            for thing in self._things
-            for name in graph.names(thing)
-        ]
-        found = process.extract(
-            spoken(words),
-            [name for name, _ in names],
-            scorer=fuzz.token_sort_ratio,
-            score_cutoff=LEAST_SIMILARITY,
-            limit=None,
-        )
-        similar: dict[str, float] = {}
-        for _, similarity, index in found:
-            similar.setdefault(names[index][1], similarity)
-        return similar
-
     def _thing(self, name: str) -> Identifier:
         if name in self._things_by_name:
             return self._things_by_name[name]
@@ -399,42 +365,6 @@ class Ontology:
         where = f"person {printable(name)}"
         raise InputError(where, "the ontology knows nobody of this name", right)
 
-    def _add(self, place: Place) -> None:
-        """Put a piece of furniture, and its room, in as individuals."""
-        room = self._individual(place.room, place.room_kind, "Room")
-        piece = self._individual(place.name, place.kind, "Furniture")
-        self._graph.put(piece, _class("isIn"), room)
-
-    def _individual(self, name: str, kind: str, root: str) -> Identifier:
-        individual = URIRef(INDIVIDUALS + name)
-        self._graph.put(individual, RDF.type, self._kind(name, kind, root))
-        return individual
-
-    def _kind(self, name: str, kind: str, root: str) -> Identifier:
-        class_ = self._kinds[root].get(kind)
-        if class_ is None:
-            known = ", ".join(self._kinds[root])
-            is_other = any(kind in kinds for kinds in self._kinds.values())
-            why = f"is no kind of {root.lower()}" if is_other else "the ontology lacks"
-            where = f"{self._home}{printable(name)}"
-            raise InputError(where, f"is a {printable(kind)!r}, which {why}", f"known are {known}")
-        return class_
-
-    def _add_things(self, things: Iterable[Thing]) -> dict[str, Identifier]:
-        """Put the objects of the home in; what no file has, and the class right above it."""
-        added = {}
-        for thing in things:
-            where = f"object {thing.name}"
-            kind = self._kind(where, thing.kind, "Object")
-            where = f"{self._home}{printable(where)}"
-            if put_thing(self._graph, thing.name, kind, _own(thing.name), CLASSES, where):
-                added[thing.name] = kind
-                if thing.color and self._properties.are_declared():
-                    color = self._properties.iri(COLOR)
-                    self._graph.put(_own(thing.name), color, Literal(thing.color))
-                    self._own_colors[thing.name] = thing.color
-        return added
-
     def _index(self) -> dict[str, tuple[str, ...]]:
         """Words, run together -> names of the objects that they may mean."""
         graph, known = self._graph, set(self._objects)
@@ -464,25 +394,13 @@ class Ontology:
 
     def _called(self) -> dict[str, tuple[str, ...]]:
         """Furniture or room class -> what it and the classes above it are called."""
-        graph, roots = self._graph, {_class(root) for root in self._kinds}
+        graph, roots = self._graph, {_class(root) for root in self._home.kinds}
         return {
             name: tuple(n for c in graph.upwards(kind) if c not in roots for n in graph.names(c))
-            for kinds in self._kinds.values()
+            for kinds in self._home.kinds.values()
             for name, kind in kinds.items()
         }
 
 
 def _class(name: str) -> URIRef:
     return URIRef(CLASSES + name)
-
-
-def _own(name: str) -> URIRef:
-    return URIRef(INDIVIDUALS + name)
-
-
-def _by_name(kinds: Iterable[Identifier]) -> dict[str, Identifier]:
-    """Classes by the ends of their IRIs; the first of a name has it."""
-    named: dict[str, Identifier] = {}
-    for kind in kinds:
-        named.setdefault(ending(kind), kind)
-    return named

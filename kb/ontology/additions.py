@@ -1,0 +1,102 @@
+"""What a home adds to the ontology: furniture and rooms as individuals, things as classes."""
+
+from collections.abc import Iterable
+
+from rdflib import RDF, Literal, URIRef
+from rdflib.term import Identifier
+
+from executive.errors import InputError
+from executive.text import printable
+from executive.types import Place, Thing
+from kb.ontology.graph import Graph
+from kb.ontology.home_file import home_file
+from kb.ontology.owl import ending
+from kb.ontology.properties import COLOR, Properties
+from kb.ontology.things import put_thing
+
+INDIVIDUALS = "http://robot-executive.org/home.owl#"
+
+
+class HomeAdditions:
+    """Puts what is in a home into the graph of the ontology, and keeps what that was."""
+
+    def __init__(self, graph: Graph, namespace: str, home: str) -> None:
+        """Add nothing yet.
+
+        Args:
+            graph: what the files say.
+            namespace: where our classes and properties are.
+            home: the file that places and things are of, to be named when one of them is wrong.
+        """
+        self._graph = graph
+        self._namespace = namespace
+        self._where = f"{printable(home)}: " if home else ""
+        self._properties = Properties(graph, namespace)
+        self.kinds = {
+            root: _by_name(graph.downwards(self._iri(root)))
+            for root in ("Furniture", "Room", "Object")
+        }
+        """The classes of the files by name, below each of these."""
+        self._places: dict[str, Place] = {}
+        self._things: dict[str, tuple[Identifier, str]] = {}
+
+    def add_furniture(self, place: Place) -> None:
+        """Put a piece of furniture, and its room, in.
+
+        Raises:
+            InputError: if it is of a class that the ontology does not have.
+        """
+        room = self._individual(place.room, place.room_kind, "Room")
+        piece = self._individual(place.name, place.kind, "Furniture")
+        self._graph.put(piece, self._iri("isIn"), room)
+        self._places[place.name] = place
+
+    def add_thing(self, thing: Thing) -> None:
+        """Put an object in, unless a file has it already.
+
+        Raises:
+            InputError: if it is of a class that the ontology does not have, or is called like
+                something else.
+        """
+        kind = self._kind(f"object {thing.name}", thing.kind, "Object")
+        own = URIRef(INDIVIDUALS + thing.name)
+        where = f"{self._where}object {printable(thing.name)}"
+        if not put_thing(self._graph, thing.name, kind, own, self._namespace, where):
+            return
+        color = thing.color if self._properties.are_declared() else ""
+        if color:
+            self._graph.put(own, self._properties.iri(COLOR), Literal(color))
+        self._things[thing.name] = (kind, color)
+
+    def file(self) -> bytes:
+        """All of it, in RDF/XML."""
+        is_in, color = self._iri("isIn"), self._properties.iri(COLOR)
+        furniture, rooms = self.kinds["Furniture"], self.kinds["Room"]
+        places = self._places.values()
+        return home_file(INDIVIDUALS, is_in, color, places, furniture, rooms, self._things)
+
+    def _individual(self, name: str, kind: str, root: str) -> Identifier:
+        individual = URIRef(INDIVIDUALS + name)
+        self._graph.put(individual, RDF.type, self._kind(name, kind, root))
+        return individual
+
+    def _kind(self, name: str, kind: str, root: str) -> Identifier:
+        class_ = self.kinds[root].get(kind)
+        if class_ is None:
+            known = ", ".join(self.kinds[root])
+            is_other = any(kind in kinds for kinds in self.kinds.values())
+            why = f"is no kind of {root.lower()}" if is_other else "the ontology lacks"
+            where = f"{self._where}{printable(name)}"
+            raise InputError(where, f"is a {printable(kind)!r}, which {why}", f"known are {known}")
+        return class_
+
+    def _iri(self, name: str) -> URIRef:
+        return URIRef(self._namespace + name)
+
+
+def _by_name(kinds: Iterable[Identifier]) -> dict[str, Identifier]:
+    """Classes by the ends of their IRIs; the first of a name has it."""
+    named: dict[str, Identifier] = {}
+    for kind in kinds:
+        named.setdefault(ending(kind), kind)
+    return named
