@@ -25,12 +25,6 @@ def first_damage(path: Path) -> tuple[int, Damage] | None:
     return next(found, None)
 
 
-def damaged_at(path: Path) -> int | None:
-    """Offset (bytes) of the first record that does not read; None if all do."""
-    damage = first_damage(path)
-    return damage[0] if damage else None
-
-
 def recover(path: Path) -> Path:
     """Write what can be read of a broken file to `<name>.recovered.mcap` beside it.
 

@@ -56,7 +56,8 @@ def fit_fallen_pose(
     """How a thing lies on what is `support` high (metres), and where.
 
     Returns:
-        The one of `forms(model)` that fits the visible points (n, 3), and its pose in `map`.
+        The model of the one of its `lyings` that fits the visible points (n, 3), and its pose in
+        `map`.
     """
     seen, (stands, *fallen) = _Seen(points, eye), lyings(model)
     upright = seen.closely([stands], seen.roughly([stands]))[0]

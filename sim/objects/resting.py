@@ -40,12 +40,6 @@ def lyings(model: ObjectModel) -> tuple[Lying, ...]:
     return (stands, *(_fallen(model, Rotation.from_euler(a, d, degrees=True)) for a, d in _FALLS))
 
 
-@cache
-def forms(model: ObjectModel) -> tuple[ObjectModel, ...]:
-    """The models of a thing as it stands, then as it may lie."""
-    return tuple(lying.model for lying in lyings(model))
-
-
 def _fallen(model: ObjectModel, fall: Rotation) -> Lying:
     """The model turned, with the origin in the middle of what is now its base."""
     surface = fall.apply(sample_surface(model.shapes)[0])

@@ -12,7 +12,7 @@ from sim.home.home import load_home
 from sim.manipulation.placing import RIM_M, TIGHT_M, free_spots, stands
 from sim.manipulation.registration import fit_fallen_pose
 from sim.objects.objects import load_objects
-from sim.objects.resting import forms
+from sim.objects.resting import lyings
 from sim.objects.solids import sample_surface
 
 MODELS = load_objects()
@@ -22,7 +22,7 @@ SPOT = Pose((2.0, 1.0, 0.75), (0.0, 0.0, np.sin(0.4), np.cos(0.4)))
 
 def seen(name: str, fall: int = 0, off: float = 0.0) -> Floats:
     """The upper side of a thing that stands, or lies on another side, at the spot."""
-    points, normals = sample_surface(forms(MODELS[name])[fall].shapes)
+    points, normals = sample_surface(lyings(MODELS[name])[fall].model.shapes)
     turn = Rotation.from_quat(SPOT.orientation)
     return turn.apply(points[normals[:, 2] > 0.5]) + SPOT.position + (off, 0.0, 0.0)
 
@@ -58,13 +58,13 @@ def test_the_board_above_does_not_count():
 @pytest.mark.parametrize("fall", [0, 1])
 def test_how_a_thing_lies_is_told_from_its_upper_side(name: str, fall: int):
     form, pose = fit_fallen_pose(MODELS[name], seen(name, fall), EYE, support=SPOT.position[2])
-    assert form.size[2] == pytest.approx(forms(MODELS[name])[fall].size[2], abs=2e-3)
+    assert form.size[2] == pytest.approx(lyings(MODELS[name])[fall].model.size[2], abs=2e-3)
     assert pose.position[2] == pytest.approx(SPOT.position[2], abs=4e-3)
 
 
 @pytest.mark.parametrize("name", sorted(MODELS))
 def test_every_form_rests_on_its_own_base(name: str):
-    for form in forms(MODELS[name]):
+    for form in (lying.model for lying in lyings(MODELS[name])):
         assert form.lower[2] == pytest.approx(0.0, abs=1e-6)
         assert form.upper[2] > 0.0
         assert sorted(form.size) == pytest.approx(sorted(MODELS[name].size), abs=6e-3)
