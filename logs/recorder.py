@@ -112,7 +112,11 @@ class _Writer:
         self._thread.start()
 
     def put(self, stamp: Stamp, record: Record) -> None:
-        """Queue a record; if the sinks cannot keep up, wait once, then give up records."""
+        """Queue a record; if the sinks cannot keep up, wait once, then give up records.
+
+        Nobody waits for a thread that has ended: what another one hands over as the logs are closed
+        is given up.
+        """
         if not self._has_room(0.0 if self._lost else PATIENCE_S):
             self._lost += 1
             return
@@ -128,7 +132,7 @@ class _Writer:
             self._hurry.set()
         latest = time.monotonic() + patience_s
         while self._queue.qsize() >= CAPACITY:
-            if time.monotonic() >= latest:
+            if time.monotonic() >= latest or not self._thread.is_alive():
                 return False
             time.sleep(POLL_S)
         return True
