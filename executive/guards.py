@@ -49,6 +49,14 @@ def in_words(error: BaseException) -> str:
     return f"{name}: {said}"[:LONGEST] if said else name
 
 
+def traceback_of(error: BaseException) -> str:
+    """Where it was raised, as Python tells it."""
+    try:
+        return writable("".join(traceback.format_exception(error)))
+    except Exception:  # an exception that cannot even be printed
+        return type(error).__name__
+
+
 class GuardedRecorder:
     """Implements `Recorder` around one that may raise: then that record is lost."""
 
@@ -64,6 +72,21 @@ class GuardedRecorder:
             log.warning("a record was lost: %s", in_words(error))
 
 
+class _Fault:
+    """What is told of one that raises: a warning the first time, a note in the log each time."""
+
+    def __init__(self, what: str, recorder: Recorder) -> None:
+        self._what = what
+        self._recorder = recorder
+        self._told = False
+
+    def tell(self, error: Exception) -> None:
+        level = logging.DEBUG if self._told else logging.WARNING
+        log.log(level, "%s: %s", self._what, in_words(error))
+        self._recorder.record(Note("error", traceback_of(error)))
+        self._told = True
+
+
 class GuardedSource:
     """Implements `PlaceSource` around one that may raise: then it knows no place.
 
@@ -74,9 +97,9 @@ class GuardedSource:
         """Guard this source, whose name and clause stay as they are now."""
         self._source = source
         self._recorder = GuardedRecorder(recorder)
-        self._raised = False
         self.name = printable(source.name)
         self.says = printable(source.says)
+        self._fault = _Fault(f"the {self.name} does not answer", self._recorder)
 
     def places_of(self, name: str) -> tuple[str, ...]:
         """What it says."""
@@ -90,14 +113,8 @@ class GuardedSource:
             places = [said] if isinstance(said, str) else said
             return tuple(writable(str(place)) for place in places)
         except Exception as error:
-            self._tell(error)
+            self._fault.tell(error)
             return ()
-
-    def _tell(self, error: Exception) -> None:
-        level = logging.DEBUG if self._raised else logging.WARNING
-        log.log(level, "the %s does not answer: %s", self.name, in_words(error))
-        self._recorder.record(Note("error", traceback_of(error)))
-        self._raised = True
 
 
 class GuardedExperience:
@@ -110,21 +127,21 @@ class GuardedExperience:
         """Guard this one."""
         self._experience = experience
         self._recorder = GuardedRecorder(recorder)
-        self._raised = False
+        self._fault = _Fault("what was learned is of no use", self._recorder)
 
     def learn(self) -> None:
         """Learn, as far as that goes."""
         try:
             self._experience.learn()
         except Exception as error:
-            self._tell(error)
+            self._fault.tell(error)
 
     def recalled(self, name: str) -> tuple[Statement, ...]:
         """What it says."""
         try:
             said = tuple(self._experience.recalled(name))
         except Exception as error:
-            self._tell(error)
+            self._fault.tell(error)
             said = ()
         each = [(one.source, *pair) for one in said for pair in one.weights]
         self._recorder.record(
@@ -138,12 +155,6 @@ class GuardedExperience:
             )
         )
         return said
-
-    def _tell(self, error: Exception) -> None:
-        level = logging.DEBUG if self._raised else logging.WARNING
-        log.log(level, "what was learned is of no use: %s", in_words(error))
-        self._recorder.record(Note("error", traceback_of(error)))
-        self._raised = True
 
 
 class _Guard(ABC):
@@ -192,14 +203,6 @@ class _Guard(ABC):
     def _note(self, error: Exception) -> None:
         log.debug("raised by a part of the robot", exc_info=error)
         self._recorder.record(Note("error", traceback_of(error)))
-
-
-def traceback_of(error: BaseException) -> str:
-    """Where it was raised, as Python tells it."""
-    try:
-        return writable("".join(traceback.format_exception(error)))
-    except Exception:  # an exception that cannot even be printed
-        return type(error).__name__
 
 
 class GuardedRobot(_Guard):

@@ -38,6 +38,7 @@ from logs.recording.events import in_words
 from logs.unwritten import Unwritten
 from logs.viewer import blueprint, markdown, program, scene
 from logs.viewer.candidates import CandidatesView
+from logs.viewer.lines import Line, line
 from logs.viewer.scene import Taken
 from logs.viewer.timelines import MISSION_TIME, TICK, At, Moment
 from logs.viewer.tree import TreeView
@@ -46,7 +47,6 @@ APPLICATION = "robot-executive"
 FLUSH_S = 5.0
 """How long a flush may take."""
 
-_LEVELS = {"debug": "DEBUG", "info": "INFO", "warning": "WARN", "error": "ERROR"}
 _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 
 
@@ -111,27 +111,11 @@ class RerunSink:
                     blueprint.DIALOG,
                     rr.TextLog(text, level=speaker.upper(), color=_SPEAKERS.get(speaker)),
                 )
-            case Note(level, text):
-                self._stream.log(blueprint.LOG, rr.TextLog(text, level=_LEVELS[level]))
-            case SourceAnswer(source, thing, places):
-                where = ", ".join(places) or "not known"
-                text = f"{source}: {thing}: {where}"
-                self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
-            case Recalled(thing, places=places, says=says):
-                said = (f"{place} ({who})" for place, who in zip(places, says, strict=True))
-                text = f"learned of {thing}: {', '.join(said) or 'nothing'}"
-                self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
             case Planned():
                 self._candidates.plan(record)
-                self._stream.log(blueprint.LOG, rr.TextLog(record.text, level="INFO"))
-            case WaysTold(start, places):
-                text = f"ways from {start} to {', '.join(places)}"
-                self._stream.log(blueprint.LOG, rr.TextLog(text, level="DEBUG"))
-            case Intervention(by, deed, was, became):
-                text = f"{by}: {deed}: {was} -> {became}"
-                self._stream.log(blueprint.LOG, rr.TextLog(text, level="WARN"))
-            case Mishap(fault, text):
-                self._stream.log(blueprint.LOG, rr.TextLog(f"{fault}: {text}", level="WARN"))
+                self._write_line(record)
+            case Note() | SourceAnswer() | Recalled() | WaysTold() | Intervention() | Mishap():
+                self._write_line(record)
             case EventTaken():
                 self._write_event(record)
             case Picture(frame):
@@ -212,6 +196,10 @@ class RerunSink:
             return
         self._stream.log(blueprint.LLM, _document(text))
 
+    def _write_line(self, record: Line) -> None:
+        level, text = line(record)
+        self._stream.log(blueprint.LOG, rr.TextLog(text, level=level))
+
     def _write_event(self, taken: EventTaken) -> None:
         text = in_words(taken.event)
         self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
@@ -233,7 +221,7 @@ class RerunSink:
 
     def _tell(self, kind: str, error: Exception) -> None:
         if note := self._unwritten.note(kind, error):
-            self._stream.log(blueprint.LOG, rr.TextLog(note.text, level=_LEVELS[note.level]))
+            self._write_line(note)
 
 
 def _document(markdown_text: str) -> rr.TextDocument:
