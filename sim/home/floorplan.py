@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 Span = tuple[float, float]
 FARTHEST_M = 1000.0
-"""A point may be so far from the origin along x and y; the joints that move the base go on a bit."""
+"""A point may be so far from the origin along x and y; the base reaches a bit farther."""
 Coordinate = Annotated[float, Field(strict=True, ge=-FARTHEST_M, le=FARTHEST_M)]
 """Of a point in `map` as a file gives it (metres)."""
 Length = Annotated[float, Field(strict=True, gt=0.0, le=100.0)]
