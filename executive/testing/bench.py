@@ -19,7 +19,7 @@ from executive.app.parts import (
 from executive.app.simulation import fake
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Detector, Facts, PlaceSource, User
+from executive.interfaces import Detector, Facts, PlaceSource, Robot, User
 from executive.language.grammar import EnglishInterpreter
 from executive.perception.pipeline import CameraPerception
 from executive.records import Record, Tick, Verified
@@ -141,25 +141,11 @@ def run_mission(
     home = four_rooms().with_placement(place or {})
     knowledge = ontology(defaults)
     body = fake(Setup(settings, home, inbox, notebook, knowledge))
-    world, goals = body.truth, []
+    world = body.truth
     assert isinstance(world, FakeWorld)
     world.fault = fault
-    start = body.robot.start
-
-    def start_and_note(goal: Goal) -> int:
-        goals.append(goal)
-        request = start(goal)
-        during(goal, inbox)
-        return request
-
-    body.robot.start = start_and_note  # type: ignore[method-assign]
-    user: User
-    if person:
-        user = person(inbox)
-    elif answers is None:
-        user = Oracle(inbox, world.resting_place)
-    else:
-        user = Scripted(inbox, answers)
+    goals = _noted(body.robot, lambda goal: during(goal, inbox))
+    user = person(inbox) if person else _who_answers(answers, inbox, world)
     thinker = None
     if llm:
         thinker = model(inbox) if model else ScriptedModel(replies, inbox)
@@ -189,3 +175,25 @@ def run_mission(
     executive.run()
     outcome = situation.outcome(mission_time_s=body.clock.now(), wall_time_s=0.0, run_dir=None)
     return Run(outcome, world, user, thinker, notebook, goals, inbox, situation)
+
+
+def _noted(robot: Robot, during: Callable[[Goal], None]) -> list[Goal]:
+    """The goals that the robot is given from now on; `during` is called when each has begun."""
+    goals: list[Goal] = []
+    start = robot.start
+
+    def start_and_note(goal: Goal) -> int:
+        goals.append(goal)
+        request = start(goal)
+        during(goal)
+        return request
+
+    robot.start = start_and_note  # type: ignore[method-assign]
+    return goals
+
+
+def _who_answers(answers: Iterable[str | None] | None, inbox: Inbox, world: FakeWorld) -> User:
+    """Who gives these answers; without any, the oracle."""
+    if answers is None:
+        return Oracle(inbox, world.resting_place)
+    return Scripted(inbox, answers)
