@@ -21,7 +21,8 @@ from executive.language.meaning import (
     Things,
 )
 from executive.language.phrases import NEGATION
-from executive.language.spoken import Spoken, resolved, with_names
+from executive.language.pronouns import resolved, with_names
+from executive.language.spoken import Spoken
 from executive.language.wording import either
 from executive.replies import Standing, about, reply
 from executive.situation import Situation, Task
@@ -108,7 +109,8 @@ def _reply(context: MissionContext, said: Question | Statement | Request, now: s
     meant = resolved(said, spoken_now(situation))
     visited = situation.search.looks.visited
     visits = [one for one in situation.search.candidates if one.place in visited]
-    standing = Standing(situation.hand.in_hand, now, visits)
+    asked = situation.request.words
+    standing = Standing(situation.hand.in_hand, now, visits, asked=asked)
     answer = reply(meant, standing, context.knowledge, context.facts)
     is_it = about(meant, context.knowledge) == (situation.request.object,)
     searches = situation.search.found is None and not situation.has_it

@@ -27,7 +27,7 @@ from executive.types import (
 from trees.attention import all_of, attend_to
 from trees.context import MissionContext
 from trees.nodes import Action, Step, why_of
-from trees.telling import NEXT_TO, sentence, tell
+from trees.telling import BETWEEN, NEXT_TO, sentence, tell
 from trees.unknown import nearest, unknown, unresolved
 
 _QUESTIONS = {CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL}
@@ -467,4 +467,5 @@ def places_in(context: MissionContext, answer: str) -> tuple[str, ...]:
 def is_place(context: MissionContext, words: str) -> bool:
     """Whether words name places, or what is beside them, and nothing that would be passed over."""
     delivery = DELIVERY in re.findall(r"[a-z]+", words.lower())
-    return delivery or context.knowledge.is_place(words.lower().removeprefix(NEXT_TO))
+    beside = words.lower().removeprefix(NEXT_TO).removeprefix(BETWEEN)
+    return delivery or context.knowledge.is_place(beside)

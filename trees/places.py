@@ -23,11 +23,11 @@ from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
 from trees.person import NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
 from trees.recall import is_here
-from trees.telling import NEXT_TO, TO_THE_PERSON, tell
+from trees.telling import BETWEEN, NEXT_TO, TO_THE_PERSON, tell
 
 ON_TOP = "on top of "
 """Where nothing can be put of what has its places inside."""
-BESIDE = ("under ", "behind ", "in front of ", "above ", "left of ", "right of ", NEXT_TO)
+BESIDE = ("under ", "behind ", "in front of ", "above ", "left of ", "right of ", BETWEEN, NEXT_TO)
 """Beginnings of where nothing can be put."""
 
 
@@ -361,7 +361,7 @@ def not_seen_yet(context: MissionContext) -> str:
 def goals_in(context: MissionContext) -> tuple[str, ...]:
     """The places that the words for where to name; none if nothing can be put so."""
     goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
-    beside = cannot_be_put(context, goal) and not goes
+    beside = goal.startswith(BETWEEN) if goes else cannot_be_put(context, goal)
     return places_in(context, goal) if is_place(context, goal) and not beside else ()
 
 
@@ -400,6 +400,8 @@ def unknown(context: MissionContext) -> str:
     goes = request.asks_to(CommandKind.GO)
     if things := neighbours(context):
         return f"I do not know where {context.say.are(things[0])}"
+    if goes and goal.startswith(BETWEEN):
+        return f"I can go to furniture, but not '{context.as_said(goal)}'"
     if cannot_be_put(context, goal) and not goes:
         return f"I can put things on furniture, or in it, but not '{context.as_said(goal)}'"
     if FLOOR in goal.split():

@@ -44,4 +44,4 @@ def _words(thing: Thing) -> str:
 
 def _is_any(things: Things) -> bool:
     """Whether it is "one of them"."""
-    return [thing.words for thing in things.members] == ["one of them"]
+    return [(thing.pronoun, thing.number) for thing in things.members] == [(True, 1)]

@@ -97,7 +97,15 @@ class Builder(Deeds):
         said = [p for p in parts if not isinstance(p, Token)]
         if len(said) == 1 and isinstance(said[0], Refusal):
             return said[0]
-        found: dict[str, Any] = {"denies": any(is_a(p, "NO", "NO_BUT") for p in parts)}
+        return self._corrects(said, denies=any(is_a(p, "NO", "NO_BUT") for p in parts))
+
+    def _corrects(self, said: list[Part], *, denies: bool = False) -> Correction:
+        """These things, or places, in place of those of before.
+
+        Raises:
+            Unfit: if there are more places than there is use for.
+        """
+        found: dict[str, Any] = {"denies": denies}
         new: dict[str, Any]
         for part in said:
             match part:
@@ -110,9 +118,9 @@ class Builder(Deeds):
                 case Request() | Things():
                     new = {"meant": part}
                 case _:
-                    raise Unfit(str(parts[0]))
+                    raise Unfit("")
             if new.keys() & found.keys():
-                raise Unfit(str(parts[0]))
+                raise Unfit("")
             found |= new
         return Correction(**found)
 
@@ -147,6 +155,10 @@ class Builder(Deeds):
         """As in "where did you put the mug"."""
         return Question(About.WHERE_PUT, things=parts[-1])
 
+    def where_found(self, parts: list[Part]) -> Question:
+        """As in "where did you get the mug from", "where was it"."""
+        return Question(About.WHERE_FOUND, things=next(p for p in parts if isinstance(p, Things)))
+
     def known(self, parts: list[Part]) -> Question:
         """As in "what do you know about the mug", "where do you keep the cups"."""
         return Question(About.KNOWN, things=parts[-1])
@@ -164,8 +176,10 @@ class Builder(Deeds):
         return Statement(things, place)
 
     def named(self, parts: list[Part]) -> Answer:
-        """As in "I think the apple"."""
-        return Answer(things=parts[-1])
+        """As in "I think the apple", "the second one"."""
+        things = parts[-1]
+        which = things.members[0].place_in_list if len(things.members) == 1 else None
+        return Answer(things=things) if which is None else Answer(place_in_list=which)
 
     def placed(self, parts: list[Part]) -> Answer | Correction:
         """As in "on the desk"; "to the desk" is not where it is."""
@@ -175,9 +189,10 @@ class Builder(Deeds):
         where = tuple(p if isinstance(p, Where) else p.place for p in places)
         return Answer(where=where, told=is_a(parts[0], "HEDGE"))
 
-    def ordinal(self, parts: list[Part]) -> Answer:
-        """As in "the second one"."""
-        return Answer(place_in_list=self.number_of(parts[-1]))
+    def the_one(self, parts: list[Part]) -> Correction:
+        """As in "the one on the desk": of the kind that was asked for, the one that is there."""
+        one = Things((Thing("one", definite=True, said="one"),))
+        return self._corrects([one, *(p for p in parts if not isinstance(p, Token))])
 
     def yes(self, parts: list[Part]) -> Answer:
         """As in "yes", "yes, the apple"."""

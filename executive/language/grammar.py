@@ -6,9 +6,10 @@ from itertools import chain
 
 from executive.language.commands import NOT_KNOWN_WHAT, agrees, commands_in, talk
 from executive.language.meaning import Answer, Choice, Request, Said, Task, Unable, Unread
+from executive.language.pronouns import resolved
 from executive.language.reader import AT_A_TIME, Reader, english
 from executive.language.slips import brought, without_slips
-from executive.language.spoken import NOTHING, Spoken, resolved
+from executive.language.spoken import NOTHING, Spoken
 from executive.types import Command, CommandKind, Commands
 
 

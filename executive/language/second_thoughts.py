@@ -3,8 +3,10 @@
 import re
 from collections.abc import Callable
 
+from executive.language.anew import asked_anew
 from executive.language.meaning import Correction, Request, Said, Things
-from executive.language.spoken import Spoken, asked_anew, with_names
+from executive.language.pronouns import with_names
+from executive.language.spoken import Spoken
 
 MOST = 4
 """Corrections in one sentence; nobody says more."""
