@@ -276,13 +276,18 @@ class AskWhereTo(Ask):
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
         if options := options_in(self.context):
-            named = chosen_of(self.context, answer, options)
+            named = chosen_of(self.context, answer, options) or self._another(answer)
             if len(named) != 1:
                 return False
         else:
             named = places_in(self.context, answer)
         self.situation.request.goals = best_first(self.context, named)
         return bool(named)
+
+    def _another(self, answer: str) -> tuple[str, ...]:
+        """None of the places that were offered, but one that was not: "on the sofa"."""
+        named = places_in(self.context, answer) if is_place(self.context, answer) else ()
+        return named if len(named) == 1 else ()
 
     def unresolved(self) -> str:
         """What is not known."""
@@ -390,8 +395,11 @@ def may_be(context: MissionContext, words: str, options: Sequence[str]) -> str:
 
 def chosen_of(context: MissionContext, answer: str, options: Sequence[str]) -> tuple[str, ...]:
     """Those of the places that were offered which an answer means."""
-    chosen = picked(context.interpreter.read(answer), options)
-    return chosen or tuple(place for place in places_in(context, answer) if place in options)
+    if chosen := picked(context.interpreter.read(answer), options):
+        return chosen
+    if not (named := places_in(context, answer)):
+        named = places_in(context, f"{answer} {goal_words(context)}")  # "the coffee" table
+    return tuple(place for place in named if place in options)
 
 
 def unknown(context: MissionContext) -> str:

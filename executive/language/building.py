@@ -43,6 +43,7 @@ class Builder(Deeds):
             tasks,
             in_order,
             too=any(is_a(p, "TOO", "LATER") for p in parts),
+            first=is_a(parts[-1], "AT_FIRST"),
             agrees=any(is_a(p, "YES") for p in parts),
             later=any(is_a(p, "TOO") and p.endswith("later") for p in parts),
         )
@@ -54,12 +55,13 @@ class Builder(Deeds):
             Unfit: if it is not clear what "them" are.
         """
         tasks: list[Task] = []
-        further = False
+        further = in_order = False
         for part in parts:
+            in_order |= is_a(part, "AT_FIRST")
             if isinstance(part, Further):
                 if not tasks:
                     raise Unfit("and")
-                tasks += self.once_more(tasks[-1], part)
+                tasks += self.once_more(tasks[-1], part, alone=in_order)
                 further = True
             elif isinstance(part, Task):
                 if further and part.things and part.things.members[0].pronoun:
@@ -138,6 +140,10 @@ class Builder(Deeds):
         """As in "not the apple, the banana"."""
         wrong = next(p for p in parts if isinstance(p, Thing))
         return Correction(parts[-1], Things((wrong,)), denies=True)
+
+    def not_there(self, parts: list[Part]) -> Correction:
+        """As in "not there, on the desk", "not to me, to the desk"."""
+        return self._corrects([parts[-1]], denies=True)
 
     def another_number(self, parts: list[Part]) -> Correction:
         """As in "no, five", of things of the same kind."""

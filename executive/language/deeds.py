@@ -89,14 +89,18 @@ class Deeds(Nouns):
         """As in "... and the pear on the desk", "..., then to the sofa"."""
         return Further(tuple(p for p in parts if not isinstance(p, Token)))
 
-    def once_more(self, task: Task, further: Further) -> tuple[Task, ...]:
+    def once_more(self, task: Task, further: Further, *, alone: bool) -> tuple[Task, ...]:
         """The same deed with other things, or at other places.
+
+        Other things `alone` are no more of those in the task: "the mug first, then the pear".
 
         Raises:
             Unfit: if the words do not say what is meant of the task before.
         """
         things = next((p for p in further.parts if isinstance(p, Things)), None)
         places = [p for p in further.parts if not isinstance(p, Things)]
+        if alone and task.things and things and not places:
+            return (replace(task, things=things),)
         if task.conditional or (not (things and places) and task.verb not in _ELSEWHERE):
             raise Unfit(task.said)
         if things and places and task.things is None:  # "go to the desk and dance there"

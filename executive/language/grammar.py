@@ -45,7 +45,7 @@ class EnglishInterpreter:
         It is empty, too, if they were not read: then somebody else may.
         """
         read = self._read(words, spoken, False)
-        return read if isinstance(read, str) else ""
+        return read if isinstance(read, str) and not self._reader.likely(words) else ""
 
     def _read(self, words: str, spoken: Spoken, holds: bool) -> Commands | str | None:
         """The tasks; or what to say; nothing to say if somebody else may read it."""
@@ -93,7 +93,11 @@ class EnglishInterpreter:
         return tuple(dict.fromkeys(w for w in (*counts, *conditions) if w not in named))
 
     def without_slips(self, words: str) -> Commands:
-        """The tasks that the words are with the word for the deed spelled right; none if none."""
+        """The tasks that the words probably are, as with the word for the deed spelled right."""
+        if (said := self._reader.likely(words)) and isinstance(
+            likely := commands_in(said, words), tuple
+        ):
+            return likely
         for likely in (*without_slips(self._reader, words), *brought(self._reader, words)):
             if commands := self.commands(likely):
                 return commands

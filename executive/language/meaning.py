@@ -150,6 +150,8 @@ class Request:
     """Whether the words say that this is the order: "first ..., then ..."."""
     too: bool = False
     """Whether it comes on top of what was asked for before: "..., too"."""
+    first: bool = False
+    """Whether it is to be done before what is under way: "bring it first"."""
     agrees: bool = False
     """Whether it begins with a yes: "okay, bring it"."""
     later: bool = False

@@ -117,6 +117,13 @@ class Reader:
         corrected = corrected_in_one_breath(plain, self._turn, self._read)
         return corrected or with_pauses(plain, self._deed, self._read) or said
 
+    def likely(self, words: str) -> Request | None:
+        """What words probably ask for that cannot be read for sure; None if they do not."""
+        plain = self.plain(words)
+        if not isinstance(self.read(words), Unread):
+            return None
+        return corrected_in_one_breath(plain, self._turn, self._read, likely=True)
+
     def _read(self, text: str) -> Said:
         """The same of words in plain form."""
         try:
