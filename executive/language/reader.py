@@ -122,7 +122,8 @@ class Reader:
         plain = self.plain(words)
         if not isinstance(self.read(words), Unread):
             return None
-        return corrected_in_one_breath(plain, self._turn, self._read, likely=True)
+        corrected = corrected_in_one_breath(plain, self._turn, self._read, likely=True)
+        return corrected or with_pauses(plain, self._deed, self._read, likely=True)
 
     def _read(self, text: str) -> Said:
         """The same of words in plain form."""

@@ -42,8 +42,13 @@ def corrected_in_one_breath(
 
 
 def _in_place_of_last(members: tuple[Thing, ...], meant: Things) -> Things:
-    """As many of the things as are named anew, those said last, are not meant."""
-    kept, wrong = members[: -len(meant.members)], members[-len(meant.members) :]
+    """As many of the things as are named anew, those said last, are not meant.
+
+    Who names some of them again means only these.
+    """
     first, *others = meant.members
+    kept, wrong = members[: -len(meant.members)], members[-len(meant.members) :]
+    if all(thing in members for thing in meant.members):
+        kept, wrong = (), tuple(thing for thing in members if thing not in meant.members)
     first = replace(first, exceptions=(*first.exceptions, *wrong))
     return replace(meant, members=(*kept, first, *others))
