@@ -72,8 +72,8 @@ def _beside(
         return None
     named = read(f"find {found['thing']}") if found.groupdict().get("thing") else None
     match named:
-        case Request(tasks=[Task(things=Things(members=[thing]), source=where)]):
-            return (thing.words,), where
+        case Request(tasks=[Task(things=Things(members=[thing]), source=source)]):
+            return (thing.words,), source
     return (), None
 
 
@@ -82,13 +82,13 @@ def _with(said: Request, names: tuple[str, ...], where: Where | None) -> Request
 
     It would be forgotten then.
     """
-    meant = resolved(said, Spoken(names, *names))
+    meant = resolved(said, Spoken(names, " ".join(names)))
     assert isinstance(meant, Request)
     first, *others = meant.tasks
     if where is None:
         return meant
     things = first.things.members if first.things else ()
-    is_told_of = len(things) == 1 and (not names or things[0].words in names)
+    is_told_of = bool(things) and (not names or [thing.words for thing in things] == [*names])
     if first.source or not is_told_of:
         return None
     return replace(meant, tasks=(replace(first, source=where), *others))

@@ -120,10 +120,14 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
     if task.things is None:
         return None
     members = before.members if before else tuple(map(_called, spoken.things))
+    seen = not before and spoken.request and spoken.request.tasks[-1].verb in QUESTIONS
+    if seen and (rest := _all_but(task.things, members)):
+        return rest
+    if before and (other := _the_other(task.things, before, spoken)):
+        return other
     if picked := _picked(task.things, members):
         return picked
     if one := _one_of_kind(task.things, called(before) or spoken.called):
-        seen = not before and spoken.request and spoken.request.tasks[-1].verb in QUESTIONS
         return Things(members, one_of=True) if seen and len(members) > 1 else one
     if before:
         named = is_it(task.things) and task.verb != CommandKind.PUT_DOWN
@@ -152,6 +156,27 @@ def _picked(things: Things, members: tuple[Thing, ...]) -> Things | None:
         return Things(members).without(thing.exceptions)
     some = Things(members, one_of=True, number=number).without(thing.exceptions)
     return some if 0 < number < len(members) else None
+
+
+def _all_but(things: Things, members: tuple[Thing, ...]) -> Things | None:
+    """As in "bring all but the apple", of what was just told; None if it is something else."""
+    if len(things.members) != 1 or len(members) < 2:
+        return None
+    [thing] = things.members
+    if thing.words or thing.number != ALL or not thing.said.startswith("all"):
+        return None
+    left_out = {but.words for but in thing.exceptions}
+    rest = tuple(one for one in members if one.words.replace("_", " ") not in left_out)
+    return Things(rest) if rest else None
+
+
+def _the_other(things: Things, before: Things, spoken: Spoken) -> Things | None:
+    """Of two that were spoken of, that which is not named before: "the mug, and the other one"."""
+    [thing, *others] = things.members
+    named = {one.words for one in before.members}
+    left = [name for name in spoken.things if name.replace("_", " ") not in named]
+    is_other = not others and thing.other and thing.pronoun
+    return Things((_called(left[0]),)) if is_other and len(left) == 1 < len(spoken.things) else None
 
 
 def _called(name: str) -> Thing:
