@@ -15,6 +15,7 @@ from executive.language.meaning import (
     Things,
     Where,
 )
+from executive.language.phrases import spoken
 from executive.language.wording import Wording, beginning, either, listed
 from executive.types import PERSON, Candidate, CommandKind, Source
 
@@ -27,6 +28,7 @@ SAYS: Mapping[str, str] = {
 }
 """How the person is told who names a place to look at; other sources say it themselves."""
 IDLE = "Nothing: I wait for what you say."
+NOTHING_YET = "I did nothing yet."
 AT_REST = "At rest: I wait for what you say."
 SAYS_OF_SEVERAL: Mapping[str, str] = {
     **SAYS,
@@ -36,6 +38,10 @@ SAYS_OF_SEVERAL: Mapping[str, str] = {
 }
 _WAYS = ("go", "drive", "look", "move", "search", "there")
 """Words of a question about where the robot went."""
+_ROOMS = ("room", "rooms")
+_FURNITURE = ("furniture", "places", "pieces of furniture")
+_OF_THE_HOME = (CommandKind.COUNT, CommandKind.TELL)
+"""Questions that are about the home itself, if they are about rooms or furniture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +54,7 @@ class Standing:
         visits: where it went to look, and who had named the place, the last one at the end.
         reason: how the last mission ended, in words; empty if there was none.
         stands: where it is, at rest; empty if it was stopped on its way.
+        asked: what the person asked for last; empty if nothing.
     """
 
     holds: str | None = None
@@ -55,6 +62,7 @@ class Standing:
     visits: Sequence[Candidate] = ()
     reason: str = ""
     stands: str = ""
+    asked: str = ""
 
 
 def reply(said: Said, standing: Standing, knowledge: Knowledge, facts: Facts) -> str:
@@ -75,10 +83,22 @@ def reply(said: Said, standing: Standing, knowledge: Knowledge, facts: Facts) ->
             return standing.doing or f"{_where_i_am(standing.stands, say)} {AT_REST}"
         case Question(about=About.KNOWN, things=Things() as things):
             return _known(things, knowledge)
+        case Request(tasks=[Task(verb=verb, things=Things(members=[thing]), source=source)]) if (
+            verb in _OF_THE_HOME and thing.words in (*_ROOMS, *_FURNITURE)
+        ):
+            return _of_the_home(thing.words, source, knowledge)
         case Request(tasks=[Task(verb=CommandKind.FIND, things=Things(members=[thing]))]):
             return _where_it_stands(thing.words, knowledge)
         case Question(about=About.WHERE_PUT, things=Things() as things):
             return _where_is(things, standing, knowledge, facts)
+        case Question(about=About.WHERE_FOUND, things=Things() as things):
+            return _where_found(things, standing, knowledge, facts)
+        case Question(about=About.DONE):
+            return standing.doing or standing.reason or NOTHING_YET
+        case Question(about=About.ASKED):
+            return f"You said: '{standing.asked}'." if standing.asked else "Nothing yet."
+        case Question(about=About.REMEMBERED):
+            return _remembered(knowledge, facts)
         case Question(about=About.WHY):
             return _why(said.words, standing, knowledge)
     return ""
@@ -102,6 +122,8 @@ def _where_i_am(place: str, say: Wording) -> str:
 def _known(things: Things, knowledge: Knowledge) -> str:
     """What is known of things without looking: which there are; of one, what it is like, too."""
     say, words = Wording(knowledge.called), " or ".join(t.words for t in things.members)
+    if words in (*_ROOMS, *_FURNITURE):
+        return _of_the_home(words, None, knowledge)
     if any(thing.pronoun for thing in things.members):
         return f"I do not know what '{words}' is."
     names = knowledge.objects_named(words)
@@ -117,6 +139,17 @@ def _known(things: Things, knowledge: Knowledge) -> str:
     is_ = say.agree(name, "It is", "They are")
     told = f"{beginning(say.the(name))} {there}." + f" {is_} {looks}." * bool(looks)
     return f"{told} More I cannot tell you of {say.it(name)}."
+
+
+def _of_the_home(words: str, where: Where | None, knowledge: Knowledge) -> str:
+    """Which rooms there are, or which furniture: in a room, if one is named."""
+    say, places = Wording(knowledge.called), knowledge.places()
+    if words in _ROOMS:
+        rooms = dict.fromkeys(place.room_label or spoken(place.room) for place in places)
+        return f"I know {listed([f'the {room}' for room in rooms])}."
+    if where and len(knowledge.places_named(where.words)) > 1:
+        return _where_it_stands(where.words, knowledge)
+    return f"I know {listed([say.in_full(place.name) for place in places])}."
 
 
 def _where_it_stands(words: str, knowledge: Knowledge) -> str:
@@ -170,6 +203,24 @@ def _where_is(things: Things, standing: Standing, knowledge: Knowledge, facts: F
     return f"As far as I know, {say.are(name)} {say.at(places[0])}."
 
 
+def _where_found(things: Things, standing: Standing, knowledge: Knowledge, facts: Facts) -> str:
+    """Where it was taken from; of what was not taken, where it is."""
+    say = Wording(knowledge.called)
+    name, _ = _one(things, knowledge)
+    taken = [place for place in facts.origins().get(name, ()) if knowledge.has_place(place)]
+    if taken:
+        return f"I took {say.the(name)} from {say.in_full(taken[0])}."
+    return _where_is(things, standing, knowledge, facts)
+
+
+def _remembered(knowledge: Knowledge, facts: Facts) -> str:
+    """Where things are, as far as is known."""
+    say = Wording(knowledge.called)
+    known = {name: facts.places_of(name) for name in facts.beliefs()}
+    there = [f"{say.are(name)} {say.at(places[0])}" for name, places in known.items() if places]
+    return f"As far as I know, {listed(there)}." if there else "I have seen nothing yet."
+
+
 def _why(words: str, standing: Standing, knowledge: Knowledge) -> str:
     named = knowledge.places_named(words)
     visits = [visit for visit in standing.visits if not named or visit.place in named]
@@ -179,7 +230,7 @@ def _why(words: str, standing: Standing, knowledge: Knowledge) -> str:
         visit = visits[-1]
         says = SAYS.get(visit.source, f"so says the {visit.source}")
         return f"I went to {Wording(knowledge.called).the(visit.place)} to look there: {says}."
-    return standing.reason or standing.doing or "I did nothing yet."
+    return standing.reason or standing.doing or NOTHING_YET
 
 
 def _one(things: Things, knowledge: Knowledge) -> tuple[str, str]:

@@ -11,6 +11,7 @@ from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
 from executive.language.meaning import (
     Answer,
+    Choice,
     Correction,
     Courtesy,
     Question,
@@ -21,7 +22,8 @@ from executive.language.meaning import (
     Things,
 )
 from executive.language.phrases import NEGATION
-from executive.language.spoken import Spoken, resolved, with_names
+from executive.language.pronouns import resolved, with_names
+from executive.language.spoken import Spoken
 from executive.language.wording import either
 from executive.replies import Standing, about, reply
 from executive.situation import Situation, Task
@@ -53,6 +55,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         correction = Correction(place=said.where[0])  # "on the sofa": where to, and not where it is
     if isinstance(said, Answer):
         said = correction or resolved(said, spoken)  # "it is on the sofa"
+    if said == Answer(Choice.YES):
+        return now
     if denial := not correction and context.interpreter.denial(words):
         return _refuse(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
@@ -70,11 +74,14 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
             commands = commands_in(resolved(said, spoken), words)
             if (alone := left_alone(said)) and isinstance(commands, tuple):
                 return _instead_of(context, alone, commands, at_hand)
-            if at_hand and isinstance(commands, tuple) and _in_its_stead(context, said, at_hand):
-                return _replace(context, commands)
+            if at_hand and isinstance(commands, tuple):
+                if _in_its_stead(context, said, at_hand):
+                    return _replace(context, commands)
+                if said.first:
+                    return _do_first(context, commands, at_hand)
             return _add(context, commands, now)
     if correction and at_hand:
-        return _correct(context, correction, at_hand, words, now)
+        return correct(context, correction, words, now)
     why_not = context.interpreter.remark(words)
     return why_not or f"{context.interpreter.not_understood(words)}. {now}"
 
@@ -108,7 +115,8 @@ def _reply(context: MissionContext, said: Question | Statement | Request, now: s
     meant = resolved(said, spoken_now(situation))
     visited = situation.search.looks.visited
     visits = [one for one in situation.search.candidates if one.place in visited]
-    standing = Standing(situation.hand.in_hand, now, visits)
+    asked = situation.request.words
+    standing = Standing(situation.hand.in_hand, now, visits, asked=asked)
     answer = reply(meant, standing, context.knowledge, context.facts)
     is_it = about(meant, context.knowledge) == (situation.request.object,)
     searches = situation.search.found is None and not situation.has_it
@@ -117,15 +125,34 @@ def _reply(context: MissionContext, said: Question | Statement | Request, now: s
     return answer
 
 
-def _correct(
-    context: MissionContext, said: Correction, at_hand: Command, words: str, now: str
-) -> str:
+def correct(context: MissionContext, said: Correction, words: str, now: str) -> str:
     """Do this instead of the task at hand, or beside it."""
+    at_hand = context.situation.agenda.whole_of(context.situation.request.command)
+    assert at_hand
     spoken = spoken_now(context.situation)
+    if changed := _correct_later(context, said, at_hand, words):
+        return changed
     commands = corrected(with_names(said, spoken), at_hand, words)
     if said.adds or not isinstance(commands, tuple):
         return _add(context, commands, now)
     return _replace(context, commands)
+
+
+def _correct_later(context: MissionContext, said: Correction, at_hand: Command, words: str) -> str:
+    """Change the task that waits, if it is that which is not meant: "the pear, not the apple"."""
+    agenda = context.situation.agenda
+    named = " or ".join(thing.words for thing in said.wrong.members) if said.wrong else ""
+    if not (wrong := _named(context, named)) or wrong & _objects(context, at_hand):
+        return ""
+    task = next((one for one in agenda.tasks if wrong & _objects(context, one.command)), None)
+    commands = corrected(replace(said, wrong=None), task.command, words) if task else ""
+    if not task or not isinstance(commands, tuple):
+        return ""
+    [[command], *others] = commands
+    agenda.change(task, command)
+    agenda.add(others)
+    wishes = [in_one_sentence(context, one) for group in commands for one in group]
+    return f"All right: I {' and '.join(wishes)} instead."
 
 
 def all_of(context: MissionContext, names: Sequence[str], words: str) -> str:
@@ -144,6 +171,14 @@ def _replace(context: MissionContext, commands: Commands, instead: str = " inste
     context.situation.agenda.replace(first, others)
     then = " and ".join(in_one_sentence(context, one) for one in (first, *others))
     return f"All right: I {then}{instead}."
+
+
+def _do_first(context: MissionContext, commands: Commands, at_hand: Command) -> str:
+    """Do these at once, and the task at hand after them."""
+    first, *others = [command for group in commands for command in group]
+    context.situation.agenda.replace(first, [*others, at_hand])
+    then = " and ".join(in_one_sentence(context, one) for one in (first, *others))
+    return f"All right: I {then} first."
 
 
 def _instead_of(

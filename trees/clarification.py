@@ -2,11 +2,20 @@
 
 from dataclasses import replace
 
-from executive.language.answers import named, picked
-from executive.language.meaning import Answer, Choice, Refusal, Request, Said
+from executive.language.answers import how_many_of, named, picked
+from executive.language.meaning import (
+    Answer,
+    Choice,
+    Correction,
+    Refusal,
+    Request,
+    Said,
+    Thing,
+    Things,
+)
 from executive.types import CommandKind, Question, QuestionKind
 from trees.asking import Ask, AskYesNo
-from trees.attention import all_of
+from trees.attention import all_of, correct
 from trees.meant import without_exceptions
 from trees.telling import tell
 from trees.unknown import nearest, unknown, unresolved
@@ -93,7 +102,7 @@ class AskWhichObject(Ask):
         if chosen := picked(said, self.question().options):
             meant = tuple(one for name in chosen for one in find(name))
         else:
-            meant = find(answer) or self._named(said)
+            meant = find(answer) or self._named(said) or self._nearly(answer)
         if options:
             meant = tuple(one for one in meant if one in options)
         assert self.situation.request.command
@@ -109,6 +118,10 @@ class AskWhichObject(Ask):
         request, find = self.situation.request, self.context.knowledge.objects_named
         if isinstance(said, Refusal) and (rest := self._but(said.words)):
             request.options = rest
+            return True
+        if isinstance(said, Answer) and (number := how_many_of(said)):
+            said = Correction(Things((Thing(number=number, said=str(number)),)))
+            tell(self.context, correct(self.context, said, words, f"I {self.doing()}."))
             return True
         several = self._several(said)
         if not several or not request.options:
@@ -131,7 +144,11 @@ class AskWhichObject(Ask):
             return ()
         if said.choice == Choice.ALL:
             return offered
-        names = tuple(thing.words for thing in said.things.members) if said.things else ()
+        members = said.things.members if said.things else ()
+        if members and all(thing.place_in_list for thing in members):
+            each = (picked(Answer(place_in_list=t.place_in_list), offered) for t in members)
+            return tuple(one for names in each for one in names)
+        names = tuple(thing.words for thing in members)
         are_known = all(self.context.knowledge.objects_named(name) for name in names)
         return names if len(names) > 1 and are_known else ()
 
@@ -144,8 +161,17 @@ class AskWhichObject(Ask):
             and said.tasks[0].verb in _QUESTIONS - {command.kind}
         ):
             return ()  # "where is the apple?"
-        offered = self.situation.request.options or not isinstance(said, Request)
-        return self.context.knowledge.objects_named(named(said)) if offered else ()
+        if not self.situation.request.options and isinstance(said, Request):
+            return ()
+        find, words = self.context.knowledge.objects_named, named(said)
+        return find(words) or tuple(one for name in words.split(" or ") for one in find(name))
+
+    def _nearly(self, answer: str) -> tuple[str, ...]:
+        """What was offered, if an answer is a slip of it; that is asked, with nothing else."""
+        near = self.context.knowledge.near_name(answer)
+        if near in self.situation.request.options:
+            self.situation.request.options = (near,)
+        return ()
 
     def unresolved(self) -> str:
         """Name the nearest known things."""

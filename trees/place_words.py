@@ -7,11 +7,11 @@ from executive.language.answers import picked
 from executive.types import DELIVERY, FLOOR, CommandKind
 from trees.context import MissionContext
 from trees.recall import is_here
-from trees.telling import NEXT_TO
+from trees.telling import BETWEEN, NEXT_TO
 
 ON_TOP = "on top of "
 """Where nothing can be put of what has its places inside."""
-BESIDE = ("under ", "behind ", "in front of ", "above ", "left of ", "right of ", NEXT_TO)
+BESIDE = ("under ", "behind ", "in front of ", "above ", "left of ", "right of ", BETWEEN, NEXT_TO)
 """Beginnings of where nothing can be put."""
 
 
@@ -25,7 +25,8 @@ def places_in(context: MissionContext, answer: str) -> tuple[str, ...]:
 def is_place(context: MissionContext, words: str) -> bool:
     """Whether words name places, or what is beside them, and nothing that would be passed over."""
     delivery = DELIVERY in re.findall(r"[a-z]+", words.lower())
-    return delivery or context.knowledge.is_place(words.lower().removeprefix(NEXT_TO))
+    beside = words.lower().removeprefix(NEXT_TO).removeprefix(BETWEEN)
+    return delivery or context.knowledge.is_place(beside)
 
 
 # --- where the thing, or the robot, is to go ---
@@ -70,7 +71,7 @@ def not_seen_yet(context: MissionContext) -> str:
 def goals_in(context: MissionContext) -> tuple[str, ...]:
     """The places that the words for where to name; none if nothing can be put so."""
     goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
-    beside = cannot_be_put(context, goal) and not goes
+    beside = goal.startswith(BETWEEN) if goes else cannot_be_put(context, goal)
     return places_in(context, goal) if is_place(context, goal) and not beside else ()
 
 
@@ -99,8 +100,11 @@ def may_be(context: MissionContext, words: str, options: Sequence[str]) -> str:
 
 def chosen_of(context: MissionContext, answer: str, options: Sequence[str]) -> tuple[str, ...]:
     """Those of the places that were offered which an answer means."""
-    chosen = picked(context.interpreter.read(answer), options)
-    return chosen or tuple(place for place in places_in(context, answer) if place in options)
+    if chosen := picked(context.interpreter.read(answer), options):
+        return chosen
+    if not (named := places_in(context, answer)):
+        named = places_in(context, f"{answer} {goal_words(context)}")  # "the coffee" table
+    return tuple(place for place in named if place in options)
 
 
 def unknown_goal(context: MissionContext) -> str:
@@ -109,6 +113,8 @@ def unknown_goal(context: MissionContext) -> str:
     goes = request.asks_to(CommandKind.GO)
     if things := neighbours(context):
         return f"I do not know where {context.say.are(things[0])}"
+    if goes and goal.startswith(BETWEEN):
+        return f"I can go to furniture, but not '{context.as_said(goal)}'"
     if cannot_be_put(context, goal) and not goes:
         return f"I can put things on furniture, or in it, but not '{context.as_said(goal)}'"
     if FLOOR in goal.split():

@@ -278,13 +278,18 @@ class AskWhereTo(AskForPlace):
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
         if options := options_in(self.context):
-            named = chosen_of(self.context, answer, options)
+            named = chosen_of(self.context, answer, options) or self._another(answer)
             if len(named) != 1:
                 return False
         else:
             named = places_in(self.context, answer)
         self.situation.request.goals = best_first(self.context, named)
         return bool(named)
+
+    def _another(self, answer: str) -> tuple[str, ...]:
+        """None of the places that were offered, but one that was not: "on the sofa"."""
+        named = places_in(self.context, answer) if is_place(self.context, answer) else ()
+        return named if len(named) == 1 else ()
 
     def unresolved(self) -> str:
         """What is not known."""

@@ -12,6 +12,8 @@ TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
 """Words for the goal that is the person who speaks."""
 NEXT_TO = "next to "
 """Before the thing beside which something is to be."""
+BETWEEN = "between "
+"""Before two pieces of furniture."""
 NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 

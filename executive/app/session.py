@@ -4,10 +4,11 @@ import logging
 import sys
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from datetime import UTC, datetime
+from itertools import chain
 from pathlib import Path
 from typing import Self, TextIO
 
@@ -34,13 +35,14 @@ from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, G
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
 from executive.language.phrases import spoken
-from executive.language.spoken import NOTHING, after, resolved
+from executive.language.pronouns import resolved
+from executive.language.spoken import NOTHING, after
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
 from executive.replies import Standing, about, reply
 from executive.situation import Ending, Situation
 from executive.text import one_line, too_long, writable
-from executive.types import PERSON, Answered, Halt, MissionStatus, Outcome
+from executive.types import PERSON, Answered, Halt, MissionStatus, Outcome, TaskOutcome
 from executive.user import NOTHING_TO_STOP, Console
 from logs.recorder import FanOut, Sink
 
@@ -331,8 +333,10 @@ class Session:
         said = resolved(parts.interpreter.read(words), self._spoken)
         last = self._last
         visits = [one for one in last.candidates if one.place in last.visited] if last else ()
-        reason = last.reason if last else ""
-        standing = Standing(self._in_hand, visits=visits, reason=reason, stands=self._stands)
+        reason, asked = (last.reason, last.command) if last else ("", "")
+        standing = Standing(
+            self._in_hand, visits=visits, reason=reason, stands=self._stands, asked=asked
+        )
         answer = reply(said, standing, parts.knowledge, parts.facts)
         if answer:
             self._spoken = after(said, self._spoken, things=about(said, parts.knowledge))
@@ -341,7 +345,7 @@ class Session:
     def _remember(self, words: str, outcome: Outcome) -> None:
         """Of what was spoken, for what is said next."""
         said = resolved(self.parts.interpreter.read(words), self._spoken)
-        things = (outcome.object,) if outcome.object else ()
+        things = tuple(dict.fromkeys(chain.from_iterable(map(_things_of, outcome.tasks))))
         place = outcome.goals[0] if outcome.goals else outcome.location or ""
         self._spoken = after(said, self._spoken, things=things, place=place)
 
@@ -379,6 +383,15 @@ class Session:
                 return self.heard.popleft()
             if not self.inbox.is_open(request):
                 request = console.listen(prompt)
+
+
+def _things_of(task: TaskOutcome) -> Iterator[str]:
+    """The things that a task turned out to be about; of a question, those that were seen."""
+    yield from task.things
+    for part in task.parts:
+        yield from _things_of(part)
+    if task.object:
+        yield task.object
 
 
 def answered(answer: str) -> Outcome:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from executive.language.meaning import Answer, Choice, Correction, Request, Said, Thing, Things
+from executive.language.phrases import spoken
 
 
 def picked(said: Said, options: Sequence[str]) -> tuple[str, ...]:
@@ -23,7 +24,17 @@ def picked(said: Said, options: Sequence[str]) -> tuple[str, ...]:
             return tuple(options)
         case Choice.YES if said.things is None and len(options) == 1:
             return tuple(options)
-    return tuple(options[:1]) if said.things and _is_any(said.things) else ()
+    if said.things and _is_any(said.things):
+        left_out = {but.words for but in said.things.exceptions}  # "anything but the apple"
+        return tuple(option for option in options if spoken(option) not in left_out)[:1]
+    return ()
+
+
+def how_many_of(said: Answer) -> int:
+    """How many of those that were offered, if any will do: "two of them"; 0 if it says no such."""
+    members = said.things.members if said.things else ()
+    number = members[0].number if len(members) == 1 and members[0].pronoun else None
+    return number if number and number > 1 else 0
 
 
 def named(said: Said) -> str:
@@ -43,5 +54,5 @@ def _words(thing: Thing) -> str:
 
 
 def _is_any(things: Things) -> bool:
-    """Whether it is "one of them"."""
-    return [thing.words for thing in things.members] == ["one of them"]
+    """Whether it is "one of them", "anything but ..."."""
+    return [(t.pronoun or not t.words, t.number) for t in things.members] == [(True, 1)]

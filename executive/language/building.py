@@ -43,6 +43,7 @@ class Builder(Deeds):
             tasks,
             in_order,
             too=any(is_a(p, "TOO", "LATER") for p in parts),
+            first=is_a(parts[-1], "AT_FIRST"),
             agrees=any(is_a(p, "YES") for p in parts),
             later=any(is_a(p, "TOO") and p.endswith("later") for p in parts),
         )
@@ -54,12 +55,13 @@ class Builder(Deeds):
             Unfit: if it is not clear what "them" are.
         """
         tasks: list[Task] = []
-        further = False
+        further = in_order = False
         for part in parts:
+            in_order |= is_a(part, "AT_FIRST")
             if isinstance(part, Further):
                 if not tasks:
                     raise Unfit("and")
-                tasks += self.once_more(tasks[-1], part)
+                tasks += self.once_more(tasks[-1], part, alone=in_order)
                 further = True
             elif isinstance(part, Task):
                 if further and part.things and part.things.members[0].pronoun:
@@ -97,7 +99,15 @@ class Builder(Deeds):
         said = [p for p in parts if not isinstance(p, Token)]
         if len(said) == 1 and isinstance(said[0], Refusal):
             return said[0]
-        found: dict[str, Any] = {"denies": any(is_a(p, "NO", "NO_BUT") for p in parts)}
+        return self._corrects(said, denies=any(is_a(p, "NO", "NO_BUT") for p in parts))
+
+    def _corrects(self, said: list[Part], *, denies: bool = False) -> Correction:
+        """These things, or places, in place of those of before.
+
+        Raises:
+            Unfit: if there are more places than there is use for.
+        """
+        found: dict[str, Any] = {"denies": denies}
         new: dict[str, Any]
         for part in said:
             match part:
@@ -110,9 +120,9 @@ class Builder(Deeds):
                 case Request() | Things():
                     new = {"meant": part}
                 case _:
-                    raise Unfit(str(parts[0]))
+                    raise Unfit("")
             if new.keys() & found.keys():
-                raise Unfit(str(parts[0]))
+                raise Unfit("")
             found |= new
         return Correction(**found)
 
@@ -131,6 +141,10 @@ class Builder(Deeds):
         wrong = next(p for p in parts if isinstance(p, Thing))
         return Correction(parts[-1], Things((wrong,)), denies=True)
 
+    def not_there(self, parts: list[Part]) -> Correction:
+        """As in "not there, on the desk", "not to me, to the desk"."""
+        return self._corrects([parts[-1]], denies=True)
+
     def another_number(self, parts: list[Part]) -> Correction:
         """As in "no, five", of things of the same kind."""
         number = next(p for p in parts if is_a(p, "ONLY_NUMBER"))
@@ -146,6 +160,10 @@ class Builder(Deeds):
     def where_put(self, parts: list[Part]) -> Question:
         """As in "where did you put the mug"."""
         return Question(About.WHERE_PUT, things=parts[-1])
+
+    def where_found(self, parts: list[Part]) -> Question:
+        """As in "where did you get the mug from", "where was it"."""
+        return Question(About.WHERE_FOUND, things=next(p for p in parts if isinstance(p, Things)))
 
     def known(self, parts: list[Part]) -> Question:
         """As in "what do you know about the mug", "where do you keep the cups"."""
@@ -164,8 +182,10 @@ class Builder(Deeds):
         return Statement(things, place)
 
     def named(self, parts: list[Part]) -> Answer:
-        """As in "I think the apple"."""
-        return Answer(things=parts[-1])
+        """As in "I think the apple", "the second one"."""
+        things = parts[-1]
+        which = things.members[0].place_in_list if len(things.members) == 1 else None
+        return Answer(things=things) if which is None else Answer(place_in_list=which)
 
     def placed(self, parts: list[Part]) -> Answer | Correction:
         """As in "on the desk"; "to the desk" is not where it is."""
@@ -175,9 +195,10 @@ class Builder(Deeds):
         where = tuple(p if isinstance(p, Where) else p.place for p in places)
         return Answer(where=where, told=is_a(parts[0], "HEDGE"))
 
-    def ordinal(self, parts: list[Part]) -> Answer:
-        """As in "the second one"."""
-        return Answer(place_in_list=self.number_of(parts[-1]))
+    def the_one(self, parts: list[Part]) -> Correction:
+        """As in "the one on the desk": of the kind that was asked for, the one that is there."""
+        one = Things((Thing("one", definite=True, said="one"),))
+        return self._corrects([one, *(p for p in parts if not isinstance(p, Token))])
 
     def yes(self, parts: list[Part]) -> Answer:
         """As in "yes", "yes, the apple"."""

@@ -165,7 +165,8 @@ def _conditional(task: Task, words: str) -> Command:
 def _number(task: Task, members: Sequence[Thing]) -> int:
     """How many, if it was said; that it is one, only counts where a place may have several."""
     if len(members) > 1:
-        return len(members) if task.things and not task.things.one_of else 0
+        several = task.things and not task.things.one_of
+        return len(members) if several or not task.things else task.things.number % len(members)
     if not members or not task.verb.means.searches:
         return 0
     number = members[0].number or 0

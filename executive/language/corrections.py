@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from executive.language.anew import in_place_of
 from executive.language.commands import commands_in, in_words
 from executive.language.meaning import (
     ME,
@@ -14,7 +15,6 @@ from executive.language.meaning import (
     Things,
     Where,
 )
-from executive.language.spoken import in_place_of
 from executive.types import Command, CommandKind, Commands
 
 _CARRIED = (CommandKind.BRING, CommandKind.TAKE, CommandKind.PUT)

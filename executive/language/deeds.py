@@ -5,9 +5,11 @@ from dataclasses import replace
 
 from lark import Token
 
+from executive.language.folding import is_it
 from executive.language.meaning import ME, SO, Request, Task, Thing, Things, Where
 from executive.language.nouns import Nouns
 from executive.language.parts import (
+    Absent,
     From,
     Further,
     Left,
@@ -30,6 +32,8 @@ _ELSEWHERE = (
     CommandKind.CLEAR,
 )
 """Deeds that can be done at one place after the other."""
+ALL_THINGS = Thing("things", definite=True, said="things")
+"""What one who is to look around looks for."""
 MOST_INNER = 4
 """Places that say where another place is; nobody says more in one breath."""
 
@@ -85,14 +89,18 @@ class Deeds(Nouns):
         """As in "... and the pear on the desk", "..., then to the sofa"."""
         return Further(tuple(p for p in parts if not isinstance(p, Token)))
 
-    def once_more(self, task: Task, further: Further) -> tuple[Task, ...]:
+    def once_more(self, task: Task, further: Further, *, alone: bool) -> tuple[Task, ...]:
         """The same deed with other things, or at other places.
+
+        Other things `alone` are no more of those in the task: "the mug first, then the pear".
 
         Raises:
             Unfit: if the words do not say what is meant of the task before.
         """
         things = next((p for p in further.parts if isinstance(p, Things)), None)
         places = [p for p in further.parts if not isinstance(p, Things)]
+        if alone and task.things and things and not places:
+            return (replace(task, things=things),)
         if task.conditional or (not (things and places) and task.verb not in _ELSEWHERE):
             raise Unfit(task.said)
         if things and places and task.things is None:  # "go to the desk and dance there"
@@ -110,6 +118,16 @@ class Deeds(Nouns):
         """As in "put it down", "put the mug down on the desk"."""
         task = _task(CommandKind.PUT_DOWN, parts, goes=True)
         return replace(task, verb=CommandKind.PUT) if task.goal else task
+
+    def put_it(self, parts: list[Part]) -> Task:
+        """As in "place on the desk", in few words: what was spoken of."""
+        it = Things((Thing("it", pronoun=True, definite=True, said="it"),))
+        return self.put([parts[0], it, *parts[1:]])
+
+    def carried(self, parts: list[Part]) -> Task:
+        """As in "mug to the desk", in few words."""
+        thing, _, place = parts
+        return Task(CommandKind.PUT, Things((thing,)), goal=place, said="put")
 
     def put_back(self, parts: list[Part]) -> Task:
         """As in "put it back", "take the mug back to the kitchen"."""
@@ -151,6 +169,11 @@ class Deeds(Nouns):
         """As in "what is on the table"."""
         return _task(CommandKind.TELL, parts)
 
+    def look_around(self, parts: list[Part]) -> Task:
+        """As in "look around", "have a look around in the kitchen": where there is what."""
+        task = _task(CommandKind.TELL, parts)
+        return task if task.source else replace(task, things=Things((ALL_THINGS,)))
+
     def tell_most(self, parts: list[Part]) -> Task:
         """As in "which fruit is the smallest on the desk"."""
         *_, word = (p for p in parts if type(p) is str)
@@ -168,6 +191,20 @@ class Deeds(Nouns):
     def if_there(self, parts: list[Part]) -> Task:
         """As in "if there is one", "if the apple is on the table"."""
         return _task(CommandKind.CHECK, parts)
+
+    def if_absent(self, parts: list[Part]) -> Absent:
+        """As in "if the mug is not on the desk", "unless there is one"."""
+        return Absent(_task(CommandKind.CHECK, parts))
+
+    def unless(self, parts: list[Part]) -> Task:
+        """As in "if there is no apple, bring a pear", "bring the mug unless it is on the desk"."""
+        sought = next(p.task for p in parts if isinstance(p, Absent))
+        deed = _deed(next(p for p in parts if isinstance(p, Task | Left)))
+        if sought.things is None or is_it(sought.things):
+            sought = replace(sought, things=deed.things)
+        if (instead := _instead(deed, parts)) is None:
+            return replace(sought, conditional=True, unless=deed)
+        return replace(instead, conditional=True, sought=sought, unless=deed)
 
     def otherwise(self, parts: list[Part]) -> Otherwise:
         """As in "otherwise a pear", "otherwise come back"."""

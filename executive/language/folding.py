@@ -17,7 +17,7 @@ def folded(tasks: Sequence[Task]) -> tuple[Task, ...]:
         before = done[-1] if done else None
         if before and _is_on_the_way(before) and _places(task):
             done[-1] = replace(task, source=before.goal)
-        elif before and before.verb in _ALONE and not before.goal and _goes_on(task):
+        elif before and before.verb in _ALONE and not before.goal and _goes_on(task, done):
             goes_on = replace(before, verb=task.verb, goal=task.goal, said=task.said)
             done[-1] = goes_on.without(task.things.exceptions if task.things else ())
         else:
@@ -35,10 +35,17 @@ def _places(task: Task) -> bool:
     return task.verb in _ALONE and task.source is None and not is_it(task.things)
 
 
-def _goes_on(task: Task) -> bool:
-    """Whether it is about the thing of the task before."""
+def _goes_on(task: Task, done: Sequence[Task]) -> bool:
+    """Whether it is about the thing of the task before, and no more than that."""
     further = task.verb in (CommandKind.TAKE, CommandKind.BRING, CommandKind.PUT)
-    return further and is_it(task.things) and task.source is None and not task.conditional
+    of_all = len(done) > 1 and of_several(task.things)
+    return further and is_it(task.things) and not (of_all or task.source or task.conditional)
+
+
+def of_several(things: Things | None) -> bool:
+    """Whether it stands for all that was named before: "them"."""
+    members = things.members if things else ()
+    return any(thing.pronoun and thing.words in ("them", "those", "these") for thing in members)
 
 
 def is_it(things: Things | None) -> bool:
@@ -46,7 +53,7 @@ def is_it(things: Things | None) -> bool:
     if things is None or len(things.members) != 1:
         return False
     [thing] = things.members
-    return thing.pronoun and not thing.other and thing.number is None
+    return thing.pronoun and not thing.other and thing.number is thing.place_in_list is None
 
 
 def asks_for_things(task: Task) -> bool:

@@ -6,9 +6,10 @@ from itertools import chain
 
 from executive.language.commands import NOT_KNOWN_WHAT, agrees, commands_in, talk
 from executive.language.meaning import Answer, Choice, Request, Said, Task, Unable, Unread
+from executive.language.pronouns import resolved
 from executive.language.reader import AT_A_TIME, Reader, english
 from executive.language.slips import brought, without_slips
-from executive.language.spoken import NOTHING, Spoken, resolved
+from executive.language.spoken import NOTHING, Spoken
 from executive.types import Command, CommandKind, Commands
 
 
@@ -44,7 +45,7 @@ class EnglishInterpreter:
         It is empty, too, if they were not read: then somebody else may.
         """
         read = self._read(words, spoken, False)
-        return read if isinstance(read, str) else ""
+        return read if isinstance(read, str) and not self._reader.likely(words) else ""
 
     def _read(self, words: str, spoken: Spoken, holds: bool) -> Commands | str | None:
         """The tasks; or what to say; nothing to say if somebody else may read it."""
@@ -92,7 +93,11 @@ class EnglishInterpreter:
         return tuple(dict.fromkeys(w for w in (*counts, *conditions) if w not in named))
 
     def without_slips(self, words: str) -> Commands:
-        """The tasks that the words are with the word for the deed spelled right; none if none."""
+        """The tasks that the words probably are, as with the word for the deed spelled right."""
+        if (said := self._reader.likely(words)) and isinstance(
+            likely := commands_in(said, words), tuple
+        ):
+            return likely
         for likely in (*without_slips(self._reader, words), *brought(self._reader, words)):
             if commands := self.commands(likely):
                 return commands

@@ -24,6 +24,7 @@ class Relation(StrEnum):
     ABOVE = "above"
     LEFT_OF = "left_of"
     RIGHT_OF = "right_of"
+    BETWEEN = "between"
 
     @property
     def is_plain(self) -> bool:
@@ -62,6 +63,7 @@ class Thing:
         exceptions: what it is not to be: "anything but a banana".
         alone: of such an exception, whether it is not to be touched at all: "and leave the pear".
         definite: "the mug" is a certain one, "a mug" is any.
+        place_in_list: which of those that were spoken of: the first is 1, the last is -1.
         superlative: which of them by a measure: "biggest"; empty if that was not said.
         said: all of this as it was said, but for articles and exceptions: "two mugs".
     """
@@ -73,6 +75,7 @@ class Thing:
     other: bool = False
     exceptions: tuple["Thing", ...] = ()
     definite: bool = False
+    place_in_list: int | None = None
     superlative: str = ""
     alone: bool = False
     said: str = field(default="", compare=False)
@@ -80,10 +83,11 @@ class Thing:
 
 @dataclass(frozen=True, slots=True)
 class Things:
-    """Several things, of which all are meant, or one."""
+    """Several things, of which all are meant, or one, or as many as `number` says."""
 
     members: tuple[Thing, ...]
     one_of: bool = False
+    number: int = 1
 
     @property
     def exceptions(self) -> tuple[Thing, ...]:
@@ -146,6 +150,8 @@ class Request:
     """Whether the words say that this is the order: "first ..., then ..."."""
     too: bool = False
     """Whether it comes on top of what was asked for before: "..., too"."""
+    first: bool = False
+    """Whether it is to be done before what is under way: "bring it first"."""
     agrees: bool = False
     """Whether it begins with a yes: "okay, bring it"."""
     later: bool = False
@@ -211,6 +217,13 @@ class About(StrEnum):
     WHERE = "where"
     KNOWN = "known"
     """What is known of things, without looking: which there are, and where they usually are."""
+    WHERE_FOUND = "where_found"
+    DONE = "done"
+    """What came of what was asked for last."""
+    ASKED = "asked"
+    """What that was."""
+    REMEMBERED = "remembered"
+    """Where things are, as far as was seen and heard."""
     WHY = "why"
     SELF = "self"
 
@@ -266,10 +279,11 @@ class Courtesy(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Unread:
-    """What the grammar cannot read; `at` is the word where it gave up."""
+    """What the grammar cannot read; `at` is the word where it gave up, which `begins` there."""
 
     words: str
     at: str = ""
+    begins: int = field(default=-1, compare=False)
 
 
 Said = (

@@ -86,8 +86,20 @@ class Nouns(Transformer[Token, Said]):
         return Thing(str(parts[0]), pronoun=True, definite=True, said=said_of(parts))
 
     def every_pronoun(self, parts: list[Part]) -> Thing:
-        """As in "all of them"."""
-        return Thing(str(parts[-1]), number=ALL, pronoun=True, definite=True, said=said_of(parts))
+        """As in "all of them", "them both"."""
+        word = next(str(p) for p in parts if is_a(p, "PRONOUN"))
+        return Thing(word, number=ALL, pronoun=True, definite=True, said=said_of(parts))
+
+    def some_of_them(self, parts: list[Part]) -> Thing:
+        """As in "two of them", "any of those"."""
+        number = self.count_of(parts[0]) if is_a(parts[0], "NUMBER") else 1
+        return Thing(str(parts[-1]), number, pronoun=True, definite=True, said=said_of(parts))
+
+    def which_of_them(self, parts: list[Part]) -> Thing:
+        """As in "the second one"."""
+        said = said_of(parts)
+        number = self.number_of(parts[-1])
+        return Thing(said, pronoun=True, definite=True, place_in_list=number, said=said)
 
     def another(self, parts: list[Part]) -> Thing:
         """As in "another apple", "the other one"."""
@@ -160,6 +172,11 @@ class Nouns(Transformer[Token, Said]):
             elif isinstance(part, Where):
                 places.append(replace(part, relation=relation))
         return either_of(places)
+
+    def between(self, parts: list[Part]) -> Where:
+        """As in "between the sofa and the desk"."""
+        names = (part.words for part in parts if isinstance(part, Where))
+        return Where(" and ".join(names), Relation.BETWEEN)
 
     def source(self, parts: list[Part]) -> From:
         """As in "from the desk"."""

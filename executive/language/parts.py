@@ -44,6 +44,13 @@ class Otherwise:
 
 
 @dataclass(frozen=True, slots=True)
+class Absent:
+    """What must not be there, if something is to be done."""
+
+    task: Task
+
+
+@dataclass(frozen=True, slots=True)
 class Further:
     """Other things, or another place, of the deed that was said last."""
 

@@ -14,11 +14,13 @@ from lark.exceptions import VisitError
 
 from executive.cache import cache_folder
 from executive.language import others
+from executive.language.asides import beside_a_request
 from executive.language.building import Builder
 from executive.language.contrasts import in_its_place
 from executive.language.meaning import Refusal, Relation, Request, Said, Unable, Unread
 from executive.language.parts import Unfit
 from executive.language.phrases import plain_letters
+from executive.language.run_on import with_pauses
 from executive.language.second_thoughts import corrected_in_one_breath
 from executive.text import LONGEST, too_long
 
@@ -62,8 +64,12 @@ class Reader:
         self._manners = [re.compile(p) for p in words["manners"]]
         deed = f"(?:{_any_of(self.deeds)})"
         self._ways = [(re.compile(p.replace("%DEED", deed)), q) for p, q in words["ways"]]
+        joins, after = _any_of(words["no_new_deeds"]), _any_of(words["after_deeds"])
+        self._deed = re.compile(rf"\b((?!(?:{joins}) )[^\s,]+) (?={deed} (?:{after})\b)")
         self._mind = re.compile(rf"^(?:please )?(?:would|do) you mind ({_any_of(gerunds)})(?= )")
         self._times = re.compile(rf",? ?\b(?:{'|'.join(words['times'])})(?=[ ,]|$)")
+        self._asides = [re.compile(pattern) for pattern in words["asides"]]
+        self._pause = re.compile(words["pause"].replace("%DEED", deed))
         self._turn = re.compile(words["second_thoughts"])
         self._denials = re.compile(rf"\b(?:{_any_of(words['negations'] + words['denials'])})\b")
         self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
@@ -90,17 +96,42 @@ class Reader:
         if self._at_a_time(plain):
             return Unable(AT_A_TIME)
         if isinstance(said, Unread):
-            said = corrected_in_one_breath(plain, self._turn, self._read) or said
+            said = self._read_in_parts(plain) or said
         if isinstance(said, Refusal):
             return in_its_place(said, self._read)
         return replace(said, words=words) if isinstance(said, Unread) else said
+
+    def _read_in_parts(self, plain: str) -> Said | None:
+        """What is no sentence of the grammar, and may be several of them; None if it is not."""
+        if said := corrected_in_one_breath(plain, self._turn, self._read):
+            return said
+        if said := beside_a_request(plain, self._asides, self._pause, self._read_loosely):
+            return said
+        return with_pauses(plain, self._deed, self._read)
+
+    def _read_loosely(self, plain: str) -> Said:
+        """The same of one of several sentences."""
+        said = self._read(plain)
+        if not isinstance(said, Unread):
+            return said
+        corrected = corrected_in_one_breath(plain, self._turn, self._read)
+        return corrected or with_pauses(plain, self._deed, self._read) or said
+
+    def likely(self, words: str) -> Request | None:
+        """What words probably ask for that cannot be read for sure; None if they do not."""
+        plain = self.plain(words)
+        if not isinstance(self.read(words), Unread):
+            return None
+        corrected = corrected_in_one_breath(plain, self._turn, self._read, likely=True)
+        return corrected or with_pauses(plain, self._deed, self._read, likely=True)
 
     def _read(self, text: str) -> Said:
         """The same of words in plain form."""
         try:
             return self._builder.transform(self.parser.parse(text))
         except UnexpectedInput as error:
-            return Unread(text, re.split(r"[ ,]", text[max(error.pos_in_stream or 0, 0) :])[0])
+            at = max(error.pos_in_stream or 0, 0)
+            return Unread(text, re.split(r"[ ,]", text[at:])[0], at)
         except VisitError as error:
             if not isinstance(error.orig_exc, Unfit):
                 raise

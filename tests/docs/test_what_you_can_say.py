@@ -63,8 +63,10 @@ def test_answers_what_needs_no_mission(words: str, answer: str, tmp_path: Path) 
             session.run("Find the hammer")
         else:
             session.run("The mug is on the coffee table")
-        if "hold" in answer or "delivery" in answer:
-            session.run("Take the mug" if "hold" in answer else "Bring the mug")
+        if "hold" in answer:
+            session.run("Take the mug")
+        elif any(words in answer for words in ("delivery", "Bring", "Here is", "I took")):
+            session.run("Bring the mug")
         assert session.run(words).reason == answer
 
 

@@ -82,6 +82,43 @@ def test_what_there_is_no_other_of_is_said(talk: Talk) -> None:
     assert outcome.reason.startswith("I know no other mug")
 
 
+@pytest.mark.parametrize(
+    ("before", "words", "said"),
+    [
+        ("Find the mug and the pear", "Bring both of them", ["the mug", "the pear"]),
+        ("Find the mug and the pear", "Bring the second one", ["the pear"]),
+        ("Where are the fruits?", "Bring two of them", ["both"]),
+        ("What is on the coffee table?", "Bring them both to me", ["the mug", "the pudding box"]),
+        ("How many fruits are on the dining table?", "Bring me one of them", ["the apple"]),
+        ("How many fruits are on the dining table?", "Bring me one", ["the apple"]),
+    ],
+)
+def test_they_are_all_that_was_spoken_of(
+    talk: Talk, before: str, words: str, said: list[str]
+) -> None:
+    outcome = talk(before).run(words)
+    assert outcome.status == MissionStatus.DONE
+    assert [text for text in said if text in outcome.reason] == said
+
+
+def test_more_of_them_than_there_are_is_told(talk: Talk) -> None:
+    outcome = talk("Find the mug").run("Bring two of them")
+    assert outcome.reason == "I brought one of two: the mug; I know of no more."
+
+
+def test_it_looks_around_everywhere(talk: Talk) -> None:
+    outcome = talk().run("Have a look around")
+    assert (outcome.status, len(outcome.visited)) == (MissionStatus.DONE, 12)
+
+
+@pytest.mark.parametrize("words", ["Go", "Put the mug"])
+def test_nothing_is_between_furniture(talk: Talk, words: str) -> None:
+    session = talk(answers=("On the sofa",))
+    session.run(f"{words} between the sofa and the desk")
+    [asked] = [text for text in told(session) if text.endswith("?")]
+    assert "but not 'between the sofa and the desk'. Where shall I" in asked
+
+
 def test_a_thing_is_looked_for_where_the_person_said_it_is(talk: Talk) -> None:
     session = talk()
     assert session.run("The hammer is on the sofa").reason == (
@@ -115,6 +152,25 @@ def test_what_cannot_be_remembered_is_said(talk: Talk, words: str, answer: str) 
         ("Take the mug", "What do you hold?", "I hold the mug."),
         ("Find the mug", "What do you hold?", "My hand is empty."),
         ("Take the mug", "Where did you put it?", "I hold the mug."),
+        (
+            "Bring the mug",
+            "Where did you find it?",
+            "I took the mug from the coffee table in the living room.",
+        ),
+        ("Find the mug", "Where was it?", "As far as I know, the mug is on the coffee table."),
+        ("Find the mug", "Did you find it?", "The mug is on the coffee table in the living room."),
+        ("Find the mug", "What did I ask you to do?", "You said: 'Find the mug'."),
+        (
+            "Find the mug",
+            "What do you remember?",
+            "As far as I know, the mug is on the coffee table and the pudding box is on the coffee"
+            " table.",
+        ),
+        (
+            "Find the mug",
+            "How many rooms are there?",
+            "I know the kitchen, the living room, the bedroom and the lobby.",
+        ),
         (
             "Bring the mug",
             "Where did you put it?",

@@ -50,3 +50,20 @@ def test_what_is_said_last_counts(words: str, meant: list[tuple[str, ...]]) -> N
 )
 def test_a_no_that_may_mean_no_leads_to_no_deed(words: str) -> None:
     assert asked(words) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        (
+            "Bring the mug and the apple, no, the pear",
+            [("bring", "mug", ""), ("bring", "pear", "")],
+        ),
+        ("Bring the mug and the apple, sorry, only the apple", [("bring", "apple", "")]),
+        ("bring the apple the mug", [("bring", "apple", ""), ("bring", "mug", "")]),
+    ],
+)
+def test_what_is_probably_meant_is_asked(words: str, meant: list[tuple[str, ...]]) -> None:
+    assert (asked(words), read.remark(words)) == ([], "")
+    likely = (one for group in read.without_slips(words) for one in group)
+    assert [(one.kind.value, one.target, one.source or one.goal) for one in likely] == meant

@@ -6,7 +6,8 @@ from hypothesis import strategies as st
 
 from executive.language.grammar import EnglishInterpreter
 from executive.language.meaning import Request
-from executive.language.spoken import NOTHING, Spoken, after, resolved
+from executive.language.pronouns import resolved
+from executive.language.spoken import NOTHING, Spoken, after
 
 read = EnglishInterpreter()
 FRUIT = Spoken(("apple", "pear"), "fruit", "coffee_table")

@@ -1,0 +1,238 @@
+"""Names in place of the words that stand for what was spoken of: "it", "two of them", "there"."""
+
+from dataclasses import replace
+
+from executive.language.anew import asked_anew
+from executive.language.folding import asks_for_things, folded, is_it, of_several
+from executive.language.meaning import (
+    ALL,
+    ME,
+    SO,
+    Again,
+    Answer,
+    Correction,
+    Question,
+    Request,
+    Said,
+    Statement,
+    Task,
+    Thing,
+    Things,
+    Where,
+)
+from executive.language.spoken import QUESTIONS, Spoken, called
+from executive.types import CommandKind
+
+_OF_THE_HAND = (CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN)
+"""What is put somewhere is first of all what the hand holds."""
+_THERE = ("there", "over there")
+_ONE = "one"
+"""Of a kind that was spoken of."""
+_ANYWHERE = (CommandKind.COUNT, CommandKind.CHECK)
+"""Questions that need no place: "how many fruits are there"."""
+
+
+def resolved(said: Said, spoken: Spoken, *, holds: bool = False) -> Said:
+    """The same with names for words that stand for what was spoken of before.
+
+    Where nothing was, they stay as they are.
+
+    Args:
+        said: as it was read.
+        spoken: of what was spoken before.
+        holds: whether the hand holds something, which is the first "it" to be put somewhere.
+    """
+    match said:
+        case Again():
+            return spoken.request or said
+        case Request():
+            return replace(said, tasks=_tasks(said.tasks, spoken, holds))
+        case Statement():
+            where = _where(said.where, None, None, spoken)
+            assert where
+            return replace(said, things=_things(said.things, spoken), where=where)
+        case Question(things=Things() as things):
+            return replace(said, things=_things(things, spoken))
+        case Correction():
+            return asked_anew(with_names(said, spoken), spoken)
+        case Answer(where=(place,)) if spoken.things:  # "it is on the sofa", of what was not found
+            where = _where(place, None, None, spoken)
+            assert where
+            name = spoken.things[-1]
+            return Statement(Things((Thing(name, definite=True, said=name),)), where)
+    return said
+
+
+def with_names(said: Correction, spoken: Spoken) -> Correction:
+    """The same with names for words that stand for what was spoken of."""
+    match said.meant:
+        case Request() as request:
+            tasks = _tasks(request.tasks, spoken, holds=False)
+            return replace(said, meant=replace(request, tasks=tasks))
+        case Things() as things:
+            return replace(said, meant=_things(things, spoken))
+    return said
+
+
+def _tasks(
+    tasks: tuple[Task, ...], spoken: Spoken, holds: bool, things: Things | None = None
+) -> tuple[Task, ...]:
+    """With names for what was named before in the same breath, else for what was spoken of.
+
+    What a condition names is nearer than that: "if there is an apple, bring it". The `things` are
+    what was named before all of the tasks.
+    """
+    done: list[Task] = []
+    named: tuple[Thing, ...] = things.members if things else ()
+    place: Where | None = None
+    for task in folded([_after_question(task, spoken) for task in tasks]):
+        before = _named_in(task.sought) or (_all_of(task.things, named) or things)
+        meant = _meant_by(task, before, spoken, holds)
+        source, goal = (_where(where, things, place, spoken) for where in (task.source, task.goal))
+        if _is_there(source) and (task.verb in _ANYWHERE or asks_for_things(task)):
+            source = None  # "how many fruits are there"
+        sought = task.sought and _tasks((task.sought,), spoken, holds, meant)[0]
+        done.append(replace(task, things=meant, source=source, goal=goal, sought=sought))
+        things = meant if meant and not is_it(meant) else things
+        named += things.members if things and things is meant else ()
+        place = next((p for p in (goal, source) if p and not p.pronoun and p != ME), place)
+    return tuple(done)
+
+
+def _after_question(task: Task, spoken: Spoken) -> Task:
+    """The same with what was asked last as its condition: "is there a mug?", "if so, bring it"."""
+    asked = spoken.request.tasks[-1] if spoken.request else None
+    if task.sought != SO or asked is None or asked.verb != CommandKind.CHECK:
+        return task
+    if task.unless:
+        return replace(asked, conditional=True, unless=task.unless)
+    return replace(task, sought=asked)
+
+
+def _named_in(condition: Task | None) -> Things | None:
+    """The things that have to be there; None if they were named before."""
+    things = condition.things if condition else None
+    return None if is_it(things) else things
+
+
+def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) -> Things | None:
+    """The things of a task, if some were named `before` in the same breath, or none were."""
+    if task.things is None:
+        return None
+    members = before.members if before else tuple(map(_called, spoken.things))
+    seen = not before and spoken.request and spoken.request.tasks[-1].verb in QUESTIONS
+    if seen and (rest := _all_but(task.things, members)):
+        return rest
+    if before and (other := _the_other(task.things, before, spoken)):
+        return other
+    if picked := _picked(task.things, members):
+        return picked
+    if one := _one_of_kind(task.things, called(before) or spoken.called):
+        return Things(members, one_of=True) if seen and len(members) > 1 else one
+    if before:
+        named = is_it(task.things) and task.verb != CommandKind.PUT_DOWN
+        return before.without(task.things.exceptions) if named else task.things
+    in_hand = holds and task.verb in _OF_THE_HAND
+    return task.things if in_hand else _things(task.things, spoken)
+
+
+def _all_of(things: Things | None, named: tuple[Thing, ...]) -> Things | None:
+    """All that was named in the same breath, if the words stand for more than one thing of it."""
+    return Things(named) if named and of_several(things) else None
+
+
+def _picked(things: Things, members: tuple[Thing, ...]) -> Things | None:
+    """Those of several that "both of them", "two of them", "the first one" are; None if none."""
+    if len(things.members) != 1 or not things.members[0].pronoun or len(members) < 2:
+        return None
+    [thing] = things.members
+    number, which = thing.number or 0, thing.place_in_list
+    if thing.other:
+        return None
+    if which is not None:
+        at = which - (which > 0)
+        return Things((members[at],)) if -len(members) <= at < len(members) and which else None
+    if number == ALL or number == len(members) or (of_several(things) and not number):
+        return Things(members).without(thing.exceptions)
+    some = Things(members, one_of=True, number=number).without(thing.exceptions)
+    return some if 0 < number < len(members) else None
+
+
+def _all_but(things: Things, members: tuple[Thing, ...]) -> Things | None:
+    """As in "bring all but the apple", of what was just told; None if it is something else."""
+    if len(things.members) != 1 or len(members) < 2:
+        return None
+    [thing] = things.members
+    if thing.words or thing.number != ALL or not thing.said.startswith("all"):
+        return None
+    left_out = {but.words for but in thing.exceptions}
+    rest = tuple(one for one in members if one.words.replace("_", " ") not in left_out)
+    return Things(rest) if rest else None
+
+
+def _the_other(things: Things, before: Things, spoken: Spoken) -> Things | None:
+    """Of two that were spoken of, that which is not named before: "the mug, and the other one"."""
+    [thing, *others] = things.members
+    named = {one.words for one in before.members}
+    left = [name for name in spoken.things if name.replace("_", " ") not in named]
+    is_other = not others and thing.other and thing.pronoun
+    return Things((_called(left[0]),)) if is_other and len(left) == 1 < len(spoken.things) else None
+
+
+def _called(name: str) -> Thing:
+    return Thing(name, said=name)
+
+
+def _one_of_kind(things: Things, kind: str) -> Things | None:
+    """As in "is there a mug? If so, bring me one"; None if it is something else."""
+    if not kind or [thing.words for thing in things.members] != [_ONE]:
+        return None
+    thing = replace(things.members[0], words=kind, number=1, said=kind)
+    return replace(things, members=(thing,))
+
+
+def _things(things: Things, spoken: Spoken) -> Things:
+    members = tuple(one for thing in things.members for one in _meant(thing, spoken))
+    return replace(things, members=members)
+
+
+def _meant(thing: Thing, spoken: Spoken) -> tuple[Thing, ...]:
+    """The things that a word stands for."""
+    if thing.other:
+        return (_another(thing, spoken),)
+    if not thing.pronoun or not spoken.things:
+        return (thing,)
+    if (thing.number or 0) > 1 and (kind := spoken.called or spoken.things[-1]):
+        return (Thing(kind, thing.number, said=f"{thing.said.partition(' ')[0]} {kind}"),)
+    every = thing.number == ALL or of_several(Things((thing,)))
+    names = spoken.things if every else spoken.things[-1:]
+    return tuple(Thing(name, exceptions=thing.exceptions, said=name) for name in names)
+
+
+def _another(thing: Thing, spoken: Spoken) -> Thing:
+    """As in "another one": of the same kind, and not that of before."""
+    kind = spoken.called if thing.pronoun else thing.words
+    if not kind:
+        return thing
+    others = tuple(Thing(name, said=name) for name in spoken.things)
+    return Thing(kind, 1, exceptions=(*thing.exceptions, *others), said=kind)
+
+
+def _where(
+    where: Where | None, things: Things | None, place: Where | None, spoken: Spoken
+) -> Where | None:
+    """The place that "there" stands for; beside "it" is beside the thing."""
+    if where is None or not where.pronoun:
+        return where
+    if _is_there(where):
+        return place or (_named(where, spoken.place) if spoken.place else where)
+    named = [thing.words for thing in things.members if thing.words] if things else spoken.things
+    return _named(where, named[-1]) if named else where
+
+
+def _named(where: Where, words: str) -> Where:
+    return replace(where, words=words, pronoun=False)
+
+
+def _is_there(where: Where | None) -> bool:
+    return where is not None and where.pronoun and where.words in _THERE
