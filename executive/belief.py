@@ -7,8 +7,9 @@ something of every place takes all. What is left at the end is spread evenly.
 Pure functions of numbers: nothing of robots, trees or clocks.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Self
 
 ELSEWHERE = 0.05
 """How likely a thing is at no place that the robot may look at, as long as nobody said where."""
@@ -36,6 +37,12 @@ class Statement:
     weights: tuple[tuple[str, float], ...]
     trust: float
     orders: bool = True
+
+    def of(self, has: Callable[[str], bool]) -> Self:
+        """What it says of some places only; the rest of its word is left to other sources."""
+        weights = tuple((place, weight) for place, weight in self.weights if has(place))
+        part = _total(weights) / _total(self.weights) if _total(weights) > 0 else 0.0
+        return replace(self, weights=weights, trust=self.trust * part)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ lists of the paper had the right place in two thirds of the missions without def
 in nine tenths with them.
 """
 
-from dataclasses import replace
+from functools import partial
 from math import fsum
 
 from py_trees.behaviour import Behaviour
@@ -149,19 +149,22 @@ class HearMemory(Hear):
         super().__init__(name, context, Memory(context.facts))
 
     def update(self) -> Status:
-        """Hear what was learned; without that, what is remembered."""
+        """Hear what was learned; without that, what is remembered.
+
+        Of places that this home has not, or no more, nothing is said: that is left to others.
+        """
         name, experience = self.situation.request.object, self.context.experience
         assert name
         if experience is None:
             return super().update()
         heard = []
         for said in experience.recalled(name):
-            here = tuple((p, w) for p, w in said.weights if is_here(self.context, p))
-            if not here:
+            here = said.of(partial(is_here, self.context))
+            if not here.trust:
                 continue
-            self.situation.search.whereabouts.hear(replace(said, weights=here))
-            likeliest, _ = max(here, key=lambda pair: pair[1])
-            heard.append(f"{said.source} {said.trust:.2f}: {likeliest}")
+            self.situation.search.whereabouts.hear(here)
+            likeliest, _ = max(here.weights, key=lambda pair: pair[1])
+            heard.append(f"{here.source} {here.trust:.2f}: {likeliest}")
             if said.source == self.source and likeliest in self.knows.places_of(name):
                 self.heard((likeliest,))
         return self.succeed(", ".join(heard) or "knows no place")

@@ -219,7 +219,7 @@ def _row(
     parts = session.parts
     known = parts.knowledge.place_names.exactly
     invented = [n for n in observed.names if not (known(n).furniture or known(n).rooms)]
-    sure, sure_of_it = observed.believed(parts.home.placement.get(outcome.object or ""))
+    sure, sure_of_it, alike = observed.believed(parts.home.placement.get(outcome.object or ""))
     leg_m = routes.length if session.embodiment.jumps else dist
     return Row(
         **_of_key(key),
@@ -252,6 +252,7 @@ def _row(
         cost_s=round(observed.searching_s + question_s * outcome.inquiries, 3),
         sure=sure,
         sure_of_it=sure_of_it,
+        as_likely=alike,
         path_m=round(observed.path_m(leg_m), 3),
         shortest_m=round(shortest_m(outcome, parts.home, routes), 3),
         model=parts.model.name if parts.model else "",

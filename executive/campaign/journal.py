@@ -91,6 +91,8 @@ class Row:
     """Before the first look: how likely the likeliest place was thought to be; 0: no plan."""
     sure_of_it: float = 0.0
     """The same of the place where the thing truly was."""
+    as_likely: int = 1
+    """How many places were as likely as the likeliest; in earlier campaigns nobody counted."""
     path_m: float = 0.0
     """How far the robot drove."""
     shortest_m: float = 0.0

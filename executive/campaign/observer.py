@@ -80,16 +80,17 @@ class Observed:
             if isinstance(call, Replied) and call.request.label != "command"
         )
 
-    def believed(self, place: str | None) -> tuple[float, float]:
+    def believed(self, place: str | None) -> tuple[float, float, int]:
         """Before the first look: how likely the likeliest place was, and how likely this one.
 
-        Nothing, if nothing was planned.
+        And how many were as likely as the likeliest. Nothing and one, if nothing was planned.
         """
         told = self.planned
         if told is None or not told.places or place is None:
-            return 0.0, 0.0
+            return 0.0, 0.0, 1
         likely = dict(zip(told.places, told.probabilities, strict=True))
-        return max(likely.values()), likely.get(place, 0.0)
+        most = max(likely.values())
+        return most, likely.get(place, 0.0), list(likely.values()).count(most)
 
     def path_m(self, leg_m: Callable[[Point, Point], float]) -> float:
         """How far the robot drove (metres), with the length of each leg between two positions."""

@@ -83,3 +83,9 @@ def test_what_everybody_rules_out_is_nowhere():
 def test_a_place_that_only_a_source_names_is_a_place():
     memory = Statement("memory", in_order(["delivery"]), 0.9)
     assert believe([memory], HOME).places[0].place == "delivery"
+
+
+def test_what_a_source_says_of_places_that_do_not_count_is_left_to_others():
+    said = Statement("habits", (("desk", 1.0), ("attic", 3.0)), 0.8)
+    assert said.of(lambda place: place != "attic") == Statement("habits", (("desk", 1.0),), 0.2)
+    assert said.of(lambda place: place == "bed").trust == 0

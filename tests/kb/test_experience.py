@@ -8,7 +8,7 @@ import pytest
 from executive import Session, load_settings
 from executive.app.parts import Parts
 from executive.belief import Statement
-from executive.records import Recalled
+from executive.records import Planned, Recalled
 from executive.replay import replay
 from executive.testing.bench import run_mission
 from kb.__main__ import main
@@ -243,7 +243,7 @@ class Told:
 def test_the_search_goes_by_what_was_learned() -> None:
     said = Told(
         Statement("memory", (("sideboard", 1.0),), 0.1),
-        Statement("habits", (("coffee_table", 3.0), ("bed", 1.0), ("attic", 9.0)), 0.9),
+        Statement("habits", (("coffee_table", 3.0), ("bed", 1.0), ("attic", 1.0)), 0.9),
     )
     run = run_mission(
         "Find the mug", search="plan", llm=False, change=lambda p: replace(p, experience=said)
@@ -253,6 +253,19 @@ def test_the_search_goes_by_what_was_learned() -> None:
     [recalled] = run.notebook.all(Recalled)
     assert recalled.says == ("memory", "habits", "habits", "habits")
     assert "often there at this time" in str(run.notebook.records)
+
+
+def test_what_was_learned_of_a_place_that_is_gone_makes_no_other_place_likelier() -> None:
+    said = Told(Statement("habits", (("desk", 1.0), ("attic", 9.0)), 0.9))
+    run = run_mission(
+        "Find the mug",
+        search="plan",
+        llm=False,
+        defaults=False,
+        change=lambda p: replace(p, experience=said),
+    )
+    first, *_ = run.notebook.all(Planned)
+    assert first.says[first.places.index("desk")].startswith("habits 0.09")
 
 
 def test_a_mission_goes_on_without_what_cannot_be_recalled() -> None:

@@ -283,7 +283,7 @@ def trust(found: Sequence[Variant]) -> Table:
                         name(condition),
                         variant.name,
                         _mean(rows, lambda row: row.sure),
-                        _mean(rows, _is_right),
+                        _mean(rows, _right),
                         f"{was.error:.2f}",
                         f"{was.log_score:.2f}",
                         str(len(rows)),
@@ -293,14 +293,16 @@ def trust(found: Sequence[Variant]) -> Table:
     return Table(["condition", "variant", *heads, "n"], lines)
 
 
-def _is_right(row: Row) -> bool:
-    return row.sure_of_it >= row.sure
+def _right(row: Row) -> float:
+    """Whether the likeliest place was right; of several as likely, any may have come first."""
+    return (row.sure_of_it >= row.sure) / row.as_likely
 
 
 def _told(row: Row) -> tuple[dict[str, float], list[str]]:
-    """The likeliest place and the true one, which is right."""
-    if _is_right(row):
-        return {"it": row.sure}, ["it"]
+    """The likeliest places and the true one, which is right; of several as likely, each in part."""
+    if _right(row):
+        alike = [f"place {number}" for number in range(row.as_likely)]
+        return dict.fromkeys(alike, row.sure), alike
     return {"another": row.sure, "it": row.sure_of_it}, ["it"]
 
 

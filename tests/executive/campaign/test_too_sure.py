@@ -1,5 +1,6 @@
 """A fault put in by hand, a belief that is far too sure, shows in its calibration and the cost."""
 
+from dataclasses import replace
 from functools import cache
 from itertools import chain
 from math import log
@@ -11,7 +12,7 @@ from executive.campaign.report.report import report
 from executive.campaign.report.tables import trust
 from executive.campaign.report.variants import variants
 from executive.config import KnowledgeSystem
-from executive.testing.bench import four_rooms, run_mission
+from executive.testing.bench import Run, four_rooms, run_mission
 from logs.recorder import Stamp
 
 QUESTION_S = 60.0
@@ -28,6 +29,13 @@ def missions(policy: str) -> list[Row]:
     return list(chain.from_iterable(each))
 
 
+def observed(run: Run) -> Observed:
+    seen = Observed()
+    for record in run.notebook.records:
+        seen.write(Stamp(0.0, 0.0), record)
+    return seen
+
+
 def mission(policy: str, truth: str) -> Row:
     run = run_mission(
         "Find the mug",
@@ -37,10 +45,7 @@ def mission(policy: str, truth: str) -> Row:
         replies=[[log(LIKELY.get(place.name, 1e-6)) for place in four_rooms().places()]],
         change=policy_named(policy),
     )
-    observed = Observed()
-    for record in run.notebook.records:
-        observed.write(Stamp(0.0, 0.0), record)
-    sure, sure_of_it = observed.believed(truth)
+    sure, sure_of_it, as_likely = observed(run).believed(truth)
     cost = run.outcome.mission_time_s + QUESTION_S * run.outcome.inquiries
     return Row(
         policy,
@@ -55,6 +60,7 @@ def mission(policy: str, truth: str) -> Row:
         cost_s=cost,
         sure=sure,
         sure_of_it=sure_of_it,
+        as_likely=as_likely,
     )
 
 
@@ -89,4 +95,13 @@ def test_the_report_tells_it() -> None:
 
 
 def test_of_missions_without_a_plan_nothing_is_told() -> None:
-    assert Observed().believed("desk") == (0.0, 0.0)
+    assert Observed().believed("desk") == (0.0, 0.0, 1)
+
+
+def test_where_all_places_are_as_likely_none_of_them_is_always_right() -> None:
+    run = run_mission("Find the mug", search="plan", defaults=False, llm=False)
+    sure, sure_of_it, as_likely = observed(run).believed("desk")
+    row = replace(missions("plan")[0], sure=sure, sure_of_it=sure_of_it, as_likely=as_likely)
+    (line,) = trust(variants([row], ())).rows
+    home = len(four_rooms().places())
+    assert line[3:5] == [f"{1 / home:.2f}", "0.00"]
