@@ -50,7 +50,9 @@ def show(ontology: "Ontology", words: str) -> int:
 
 def check(ontology: "Ontology") -> int:
     """Print every fault, and what is not used; only a fault is one."""
-    faults, notes = list(ontology.faults()), [*ontology.unmet_imports(), *ontology.unused()]
+    faults = list(ontology.faults())  # they say, too, why a file adds nothing
+    missed = ontology.unmet_imports() if faults else ontology.warnings()
+    notes = [*missed, *ontology.unused()]
     for line in (*faults, *(f"note: {note}" for note in notes)):
         print(printable(line))
     counts = f"{len(ontology.objects())} objects, {len(faults)} faults"

@@ -4,6 +4,7 @@ from functools import cache
 
 from executive.language.control import Control, control
 from executive.language.grammar import EnglishInterpreter
+from executive.language.meaning import Request, Task, Thing, Things
 from executive.language.phrases import CLAUSE_ENDS, MOST_WORDS, NEGATION, place_words, spoken
 
 Fault = tuple[str, str]
@@ -19,7 +20,9 @@ def heard_as(name: str) -> str | None:
         return "tells the robot to stop" if said is Control.STOP else "ends the session"
     if _english().declines(words):
         return "says that somebody does not know"
-    return "says yes or no" if _says_yes_or_no(words) else None
+    if _says_yes_or_no(words):
+        return "says yes or no"
+    return "says what was spoken of before" if _is_pronoun(words) else None
 
 
 def place_fault(name: str) -> Fault | None:
@@ -45,6 +48,14 @@ def _says_yes_or_no(words: str) -> bool:
     begun = " ".join(before)
     agrees = _english().agrees
     return agrees(words) is not None and (not begun or agrees(begun) is None)
+
+
+def _is_pronoun(words: str) -> bool:
+    """As "it" and "that one" are."""
+    match _english().read(f"bring {words}"):
+        case Request(tasks=(Task(things=Things(members=(Thing(pronoun=True),))),)):
+            return True
+    return False
 
 
 @cache

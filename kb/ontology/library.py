@@ -65,7 +65,8 @@ class Library:
             yield f"{name} takes the place of {earlier}, which declares the same IRI: {right}"
         for file in self.files:
             declares = any(p == RDF.type and o != OWL.Ontology for _, p, o in file.triples)
-            if declares and known.isdisjoint(subject for subject, _, _ in file.triples):
+            used = not known.isdisjoint(subject for subject, _, _ in file.triples)
+            if not used and (declares or not file.triples):
                 yield (
                     f"{printable(file.path.name)} adds nothing that the robot uses: put its "
                     "classes below Object, Furniture, Room or Person of household.owl "

@@ -133,8 +133,8 @@ def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
             for name in graph.names(thing):
                 other = owners.setdefault(words_of(name), thing)
                 if other != thing:
-                    both = f"{ending(other)} and {ending(thing)}"
-                    yield f"{name!r} names both {both}: rename one"
+                    shown = printable if ending(other) == ending(thing) else ending
+                    yield f"{name!r} names both {shown(other)} and {shown(thing)}: rename one"
 
 
 def _homeless(graph: Graph, roots: dict[str, URIRef], is_in: Identifier) -> Iterator[str]:

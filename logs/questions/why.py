@@ -141,6 +141,7 @@ class _Chain:
             if goes_on:  # what is settled in this tick is so for the next task
                 yield from ended
                 self._reasons.clear()
+                self._thoughts.clear()
             anew = goes_on or before is None
             yield from _outermost(self._settled(at, states, None if anew else before))
             if not goes_on:

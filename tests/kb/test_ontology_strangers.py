@@ -93,6 +93,26 @@ def test_a_name_that_would_break_the_house_is_told_and_not_used(tmp_path, capsys
     assert re.match(r"Kettle: the name '.*' " + why, told)
 
 
+@pytest.mark.parametrize("pronoun", ["it", "That one"])
+def test_a_thing_that_is_called_as_what_was_spoken_of_before_is_told(tmp_path, capsys, pronoun):
+    [told] = checked(tmp_path, named(label(pronoun)), capsys)
+    assert told == f"Kettle is called '{pronoun}', which says what was spoken of before: rename it"
+
+
+@pytest.mark.parametrize("content", ["", "skos:Kettle a skos:Concept ."])
+def test_a_file_that_adds_nothing_is_noted_when_it_is_checked(tmp_path, capsys, content):
+    file = tmp_path / "guest.ttl"
+    file.write_text(f"@prefix skos: <http://www.w3.org/2004/02/skos/core#> . {content}")
+    assert main(["check", "--kb", str(file)]) == 0
+    assert f"note: {file.name} adds nothing that the robot uses" in capsys.readouterr().out
+
+
+def test_two_classes_whose_iris_end_alike_are_told_apart(tmp_path, capsys):
+    content = "<http://x.org/y#Mug> a owl:Class ; rdfs:subClassOf h:Kitchenware ."
+    main(["check", "--kb", str(turtle(tmp_path, content))])
+    assert f"'Mug' names both {HOUSE}Mug and http://x.org/y#Mug" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("taken", ["hand", "Floor", "the person", "delivery"])
 def test_a_thing_that_is_called_like_something_of_the_robots_is_told(tmp_path, capsys, taken):
     [told] = checked(tmp_path, named(label(taken)), capsys)

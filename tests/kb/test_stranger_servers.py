@@ -138,6 +138,18 @@ def test_an_answer_with_nothing_in_it_is_a_failure_that_is_told(
         assert talk.reason() == reason
 
 
+def test_a_reply_of_another_interface_is_told() -> None:
+    with talking(sends(b'{"content": [{"text": "the desk"}], "stop_reason": "end_turn"}')) as talk:
+        assert talk.reason() == (
+            "it does not answer as /chat/completions does: its reply has only content, stop_reason"
+        )
+
+
+def test_a_redirection_to_nowhere_is_a_refusal() -> None:
+    with talking(lambda handler, _: answer(handler, 302, {})) as talk:
+        assert "HTTP 302 Found" in talk.reason()
+
+
 def test_a_text_that_is_no_reply_is_told() -> None:
     with talking(sends(b"hello\nworld\n")) as talk:
         assert "is not JSON: hello" in talk.reason()

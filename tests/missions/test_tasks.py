@@ -102,6 +102,13 @@ def test_several_tasks_are_kept_replayed_and_explained_one_by_one(tmp_path: Path
     assert told[-2:] == ["task 2: find unicorn", "outcome"]
 
 
+def test_what_the_model_thought_of_one_task_is_no_reason_in_the_next(tmp_path: Path) -> None:
+    run = recorded(tmp_path, "Find the apple. Then come back.", search="plan", replies=[[1.0] * 12])
+    for decision in why(Recorded(run))[1:]:
+        if decision.question == "understand":
+            assert not [a for a in decision.alternatives if a.why_not.startswith("scored")]
+
+
 def test_what_one_part_denies_is_touched_in_none() -> None:
     run = run_mission("Bring the mug, but do not touch the pear", llm=False)
     assert [goal.detection.label for goal in run.goals if isinstance(goal, Pick)] == ["mug"]

@@ -258,9 +258,9 @@ def _lists_none(status: int) -> bool:
 
 async def _refused(response: httpx2.Response) -> Refused:
     """The refusal in a response."""
-    if response.is_redirect:
-        there = without_secrets(response.headers["Location"])
-        return Refused(response.status_code, f"it sends to {there}; give that address")
+    if response.is_redirect and (there := response.headers.get("Location")):
+        sends = f"it sends to {without_secrets(there)}; give that address"
+        return Refused(response.status_code, sends)
     return refusal(response.status_code, response.headers, await _read(response, MOST_BYTES))
 
 

@@ -17,6 +17,8 @@ from kb.llm.threads import Daemons
 
 BYTES_PER_TOKEN = 3
 """A careful estimate for English: such servers do not offer their tokenizer."""
+_SHOWN = 100
+"""Characters of what was not expected."""
 CLOSING_S = 1.0
 """A thread that takes longer to hang up is left to itself."""
 
@@ -195,4 +197,7 @@ def _no_answer(got: Written, *, thought: bool) -> str:
         return "it thought, and gave no answer"
     if got.finish_reason not in ("", "stop"):
         return f"its answer is empty ({got.finish_reason})"
+    if got.others and not got.is_reply:
+        keys = printable(", ".join(got.others))[:_SHOWN]
+        return f"it does not answer as /chat/completions does: its reply has only {keys}"
     return "its answer is empty"

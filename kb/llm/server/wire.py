@@ -15,6 +15,8 @@ from kb.llm.server.packed import NotUnpacked
 MOST_TOKENS = 10**9
 """Of what a server may say that it counted."""
 _WORDS = ("content", "text", "response", "refusal")
+_REPLIES = frozenset(("choices", "message", "response"))
+"""An object with one of these is a reply, or a part of one."""
 _THOUGHTS = ("reasoning_content", "reasoning", "thinking")
 _TOOLS = ("tool_calls", "function_call")
 _FIELDS = ("data", "event", "id", "retry", "")
@@ -39,6 +41,10 @@ class Written:
     """Whether the model thought in a field of its own."""
     called: bool = False
     """Whether it called a tool, of which it has none."""
+    is_reply: bool = False
+    """Whether anything came that is a reply, or a part of one."""
+    others: tuple[str, ...] = ()
+    """Keys of the first object that is none."""
     finish_reason: str = ""
     first_token_s: float = 0.0
     chunks: int = 0
@@ -60,6 +66,9 @@ class Written:
         """
         if refused := refusal_in(chunk):
             raise refused
+        self.is_reply = self.is_reply or not _REPLIES.isdisjoint(chunk)
+        if not (self.is_reply or self.others):
+            self.others = tuple(chunk)
         for choice in _choices(chunk):
             said = next((choice[k] for k in ("delta", "message") if choice.get(k)), choice)
             if isinstance(said, dict):
