@@ -10,28 +10,37 @@ const image = figure.querySelector("img");
 const frames = figure.querySelector("svg");
 const caption = figure.querySelector("figcaption");
 const LETTER = 0.62; // how wide a letter is, of its height
-let shown = -1;
+let shown = null;
 
+/** The picture comes a moment later than what is told of it: then both are shown. */
 export function showCamera(picture) {
+  const comes = picture && picture.number !== shown?.number;
+  shown = picture;
   box.hidden = !picture;
-  if (!picture) {
-    caption.textContent = text("no_picture");
-    return;
-  }
-  if (picture.number !== shown) {
-    shown = picture.number;
-    image.src = address(`/camera/${picture.number}.jpg`);
-    image.width = picture.width;
-    image.height = picture.height;
-  }
-  frames.setAttribute("viewBox", `0 0 ${picture.width} ${picture.height}`);
-  const seen = picture.seen ?? [];
-  frames.replaceChildren(...seen.flatMap((one) => framed(one, picture)));
+  if (!picture) caption.textContent = text("no_picture");
+  else if (comes) {
+    const { number, width, height } = picture;
+    Object.assign(image, { src: address(`/camera/${number}.jpg`), width, height });
+  } else if (image.complete) tell();
+}
+
+image.addEventListener("load", tell);
+image.addEventListener("error", tell);
+
+function tell() {
+  if (!shown) return;
+  frames.setAttribute("viewBox", `0 0 ${shown.width} ${shown.height}`);
+  frames.replaceChildren(...(shown.seen ?? []).flatMap((one) => framed(one, shown)));
+  const told = captionOf(shown.seen);
+  if (caption.textContent !== told) caption.textContent = told;
+  image.alt ||= text("camera_picture");
+}
+
+function captionOf(seen) {
+  if (!seen) return text("not_examined");
   const things = seen.map(({ label, confidence }) =>
     text("seen", { thing: spoken(label), percent: Math.round(confidence * 100) })).join("; ");
-  const nothing = picture.seen ? "nothing_recognised" : "not_examined";
-  caption.textContent = things ? text("recognised", { things }) : text(nothing);
-  image.alt = text("camera_picture");
+  return things ? text("recognised", { things }) : text("nothing_recognised");
 }
 
 function framed({ label, box: [left, top, width, height] }, whole) {
