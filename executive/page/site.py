@@ -132,9 +132,9 @@ class _Answers:
     async def say(self, request: Request) -> Response:
         sent = await sent_json(request)
         words, question = sent.get("words"), sent.get("question")
-        if not isinstance(words, str):
+        if not isinstance(words, str) or not isinstance(question, int | None):
             return PlainTextResponse("This is too long, or no text.", 413)
-        if not isinstance(question, int):
+        if question is None:
             self._behind.says(words)
         elif not self._behind.answers(words, question):
             return PlainTextResponse("This question is over.", 409)
