@@ -30,7 +30,7 @@ image.addEventListener("error", tell);
 function tell() {
   if (!shown) return;
   frames.setAttribute("viewBox", `0 0 ${shown.width} ${shown.height}`);
-  frames.replaceChildren(...(shown.seen ?? []).flatMap((one) => framed(one, shown)));
+  frames.replaceChildren(...framed(shown.seen ?? [], shown));
   const told = captionOf(shown.seen);
   if (caption.textContent !== told) caption.textContent = told;
   image.alt ||= text("camera_picture");
@@ -43,15 +43,27 @@ function captionOf(seen) {
   return things ? text("recognised", { things }) : text("nothing_recognised");
 }
 
-function framed({ label, box: [left, top, width, height] }, whole) {
+/** A frame around each, and all names over all frames. */
+function framed(seen, whole) {
+  const rectangles = seen.flatMap(({ box: [x, y, width, height] }) =>
+    ["under-line", null].map((kind) => drawn("rect", { class: kind, x, y, width, height })));
+  return [...rectangles, ...named(seen, whole)];
+}
+
+/** Each name above its frame or below, where no other name stands if there is such a place. */
+function named(seen, whole) {
   const size = whole.height / 18;
-  const cut = left + label.length * size * LETTER > whole.width; // then it ends where the box does
-  const rectangle = { x: left, y: top, width, height };
-  const above = top > size * 1.3 ? top - size * 0.3 : top + height + size;
-  return [
-    drawn("rect", { class: "under-line", ...rectangle }),
-    drawn("rect", rectangle),
-    drawn("text", { x: cut ? left + width : left, y: above, "font-size": size,
-      "text-anchor": cut ? "end" : "start" }, spoken(label)),
-  ];
+  const taken = [];
+  return seen.map(({ label, box: [left, top, , height] }) => {
+    const long = label.length * size * LETTER;
+    const x = Math.max(0, Math.min(left, whole.width - long));
+    const spots = [-0.3, -1.5].map((up) => top + up * size)
+      .concat([1, 2.2].map((down) => top + height + down * size))
+      .filter((y) => y > size && y < whole.height);
+    const isFree = (y) => !taken.some((other) =>
+      Math.abs(y - other.y) < size * 1.1 && x < other.x + other.long && other.x < x + long);
+    const y = spots.find(isFree) ?? spots[0] ?? top + size;
+    taken.push({ x, y, long });
+    return drawn("text", { x, y, "font-size": size }, spoken(label));
+  });
 }
