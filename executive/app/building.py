@@ -8,14 +8,15 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from functools import lru_cache
 from io import StringIO
+from pathlib import Path
 from typing import TextIO
 
 from executive.app.embodiment import Embodiment, Setup
 from executive.app.living import LivingHome
 from executive.app.parts import Parts, build_advice, parameters_of
-from executive.app.worlds import embody
+from executive.app.worlds import embody, try_world
 from executive.config import Settings
-from executive.errors import InputError
+from executive.errors import InputError, ModelError
 from executive.events import Inbox
 from executive.guards import GuardedModel, in_words
 from executive.interfaces import (
@@ -31,6 +32,7 @@ from executive.types import ChatRequest, Place, RankRequest, Thing
 from executive.user import Console, Nobody, Oracle
 from kb.advice.prompts import Prompts
 from kb.facts import FactStore
+from kb.llm.gguf_header import check_file
 from kb.llm.open import model_for_missions
 from kb.ontology.ontology import Ontology
 from kb.ontology.owl import OwlFile, read
@@ -115,6 +117,21 @@ def try_files(settings: Settings) -> None:
         from executive.ros.profile import load_profile  # most missions do without
 
         load_profile(settings.profile)
+    if not settings.robot:
+        try_world(settings.world)
+    if settings.detector.endswith(".onnx"):
+        from executive.perception.onnx_file import read_onnx  # most missions do without
+
+        read_onnx(Path(settings.detector))
+    if settings.llm.endswith(".gguf"):
+        _try_model(Path(settings.llm))
+
+
+def _try_model(file: Path) -> None:
+    try:
+        check_file(file)
+    except ModelError as error:
+        raise InputError("setting 'llm'", str(error)) from None
 
 
 def learning(

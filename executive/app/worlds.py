@@ -34,6 +34,16 @@ def embody(setup: Setup) -> Embodiment:
     return embodiment
 
 
+def try_world(name: str) -> None:
+    """See that there is such a world; it is not opened.
+
+    Raises:
+        InputError: if it is one of somebody's own that cannot be imported.
+    """
+    if name not in OURS:
+        Named("--world", name, RIGHT).imported()
+
+
 def _own(name: str, setup: Setup) -> Embodiment:
     named = Named("--world", name, RIGHT)
     return named.called(named.imported(), setup, Embodiment)

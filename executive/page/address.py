@@ -3,6 +3,7 @@
 import argparse
 import ipaddress
 import logging
+import socket
 import ssl
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,10 @@ from executive.errors import InputError
 PORT = 8080
 LOCAL = "127.0.0.1"
 UNENCRYPTED = "the page is open to the network, unencrypted: give --page-cert and --page-key"
+
+EXAMPLES = {"0.0.0.0": "192.0.2.1", "::": "2001:db8::1"}
+"""Of all addresses of this machine, in each numbering, one elsewhere that is nobody's (RFC 5737,
+RFC 3849)."""
 
 log = logging.getLogger(__name__)
 
@@ -49,8 +54,9 @@ class Address:
         return "https" if self.certificate else "http"
 
     def url(self, port: int, token: str, path: str = "/") -> str:
-        """What to open in a browser."""
-        host = f"[{self.host}]" if ":" in self.host else self.host
+        """What to open in a browser; of all addresses, one that other devices reach."""
+        named = _outward(self.host)
+        host = f"[{named}]" if ":" in named else named
         return f"{self.scheme}://{host}:{port}{path}?token={token}"
 
     def checked(self) -> None:
@@ -122,3 +128,16 @@ def _port(text: str) -> int:
     if text.isascii() and text.isdecimal() and int(text) < 2**16:
         return int(text)
     raise argparse.ArgumentTypeError(f"{text!r} is no port: words go before --page")
+
+
+def _outward(host: str) -> str:
+    """The address itself, or for all of them that by which this machine speaks to others."""
+    if host not in EXAMPLES:
+        return host
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    try:
+        with socket.socket(family, socket.SOCK_DGRAM) as asking:
+            asking.connect((EXAMPLES[host], 9))  # finds the way; nothing is sent
+            return str(asking.getsockname()[0])
+    except OSError:  # it is in no network
+        return host

@@ -10,6 +10,7 @@ import secrets
 import threading
 from collections import deque
 from collections.abc import Callable
+from itertools import takewhile
 from typing import Any, NamedTuple
 
 MOST_SAID = 500
@@ -33,6 +34,8 @@ class Board:
         """Tells this board from those of earlier processes, whose numbers mean nothing here."""
         self._lock = threading.Lock()
         self._last = 0
+        self._told = 0
+        """The last change that was there when the pages were told."""
         self._notices: dict[str, Change] = {}
         self._said: deque[Change] = deque(maxlen=MOST_SAID)
         self._waiting: set[Callable[[], None]] = set()
@@ -68,24 +71,32 @@ class Board:
 
     def since(self, number: int) -> list[Change]:
         """What has changed after this number (0: everything), in the order in which it did."""
+
+        def is_new(change: Change) -> bool:
+            return change.number > number
+
         with self._lock:
-            changes = (*self._notices.values(), *self._said)
-            return sorted(change for change in changes if change.number > number)
+            notices = filter(is_new, self._notices.values())
+            return sorted((*notices, *takewhile(is_new, reversed(self._said))))
 
     def flush(self) -> None:
-        """Tell those who wait that there may be something new."""
+        """Tell those who wait, if there is something new."""
         with self._lock:
-            waiting = tuple(self._waiting)
+            news, self._told = self._last > self._told, self._last
+            waiting = tuple(self._waiting) if news else ()
         for wake in waiting:
             wake()
 
     def end(self) -> None:
         """Nothing comes any more."""
         self.over = True
-        self.flush()
+        with self._lock:
+            waiting = tuple(self._waiting)
+        for wake in waiting:
+            wake()
 
     def wait_with(self, wake: Callable[[], None]) -> None:
-        """Have this called, from any thread, when there may be something new."""
+        """Have this called, from any thread, when there is something new."""
         with self._lock:
             self._waiting.add(wake)
 

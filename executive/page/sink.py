@@ -4,6 +4,7 @@ import math
 import threading
 import time
 from collections import OrderedDict
+from functools import lru_cache
 from typing import Any
 
 from executive.events import Ended, Started
@@ -27,8 +28,9 @@ from logs.images import jpeg
 from logs.recorder import Stamp
 
 KEPT_FRAMES = 2
-"""A page may still ask for the picture before the latest."""
-PICTURE_S = 0.5
+"""Of what was seen just now it is told a moment later what was recognised; and a page may still ask
+for the picture before the latest that was shown."""
+PICTURE_S = 1.0
 """So often are pictures shown that were taken on the way; a simulation may be faster."""
 BASE = "base_link"
 
@@ -47,6 +49,9 @@ class PageSink:
         self._pictured_s = -PICTURE_S
         """When a picture was shown last that was taken on the way (s)."""
         self._frames: OrderedDict[int, Frame] = OrderedDict()
+        self._shown: OrderedDict[int, Frame] = OrderedDict()
+        """Pictures that pages were told of: whoever opens one later asks for the last of them."""
+        self._jpeg = lru_cache(KEPT_FRAMES)(jpeg)
         self._pose: Pose | None = None
         self._places = Places()
         board.put("doing", {"state": "starting"})
@@ -87,10 +92,13 @@ class PageSink:
         self.flush()
 
     def picture(self, number: int) -> bytes | None:
-        """One of the latest pictures, as JPEG; None if it is gone. For any thread."""
+        """One of the pictures shown last, as JPEG; None if it is gone. For any thread.
+
+        It is made for the first page that asks, and for none if none does.
+        """
         with self._lock:
-            frame = self._frames.get(number)
-        return jpeg(frame) if frame is not None else None
+            frame = self._shown.get(number)
+            return self._jpeg(frame) if frame is not None else None
 
     def _take(self, event: object) -> None:
         if isinstance(event, Started):
@@ -113,17 +121,13 @@ class PageSink:
                 self._board.put("path", [])
 
     def _keep(self, frame: Frame) -> None:
-        with self._lock:
-            self._frames[frame.number] = frame
-            while len(self._frames) > KEPT_FRAMES:
-                self._frames.popitem(last=False)
+        _add(self._frames, frame)
         if (now := time.monotonic()) - self._pictured_s >= PICTURE_S:
             self._pictured_s = now
             self._show_picture(frame, None)
 
     def _show_seen(self, seen: Seen) -> None:
-        with self._lock:
-            frame = self._frames.get(seen.frame_number)
+        frame = self._frames.get(seen.frame_number)
         if frame is not None:
             boxes = [
                 {
@@ -136,6 +140,8 @@ class PageSink:
             self._show_picture(frame, boxes)
 
     def _show_picture(self, frame: Frame, boxes: list[dict[str, Any]] | None) -> None:
+        with self._lock:
+            _add(self._shown, frame)
         height, width, _ = frame.color.shape
         shown = {"number": frame.number, "width": width, "height": height, "seen": boxes}
         self._board.put("camera", shown)
@@ -154,6 +160,14 @@ class PageSink:
                 "visited": outcome.visited,
             },
         )
+
+
+def _add(kept: OrderedDict[int, Frame], frame: Frame) -> None:
+    """Keep it as the latest, and only so many."""
+    kept[frame.number] = frame
+    kept.move_to_end(frame.number)
+    while len(kept) > KEPT_FRAMES:
+        kept.popitem(last=False)
 
 
 def _rounded(*numbers: float) -> list[float]:

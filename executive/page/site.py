@@ -132,9 +132,9 @@ class _Answers:
     async def say(self, request: Request) -> Response:
         sent = await sent_json(request)
         words, question = sent.get("words"), sent.get("question")
-        if not isinstance(words, str):
+        if not isinstance(words, str) or not isinstance(question, int | None):
             return PlainTextResponse("This is too long, or no text.", 413)
-        if not isinstance(question, int):
+        if question is None:
             self._behind.says(words)
         elif not self._behind.answers(words, question):
             return PlainTextResponse("This question is over.", 409)
@@ -255,15 +255,17 @@ async def news(board: Board, known: int) -> AsyncIterator[str]:
         caught_up = False
         while True:
             changed.clear()
-            over = board.over
+            over, told = board.over, ""
             for number, name, text in board.since(known):
                 known, caught_up = number, caught_up and name != "fresh"
-                yield f"id: {board.name}-{number}\nevent: {name}\ndata: {text}\n\n"
+                told += f"id: {board.name}-{number}\nevent: {name}\ndata: {text}\n\n"
+            if not caught_up and not over:
+                caught_up = True
+                told += "event: caught_up\ndata: {}\n\n"
+            if told:
+                yield told  # in one piece, so that the browser wakes and draws once
             if over:
                 return
-            if not caught_up:
-                caught_up = True
-                yield "event: caught_up\ndata: {}\n\n"
             try:
                 async with asyncio.timeout(HEARTBEAT_S):
                     await changed.wait()

@@ -171,5 +171,5 @@ function row({ place, state, chance, sources, why, turn }, chances) {
       element("small", {}, [textOr(`states.${state}`, state), why].filter(Boolean).join(": "))),
     chances ? element("td", {}, chance === null ? "" : element("meter", {
       value: chance, max: 1, "aria-label": likely }), ` ${likely}`) : null,
-    element("td", {}, ...said(sources).map((one) => element("span", { class: "source" }, one))));
+    element("td", {}, ...said(sources).flatMap((one) => [element("span", { class: "source" }, one), " "])));
 }

@@ -3,7 +3,7 @@
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from executive.errors import InputError
 from executive.page.address import PORT, add_page, address_of
@@ -15,9 +15,6 @@ from executive.page.study.tables import renew_tables
 from executive.page.study.withdrawal import withdraw
 from executive.shell import DONE, NOT_DONE, all_is_kept, on_stop_signals, stops_in_order
 from executive.text import counted, printable
-
-if TYPE_CHECKING:
-    pass
 
 STOPPING = "Stopping. The same command goes on from here."
 

@@ -162,10 +162,20 @@ def _wrong(file: Path, fault: ErrorDetails) -> InputError:
         case "missing":
             return InputError(str(file), f"{key} is missing", RIGHT)
         case "string_pattern_mismatch":
-            what = f"{key} is {str(fault['input'])[:80]!r}"
+            what = f"{key} is {_shown(fault['input'])}"
             return InputError(str(file), what, "use up to 40 letters, digits, - and _")
+        case "string_type":
+            what = f"{key} is {_shown(fault['input'])}"
+            return InputError(str(file), what, "should be text, in quotes")
         case "value_error":
             return InputError(str(file), f"{key} {said}".strip(), RIGHT)
         case _:
-            what = f"{key} is {str(fault['input'])[:80]!r}"
+            what = f"{key} is {_shown(fault['input'])}"
             return InputError(str(file), what, said[:1].lower() + said[1:])
+
+
+def _shown(value: Any) -> str:
+    """A value as the file has it, or about so."""
+    if isinstance(value, str):
+        return repr(value[:80])
+    return (str(value).lower() if isinstance(value, bool) else str(value))[:80]

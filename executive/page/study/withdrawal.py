@@ -88,7 +88,7 @@ def _files(folder: Path) -> Iterator[Path]:
 
 def _traces(folder: Path, code: str) -> _Traces:
     return _Traces(
-        re.compile(rb"(?<![A-Za-z0-9])" + code.encode() + rb"(?![A-Za-z0-9])"),
+        re.compile(rb"(?<![A-Za-z0-9])" + code.encode() + rb"(?![A-Za-z0-9])", re.IGNORECASE),
         f"/{code}/".encode(),
         frozenset(_sha256(path) for path in _files(folder) if path.stat().st_size),
     )
@@ -114,7 +114,12 @@ def _has(file: Path, folder: Path, traces: _Traces) -> bool:
             text = before + part
             if traces.place in text:
                 return True
-            if file.suffix not in RECORDINGS and traces.word.search(text):
+            if file.suffix not in RECORDINGS and _is_in(text, traces):
                 return True
-            before = text[-len(traces.place) :]
+            before = text[-2 * len(traces.place) :]
     return False
+
+
+def _is_in(text: bytes, traces: _Traces) -> bool:
+    """Whether their number is in it; in UTF-16, as some editors save, each letter has a zero."""
+    return any(traces.word.search(one) for one in (text, text.replace(b"\0", b"")))

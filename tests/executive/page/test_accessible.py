@@ -85,6 +85,18 @@ def test_on_the_smallest_screen_with_large_letters_nothing_is_cut_off(
             expect(tab.locator("#stop")).to_be_in_viewport(ratio=0.9)
 
 
+@pytest.mark.parametrize("size", [(320, 568), (640, 360)], ids=["small", "on its side"])
+def test_on_a_small_phone_the_question_and_answers_to_it_are_seen_at_once(
+    browser: Browser, found: Robot, size: tuple[int, int]
+) -> None:
+    with asked(browser, found):
+        pass
+    with opened(browser, found.page, viewport={"width": size[0], "height": size[1]}) as tab:
+        expect(tab.locator("#said > li p").last).to_be_in_viewport()
+        expect(tab.locator("#answers .answer").first).to_be_in_viewport(ratio=0.9)
+        expect(tab.locator("#words")).to_be_in_viewport(ratio=0.9)
+
+
 def test_what_is_pressed_is_large_enough_for_a_finger(browser: Browser, found: Robot) -> None:
     with asked(browser, found, viewport=PHONE) as tab:
         for button in tab.locator("button:visible").all():

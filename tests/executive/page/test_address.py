@@ -5,11 +5,12 @@ import logging
 import socket
 from contextlib import closing
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 
 from executive.errors import InputError
-from executive.page.address import Address, add_page, address_of
+from executive.page.address import EXAMPLES, Address, add_page, address_of
 from executive.page.serving import Server
 
 
@@ -62,6 +63,17 @@ def test_other_devices_without_encryption_are_warned_of(caplog: pytest.LogCaptur
     assert [record.message for record in caplog.records] == [
         "the page is open to the network, unencrypted: give --page-cert and --page-key"
     ]
+
+
+def test_what_is_opened_is_an_address_of_this_machine_that_a_phone_can_open() -> None:
+    host = urlsplit(Address(8080, "0.0.0.0").url(8080, "x")).hostname
+    with socket.socket() as ours:
+        ours.bind((host, 0))
+        name, _ = ours.getsockname()
+    with socket.socket(type=socket.SOCK_DGRAM) as way:
+        if way.connect_ex((EXAMPLES["0.0.0.0"], 9)):
+            return  # in no network there is none
+        assert way.getsockname()[0] == name != "0.0.0.0"
 
 
 def test_a_certificate_that_is_none_is_told(tmp_path: Path) -> None:

@@ -63,3 +63,15 @@ def test_who_waits_is_woken_by_what_is_said_until_they_go() -> None:
     board.wait_no_more(wake)
     board.say({"text": "Hello?"})
     assert woken == [1]
+
+
+def test_who_waits_is_not_woken_when_there_is_nothing_new_and_is_when_it_is_over() -> None:
+    board, woken = Board(), list[int]()
+    board.put("robot", 1)
+    board.wait_with(lambda: woken.append(1))
+    board.flush()
+    board.put("robot", 1)
+    board.flush()
+    assert woken == [1]
+    board.end()
+    assert woken == [1, 1]

@@ -2,11 +2,12 @@
 
 import random
 import re
+from itertools import combinations
 from pathlib import Path
 
 import pytest
 from browsing import PHONE, answer, opened, said, say, wait_until_ready
-from paging import TOKEN, Robot, heard, robot
+from paging import TOKEN, Robot, heard, page_alone, robot
 from playwright.sync_api import Browser, Route, expect
 
 from executive.events import Inbox
@@ -313,6 +314,21 @@ HOSTILE = (
     "javascript:alert(3) \u202e \x07 \x00",
     'Bring the <b>mug</b> & "it\'s"',
 )
+
+
+def test_names_of_things_side_by_side_in_the_picture_can_all_be_read(browser: Browser) -> None:
+    things = [("strawberry", 40), ("apple", 10), ("potted_meat_can", 70), ("x" * 40, 50)]
+    seen = [{"label": name, "confidence": 1, "box": [x, 200, 20, 20]} for name, x in things]
+    with page_alone() as page, opened(browser, page) as tab:
+        page.board.put("camera", {"number": 1, "width": 320, "height": 240, "seen": seen})
+        page.board.flush()
+        names = tab.locator(".picture text")
+        expect(names).to_have_text([name.replace("_", " ") for name, _ in things])
+        boxes = names.evaluate_all(
+            "all => all.map((one) => one.getBBox()).map((b) => [b.x, b.y, b.width, b.height])"
+        )
+    for (x, y, width, height), (u, v, _, other) in combinations(sorted(boxes), 2):
+        assert u > x + width or v > y + 0.9 * height or y > v + 0.9 * other
 
 
 def test_hostile_words_are_words(browser: Browser, talking: Robot) -> None:

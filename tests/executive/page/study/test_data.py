@@ -158,16 +158,22 @@ def test_of_one_who_withdraws_nothing_is_found_and_the_others_are_whole(data: St
 
 @pytest.mark.parametrize(
     ("name", "content"),
-    [("notes.txt", "P01 was tired"), ("P01.txt", ""), ("P02/runs/x.mcap", "runs/P01/runs")],
+    [
+        ("notes.txt", b"P01 was tired"),
+        ("notes.txt", b"p01 was tired"),
+        ("notes.txt", "P01 was tired".encode("utf-16")),
+        ("P01.txt", b""),
+        ("P02/runs/x.mcap", b"runs/P01/runs"),
+    ],
 )
 def test_what_was_put_elsewhere_of_one_who_withdraws_is_found(
-    data: StudyData, name: str, content: str
+    data: StudyData, name: str, content: bytes
 ) -> None:
     begin(data, "P01")
     begin(data, "P02")
     file = data.folder / name
     file.parent.mkdir(exist_ok=True)
-    file.write_text(content)
+    file.write_bytes(content)
     assert withdraw(data, "P01").found == (file,)
 
 

@@ -73,12 +73,12 @@ UNSURE = {"name": "a", "text": "A?", "needed": 0}
     ("changed", "said"),
     [
         ({"tilte": "T"}, "there is no key tilte; see docs/study.md"),
-        ({"conditions": []}, "conditions is '[]'; list should have at least 1 item, not 0"),
+        ({"conditions": []}, "conditions is []; list should have at least 1 item, not 0"),
         ({"conditions": [{"name": "a"}] * 2}, "has two conditions called 'a'"),
         ({"conditions": [{"name": "a"}, {"name": "A"}]}, "has two conditions called 'a'"),
         ({"conditions": [{"name": "../a"}]}, "conditions.0.name is '../a'; use up to 40 letters"),
         ({"tasks": [{"name": "t"}]}, "tasks.0.text is missing"),
-        ({"tasks": [{"name": "t", "text": "Do.", "limit_s": 0}]}, "tasks.0.limit_s is '0'"),
+        ({"tasks": [{"name": "t", "text": "Do.", "limit_s": 0}]}, "tasks.0.limit_s is 0; input"),
         ({"tasks": [{"name": "t", "text": "Do.", "limit_s": True}]}, ".limit_s is true; should be"),
         ({"tasks": [{"name": "t", "text": "Do.", "limit_s": "5"}]}, "is '5'; should be a number"),
         ({"questionnaires": {"q": {**QUESTIONS, "points": True}}}, "questionnaires.q.points is"),
@@ -87,6 +87,7 @@ UNSURE = {"name": "a", "text": "A?", "needed": 0}
             "items.0.needed is 0; should",
         ),
         ({"settings": {"seed": True}}, "setting 'seed': is true; should be a number"),
+        ({"title": 3}, "title is 3; should be text, in quotes"),
         ({"order": "random"}, "order is 'random'; input should be 'balanced' or 'as written'"),
         ({"after_each": ["suz"]}, "has no questionnaire 'suz': there are sus, nasa_tlx, godspeed"),
         ({"settings": {"serach": "plan"}}, "setting 'serach': is no setting; known are home"),
@@ -96,7 +97,7 @@ UNSURE = {"name": "a", "text": "A?", "needed": 0}
         ({"conditions": [{"name": "a", "settings": {"memory": "m"}}]}, "memory is not for a study"),
         ({"settings": {"home_state": "h.toml"}}, "home_state is not for a study: what one"),
         ({"after_each": "sus"}, "after_each is 'sus'; input should be a valid list"),
-        ({"settings": 3}, "settings is '3'; input should be a valid table"),
+        ({"settings": 3}, "settings is 3; input should be a valid table"),
     ],
 )
 def test_what_is_wrong_is_said_with_where_and_what_would_be_right(
@@ -115,6 +116,9 @@ def test_what_is_wrong_is_said_with_where_and_what_would_be_right(
         ("home", "nowhere", "home nowhere: there is no home of this name"),
         ("habits", "none_such", "habits none_such: there are no habits of this name"),
         ("kb", ["nowhere.owl"], "nowhere.owl: cannot be read"),
+        ("world", "no.such:thing", "--world no.such:thing: there is no module no"),
+        ("detector", "nowhere.onnx", "nowhere.onnx: cannot be read"),
+        ("llm", "nowhere.gguf", "setting 'llm': model nowhere.gguf cannot be read"),
     ],
 )
 def test_what_a_later_condition_reads_is_tried_before_anyone_sits_down(

@@ -55,7 +55,8 @@ def test_two_participants_go_through_two_conditions(browser: Browser, tmp_path: 
 
 def test_who_declines_sees_no_robot(browser: Browser, tmp_path: Path) -> None:
     data = data_in(tmp_path, study_of(1))
-    with led(data, "P01") as one, opened(browser, one.page) as tab:
+    with led(data, "P01") as one, opened(browser, one.page, viewport=SMALLEST) as tab:
+        expect(tab.locator("#sheet-title")).to_be_visible()
         tab.get_by_role("button", name="I do not take part").click()
         expect(tab.locator("#sheet")).to_contain_text("Nothing of you is kept.")
     assert one.took_part is False
