@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from executive.errors import InputError
 from executive.shell import entry_point
-from executive.text import printable
+from executive.text import counted, printable
 from executive.usage import Parser
 
 if TYPE_CHECKING:  # what answers is heavy: not for --help or a wrong option
@@ -195,9 +195,11 @@ def _frames(options: argparse.Namespace) -> Answer:
     where = printable(out)
     if out.suffix == ".mp4":
         count = pictures.write_video(_Frames(run), out)
-        return Answer([str(out)], f"{count} pictures, {count / pictures.VIDEO_HZ:g} s, in {where}")
+        return Answer(
+            [str(out)], f"{counted(count, 'picture')}, {count / pictures.VIDEO_HZ:g} s, in {where}"
+        )
     files = pictures.write_files(run.frames(), out, png=options.png)
-    return Answer([str(file) for file in files], f"{len(files)} pictures in {where}")
+    return Answer([str(file) for file in files], f"{counted(len(files), 'picture')} in {where}")
 
 
 class _Frames:
