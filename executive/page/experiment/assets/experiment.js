@@ -29,6 +29,7 @@ const RUNS_OF = { one: 1, two: 2 };
 let shownPair = "";
 let mission = 0;
 let known = -1;
+let marking = 0;
 let marked = 0;
 
 function view(name) {
@@ -108,10 +109,14 @@ function showLive(now) {
     return;
   }
   if (live.follow.checked && now.last >= 0) live.go(1e9);
-  if (now.over || performance.now() - marked > MARKED_MS) {
-    marked = performance.now();
-    live.refresh();
-  }
+  clearTimeout(marking);
+  marking = setTimeout(mark, now.over ? 0 : Math.max(0, marked + MARKED_MS - performance.now()));
+}
+
+/** Marks above the slider come seldom, and what came last is not left out. */
+function mark() {
+  marked = performance.now();
+  live.refresh();
 }
 
 /** There is no robot: only what was recorded is shown. */

@@ -1,5 +1,6 @@
 """The experimenter's page in a real browser."""
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -72,6 +73,7 @@ def test_what_happens_is_followed_until_one_looks_back(browser: Browser, busy: R
         busy.page.says("banana")
         heard(busy.page, "question", kind="where_is")
         expect(tab.locator("#live .moment")).to_have_attribute("data-step", "1")
+        expect(tab.locator("#live .mark-said")).to_have_attribute("d", re.compile("M1 "))
         tab.locator("#live").get_by_role("button", name="Tick before").click()
         expect(tab.locator("#live .moment")).to_have_attribute("data-step", "0")
         expect(tab.locator("#live").get_by_label("Follow what happens")).not_to_be_checked()
