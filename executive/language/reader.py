@@ -51,6 +51,8 @@ class Reader:
         """Words that ask for a deed."""
         self.read: Callable[[str], Said] = lru_cache(KEPT)(self._read_anew)
         """What words mean; what cannot be read is `Unread`, and says where."""
+        self.likely: Callable[[str], Request | None] = lru_cache(KEPT)(self._likely_anew)
+        """What words probably ask for that cannot be read for sure; None if they do not."""
         self.plain: Callable[[str], str] = lru_cache(KEPT)(self._plain_anew)
         """Lower case, one space between words, no punctuation but the comma, no short forms.
 
@@ -117,8 +119,7 @@ class Reader:
         corrected = corrected_in_one_breath(plain, self._turn, self._read)
         return corrected or with_pauses(plain, self._deed, self._read) or said
 
-    def likely(self, words: str) -> Request | None:
-        """What words probably ask for that cannot be read for sure; None if they do not."""
+    def _likely_anew(self, words: str) -> Request | None:
         plain = self.plain(words)
         if not isinstance(self.read(words), Unread):
             return None
