@@ -1,5 +1,7 @@
 """The pieces that the tree is built of."""
 
+import gc
+import weakref
 from collections.abc import Callable
 
 from py_trees.behaviour import Behaviour
@@ -107,6 +109,22 @@ def test_paths_are_unique_even_where_names_are_not() -> None:
     tree = MissionTree(Sequence("root", memory=True, children=list(twins)))
     assert [node.path for node in tree.shape().nodes] == ["root", "root/look", "root/look 2"]
     assert [node.parent for node in tree.shape().nodes] == ["", "root", "root"]
+
+
+def test_behaviours_are_gone_as_soon_as_their_tree_is() -> None:
+    leaf = Leaf("leaf", lambda: Status.RUNNING)
+    gone = weakref.ref(leaf)
+    tree = MissionTree(Sequence("root", memory=True, children=[leaf]))
+    del leaf
+    tree.tick()
+    tree.stop()
+    assert gone() is not None
+    gc.disable()
+    try:
+        del tree
+        assert gone() is None
+    finally:
+        gc.enable()
 
 
 def test_hearing_is_no_fault_and_what_is_to_be_done_is_tried_next() -> None:
