@@ -98,8 +98,16 @@ def signed_rank(
         return 1.0
     if d.size > EXACT_UP_TO:
         return float(stats.wilcoxon(d, method="approx").pvalue)
-    every = stats.PermutationMethod(n_resamples=2**EXACT_UP_TO)
-    return float(stats.wilcoxon(d, method=every).pvalue)
+    every = stats.permutation_test(
+        (d,), _ranks_of_positive, permutation_type="samples", n_resamples=2**EXACT_UP_TO
+    )
+    return float(every.pvalue)
+
+
+def _ranks_of_positive(d: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    """Wilcoxon's statistic, of all assignments of signs at once."""
+    ranks: NDArray[np.float64] = stats.rankdata(np.abs(d), axis=axis)
+    return np.asarray(np.where(d > 0, ranks, 0.0).sum(axis=axis), float)
 
 
 def holm(ps: Sequence[float]) -> list[float]:
