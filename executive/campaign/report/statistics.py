@@ -106,8 +106,8 @@ def signed_rank(
 
 def _ranks_of_positive(d: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
     """Wilcoxon's statistic, of all assignments of signs at once."""
-    ranks = stats.rankdata(np.abs(d), axis=axis)
-    return np.where(d > 0, ranks, 0.0).sum(axis=axis)
+    ranks: NDArray[np.float64] = stats.rankdata(np.abs(d), axis=axis)
+    return np.asarray(np.where(d > 0, ranks, 0.0).sum(axis=axis), float)
 
 
 def holm(ps: Sequence[float]) -> list[float]:

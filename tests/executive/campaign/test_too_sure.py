@@ -5,6 +5,8 @@ from functools import cache
 from itertools import chain
 from math import log
 
+import pytest
+
 from executive.campaign.journal import Row
 from executive.campaign.observer import Observed
 from executive.campaign.policies import policy_named
@@ -89,6 +91,7 @@ def test_who_is_too_sure_pays_for_it() -> None:
     assert cost("too-sure") > 1.05 * cost("plan")
 
 
+@pytest.mark.usefixtures("no_plots")
 def test_the_report_tells_it() -> None:
     parts = report(missions("plan"), {})
     assert any("could be trusted" in str(part) for part in parts)
