@@ -33,6 +33,7 @@ from executive.situation.survey import Survey
 from executive.types import (
     Command,
     CommandKind,
+    Failed,
     MissionStatus,
     Outcome,
     Replied,
@@ -86,6 +87,8 @@ class Situation:
                 self.request.words = words
             case Ended(result=Replied() | Scored()):
                 self.model.calls += 1
+            case Ended(result=Failed(reason, unreachable=True)):
+                self.ending.unreachable = reason
             case StopRequested(by):
                 self.ending.stop(by)
             case Broke(reason):
