@@ -4,8 +4,11 @@
 imported and built when the first settings are made.
 """
 
+import os
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any, Literal, cast
@@ -22,11 +25,16 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails
 
+from executive.cache import VARIABLE as CACHE
 from executive.errors import InputError
+from executive.servers.key import EARS_KEY, LLM_KEY
 from executive.toml_file import misread, read_toml
 
 PREFIX = "EXECUTIVE_"
 """How the environment's variables of settings begin."""
+HEADERS = "EXECUTIVE_ROBOT_HEADERS"
+NO_SETTINGS = frozenset((LLM_KEY, EARS_KEY, HEADERS, CACHE))
+"""Variables that begin so, too: secrets, which stand in no file, and a folder of the machine."""
 JSON_EXAMPLES = """lists and tables are JSON there: '["a.owl"]', '{"mug": "desk"}'"""
 
 
@@ -237,7 +245,7 @@ class Settings(BaseModel):
         if value is None or value == "pocketsphinx" or value.startswith((".", "/", "~")):
             return value
         if value.startswith(("http://", "https://")):
-            return _address(value, "EXECUTIVE_EARS_API_KEY")
+            return _address(value, EARS_KEY)
         raise ValueError(
             "should be 'pocketsphinx', http://host:port/v1 or a folder such as ./models/whisper"
         )
@@ -265,7 +273,7 @@ class Settings(BaseModel):
             return value
         if not value.startswith(("ws://", "wss://")):
             raise ValueError("should be ws://HOST:PORT, wss://HOST:PORT for TLS, or ros2:")
-        return _address(value, "EXECUTIVE_ROBOT_HEADERS")
+        return _address(value, HEADERS)
 
     @field_validator("detector")
     @classmethod
@@ -338,7 +346,7 @@ def in_words(fault: ErrorDetails) -> str:
     return fault["msg"].removeprefix("Value error, ")
 
 
-def _address(url: str, secret: str = "EXECUTIVE_LLM_API_KEY") -> str:
+def _address(url: str, secret: str = LLM_KEY) -> str:
     """The address of a server, which is written into each recording: so there is no secret in it.
 
     Raises:
@@ -377,6 +385,7 @@ def _environment() -> dict[str, Any]:
     """
     from pydantic_settings import SettingsError
 
+    _refuse_unknown(os.environ)
     try:
         return Settings(**_said_in_environment(Settings)).model_dump(exclude_unset=True)
     except ValidationError as error:
@@ -389,3 +398,16 @@ def _environment() -> dict[str, Any]:
         raise InputError(name, "is not JSON", JSON_EXAMPLES) from None
     except RecursionError:
         raise InputError(f"{PREFIX}...", "is nested too deep", JSON_EXAMPLES) from None
+
+
+def _refuse_unknown(names: Iterable[str]) -> None:
+    """See that each variable that begins as ours do is one; what it holds may be a secret.
+
+    Raises:
+        InputError: if one is not.
+    """
+    known = {PREFIX + name.upper() for name in Settings.model_fields} | NO_SETTINGS
+    for name in sorted(names):
+        if name.upper().startswith(PREFIX) and name.upper() not in known:
+            near = get_close_matches(name.upper(), known, n=1, cutoff=0)[0]
+            raise InputError(name, "is no setting", f"the nearest is {near}")

@@ -2,7 +2,10 @@
 
 import gc
 import os
+import signal
 import sys
+from collections.abc import Iterator
+from pathlib import Path
 
 import hypothesis
 import pytest
@@ -49,6 +52,16 @@ def pytest_collection_finish() -> None:
 @pytest.fixture(scope="session")
 def places() -> tuple[str, ...]:
     return tuple(place.name for place in four_rooms().places())
+
+
+@pytest.fixture
+def own_folder_and_signals(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """For tests that call a program's `main`, which writes into its folder and hears signals."""
+    monkeypatch.chdir(tmp_path)
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
 
 
 @pytest.fixture

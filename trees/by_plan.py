@@ -7,6 +7,7 @@ from py_trees.behaviour import Behaviour
 
 from executive.records import Activity
 from trees.context import MissionContext
+from trees.driving import Visit
 from trees.hearing import consult, wants_advice, what_is_known
 from trees.nodes import Check, FirstOf, as_long_as, beside, fallback, sequence
 from trees.planning import (
@@ -19,7 +20,6 @@ from trees.planning import (
     TellWhere,
     Ways,
 )
-from trees.robot import Visit
 from trees.search import GiveUpSearch, look_over, look_where_the_words_say, search_by_stages
 
 
@@ -53,10 +53,10 @@ def until_it_is_seen(context: MissionContext) -> Behaviour:
         return takewhile(lambda _: not wants_advice(context), steps())
 
     if context.model is None:
-        return FirstOf("until it is seen", steps, lambda _: None, next_step(context, ways))
-    look_on = FirstOf("look on", steps_without_advice, lambda _: None, next_step(context, ways))
+        return FirstOf("until it is seen", steps, next_step(context, ways))
+    look_on = FirstOf("look on", steps_without_advice, next_step(context, ways))
     think_too = beside("think while moving", consult(context), look_on)
-    return FirstOf("until it is seen", steps, lambda _: None, think_too)
+    return FirstOf("until it is seen", steps, think_too)
 
 
 def next_step(context: MissionContext, ways: Ways) -> Behaviour:

@@ -10,10 +10,11 @@ from py_trees.behaviour import Behaviour
 from py_trees.composites import Parallel, Selector, Sequence
 from py_trees.decorators import FailureIsSuccess, SuccessIsFailure
 
+from trees.asking import Ask
+from trees.body import BodyAction
 from trees.model import ModelAction
 from trees.nodes import EachOf, FirstOf
-from trees.person import Announce, Apologise, Ask, Report
-from trees.robot import BodyAction
+from trees.person import Announce, Apologise, Report
 
 ROW, HEIGHT, GAP, MARGIN = 30.0, 22.0, 26.0, 12.0
 """Distance of rows, height of a box, between columns, around everything (pixels)."""

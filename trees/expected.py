@@ -9,8 +9,7 @@ from executive.types import HELD, Command, CommandKind, Source
 from trees.context import MissionContext
 from trees.hearing import MEMORY_TRUST, ONTOLOGY_TRUST, PERSON_TRUST
 from trees.meant import things_meant
-from trees.person import places_in
-from trees.places import best_first
+from trees.place_words import best_first, places_in
 from trees.planning import Ways
 
 LIKELIEST = 4

@@ -7,8 +7,9 @@ from executive.records import Activity
 from trees.by_plan import search
 from trees.context import MissionContext
 from trees.deeds.deed import meaning
+from trees.driving import DriveToCandidate
+from trees.handling import PickUp
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.robot import DriveToCandidate, PickUp
 from trees.search import look_over
 
 
@@ -51,7 +52,6 @@ def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
         FirstOf(
             "try again",
             lambda: more_tries,
-            lambda _: None,
             sequence(
                 "another approach",
                 Check("it was there", context, lambda: not situation.search.gone),

@@ -8,7 +8,6 @@ from trees.context import MissionContext
 from trees.deeds.deed import meaning
 from trees.deeds.put_down import go_and_put, put_down_somewhere
 from trees.nodes import FirstOf, Step, fallback, sequence
-from trees.person import full_hand
 from trees.places import taken_from
 from trees.telling import sentence, tell
 
@@ -28,7 +27,7 @@ def hand_is_free(context: MissionContext) -> Behaviour:
         HandIsFree("nothing else is in it", context),
         fallback(
             "make room",
-            FirstOf("back where it was", back, choose, put_back_first(context)),
+            FirstOf("back where it was", back, put_back_first(context), choose=choose),
             sequence(
                 "by the person",
                 SayWhatFirst("say so", context, "I put {held} down by you first."),
@@ -57,7 +56,7 @@ class HandIsFree(Step):
         held = self.situation.hand.in_hand
         if held in (None, self.situation.request.object) or not meaning(self.situation).grasps:
             return Status.SUCCESS
-        return self.fail(full_hand(held, self.context.say))
+        return self.fail(f"my hand holds {self.context.say.the(held)}")
 
 
 class SayWhatFirst(Step):

@@ -13,9 +13,9 @@ from executive.records import Activity
 from executive.situation import Choice, For
 from executive.types import Candidate, Result
 from trees.context import MissionContext
+from trees.driving import EXPERIMENTER
 from trees.nodes import Action
 from trees.recall import is_here
-from trees.robot import EXPERIMENTER
 
 HELD_S = 600.0
 """A choice that waits for longer (mission time, s) is let go: nobody seems to be there."""

@@ -69,7 +69,6 @@ def existence_check(context: MissionContext) -> Behaviour:
         EachOf(
             "each room",
             lambda: tuple(thought.search.consultation.rooms),
-            choose,
             Optionally(
                 "if it helps",
                 thought,
@@ -80,6 +79,7 @@ def existence_check(context: MissionContext) -> Behaviour:
                     VerifyFurniture("furniture exists", context),
                 ),
             ),
+            choose=choose,
         ),
         Check("something is left", context, lambda: bool(thought.search.consultation.furniture)),
     )

@@ -1,9 +1,8 @@
-"""Which things and places words mean, as far as nobody has to be asked."""
+"""Which things words mean, as far as nobody has to be asked."""
 
 from executive.interfaces import Knowledge
 from executive.types import Command
 from trees.context import MissionContext
-from trees.person import without_exceptions
 
 
 def meant(knowledge: Knowledge, command: Command) -> tuple[str, ...]:
@@ -21,3 +20,12 @@ def things_meant(context: MissionContext, command: Command) -> tuple[str, ...]:
         else meant(context.knowledge, command)
     )
     return without_exceptions(context.knowledge, command, tuple(dict.fromkeys(names)))
+
+
+def without_exceptions(
+    knowledge: Knowledge, command: Command, names: tuple[str, ...]
+) -> tuple[str, ...]:
+    """Those of the objects that the command does not leave out: "anything but a banana"."""
+    left_out = (name for but in command.exceptions for name in (but, *knowledge.names_in(but)))
+    not_meant = {one for name in left_out for one in knowledge.objects_named(name)}
+    return tuple(name for name in names if name not in not_meant)

@@ -20,13 +20,13 @@ from trees.act import act, without_a_search
 from trees.by_plan import search
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, meaning
+from trees.driving import DriveBack
 from trees.grasp import grasp
 from trees.hand import arm_for_it, hand_is_free
 from trees.nodes import Check, Optionally, sequence, stages
 from trees.object import resolve_object
 from trees.person import Apologise
 from trees.places import named_places
-from trees.robot import DriveBack
 from trees.search import eyes_for_it
 from trees.several import is_in_parts, several
 from trees.tasks import EachTask

@@ -257,12 +257,13 @@ class _Loop(Decorator):
         self,
         name: str,
         items: Callable[[], Iterable[Any]],
-        choose: Callable[[Any], None],
         child: Behaviour,
+        *,
+        choose: Callable[[Any], None] | None = None,
     ) -> None:
         """`items` is called once at the start, and each is taken when the one before is done.
 
-        `choose` puts each into the situation.
+        `choose` puts each into the situation, if the child is to know which it is.
         """
         super().__init__(name, child)
         self._items = items
@@ -298,21 +299,28 @@ class _Loop(Decorator):
 
     def _next(self) -> bool:
         for item in self._rest:
-            self._choose(item)
+            if self._choose:
+                self._choose(item)
             self.feedback_message = str(item)
             return True
         return False
 
 
 class FirstOf(_Loop):
-    """A fallback over data: succeeds with the first item for which the child succeeds."""
+    """A fallback over data: succeeds with the first item for which the child succeeds.
+
+    Over one item or none, it is a condition: without an item, it fails.
+    """
 
     ends_on = Status.SUCCESS
     exhausted = Status.FAILURE
 
 
 class EachOf(_Loop):
-    """A sequence over data: succeeds when the child succeeded for every item."""
+    """A sequence over data: succeeds when the child succeeded for every item.
+
+    Over one item or none, it is an `if`: without an item, it succeeds, and nothing is done.
+    """
 
     ends_on = Status.FAILURE
     exhausted = Status.SUCCESS

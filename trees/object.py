@@ -8,10 +8,10 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.types import HELD, Source
+from trees.clarification import AskDoYouMean, AskWhichObject
 from trees.context import MissionContext
-from trees.meant import meant
+from trees.meant import meant, without_exceptions
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
-from trees.person import AskDoYouMean, AskWhichObject, without_exceptions
 from trees.survey import found_where, nothing_there, survey
 from trees.telling import tell
 
@@ -50,7 +50,6 @@ def see_which_is_there(context: MissionContext) -> Behaviour:
     return FirstOf(
         "see which is there",
         there,
-        lambda _: None,
         sequence("look", survey(context), TakeOneThatIsThere("one of them", context)),
     )
 
@@ -64,7 +63,7 @@ def known_object(context: MissionContext) -> Behaviour:
 
     return fallback(
         "known object",
-        FirstOf("what I hold", held, lambda _: None, HeldIsMeant("it is in my hand", context)),
+        FirstOf("what I hold", held, HeldIsMeant("it is in my hand", context)),
         OntologyKnowsObject("ontology knows it", context),
         PersonPrefersOne("the person prefers one", context),
     )

@@ -1,16 +1,13 @@
 """Which places do the words name? Where the thing is, and where it, or the robot, is to go."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.language.answers import picked
 from executive.language.wording import either
 from executive.types import (
-    FLOOR,
     PERSON,
     SOMETHING,
     Command,
@@ -21,14 +18,21 @@ from executive.types import (
 )
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
-from trees.person import NO_PLACE, Ask, AskWhere, is_place, known_places, places_in
-from trees.recall import is_here
-from trees.telling import NEXT_TO, TO_THE_PERSON, tell
-
-ON_TOP = "on top of "
-"""Where nothing can be put of what has its places inside."""
-BESIDE = ("under ", "behind ", "in front of ", "above ", "left of ", "right of ", NEXT_TO)
-"""Beginnings of where nothing can be put."""
+from trees.person import AskForPlace, AskWhere
+from trees.place_words import (
+    best_first,
+    chosen_of,
+    goal_words,
+    goals_in,
+    is_place,
+    known_at,
+    may_be,
+    neighbours,
+    options_in,
+    places_in,
+    unknown_goal,
+)
+from trees.telling import TO_THE_PERSON, tell
 
 
 def named_places(context: MissionContext) -> Behaviour:
@@ -45,8 +49,8 @@ def named_places(context: MissionContext) -> Behaviour:
 
     return sequence(
         "named places",
-        EachOf("if it is somewhere", source, lambda _: None, starting_place(context)),
-        EachOf("if it goes somewhere", goes, lambda _: None, destination(context)),
+        EachOf("if it is somewhere", source, starting_place(context)),
+        EachOf("if it goes somewhere", goes, destination(context)),
     )
 
 
@@ -73,7 +77,6 @@ def destination(context: MissionContext) -> Behaviour:
         FirstOf(
             "back",
             back,
-            lambda _: None,
             fallback(
                 "where it was",
                 TakenFrom("it was taken from there", context),
@@ -94,7 +97,6 @@ def destination_of_all(context: MissionContext) -> Behaviour:
     return EachOf(
         "if they go somewhere",
         goal,
-        lambda _: None,
         fallback(
             "to where",
             GoalIsKnown("the goal is known", context),
@@ -190,7 +192,7 @@ class GoalIsKnown(Step):
             return self._beside(things)
         named = goals_in(self.context)
         if not named:
-            return self.fail(unknown(self.context))
+            return self.fail(unknown_goal(self.context))
         if options_in(self.context):
             return self.fail(may_be(self.context, goal, named))
         goes = self.situation.request.asks_to(CommandKind.GO)
@@ -205,7 +207,7 @@ class GoalIsKnown(Step):
                 tell(self.context, f"As far as I know, {say.are(thing)} {say.at(place)}.")
                 self.situation.request.goals = (place,)
                 return self.succeed(place)
-        return self.fail(unknown(self.context))
+        return self.fail(unknown_goal(self.context))
 
 
 class TakenFrom(Step):
@@ -249,7 +251,7 @@ class UsualPlace(Step):
         return self.succeed(", ".join(usual))
 
 
-class AskWhereTo(Ask):
+class AskWhereTo(AskForPlace):
     """Asks where the thing, or the robot, is to go.
 
     Reads request.command and request.object; writes request.goals.
@@ -268,7 +270,7 @@ class AskWhereTo(Ask):
         what = say.the(about) if about else "them"
         text = "Where shall I go?" if goes else f"Where shall I put {what}?"
         if self._tries:
-            text = f"{NO_PLACE * (not self._attended)}{text} {known_places(self.context)}"
+            text = self.once_more(text)
         elif goal:
             text = f"{self.unresolved()}. {text}"
         return Question(kind, about, text)
@@ -288,7 +290,7 @@ class AskWhereTo(Ask):
         """What is not known."""
         if options := options_in(self.context):
             return may_be(self.context, goal_words(self.context), options)
-        return unknown(self.context)
+        return unknown_goal(self.context)
 
 
 class EachGoesThere(Step):
@@ -320,106 +322,3 @@ def usual_places(context: MissionContext) -> tuple[str, ...]:
 def goes_back(command: Command | None) -> bool:
     """Whether the thing is to go back, and nobody said where that is."""
     return command is not None and command.kind == CommandKind.PUT_BACK and not command.goal
-
-
-def goal_words(context: MissionContext) -> str:
-    """The words for where to; who only goes has them in the place of a thing, too."""
-    command = context.situation.request.command
-    assert command
-    alone = command.target if command.kind == CommandKind.GO else ""
-    return command.goal or alone
-
-
-def neighbours(context: MissionContext) -> tuple[str, ...]:
-    """The things beside one of which it is to be put: "next to the mug"."""
-    goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
-    things = _beside_one_of(goal)
-    return tuple(one for t in things for one in context.knowledge.objects_named(t) if not goes)
-
-
-def _beside_one_of(goal: str) -> list[str]:
-    """The words of "next to the mug or next to the pear"; none if it is anywhere else, too."""
-    parts = goal.split(" or ")
-    beside = [part.removeprefix(NEXT_TO) for part in parts if part.startswith(NEXT_TO)]
-    return beside if len(beside) == len(parts) else []
-
-
-def known_at(context: MissionContext, thing: str) -> tuple[str, ...]:
-    """Where a thing is, as far as the robot remembers."""
-    known = context.facts.places_of(thing)
-    return tuple(p for p in known if is_here(context, p))
-
-
-def not_seen_yet(context: MissionContext) -> str:
-    """The words for what it is to be put beside, if that has to be found first; empty if not."""
-    things, hand = neighbours(context), context.situation.hand
-    if hand.in_hand in things or any(known_at(context, thing) for thing in things):
-        return ""
-    return " or ".join(_beside_one_of(goal_words(context))) if things else ""
-
-
-def goals_in(context: MissionContext) -> tuple[str, ...]:
-    """The places that the words for where to name; none if nothing can be put so."""
-    goal, goes = goal_words(context), context.situation.request.asks_to(CommandKind.GO)
-    beside = cannot_be_put(context, goal) and not goes
-    return places_in(context, goal) if is_place(context, goal) and not beside else ()
-
-
-def cannot_be_put(context: MissionContext, goal: str) -> bool:
-    """Whether words for where to name furniture, and a side of it where nothing can be put."""
-    if goal.startswith(ON_TOP):
-        return any(context.say.at(place).startswith("in ") for place in places_in(context, goal))
-    return goal.startswith(BESIDE)
-
-
-def options_in(context: MissionContext) -> tuple[str, ...]:
-    """The places that the words for where to may mean, if they leave open which; "or" does not."""
-    return goals_in(context) if may_be_several(context, goal_words(context)) else ()
-
-
-def may_be_several(context: MissionContext, words: str) -> bool:
-    """Whether words for one place leave open which; "the desk or the sofa" means both."""
-    parts = re.split(r"\bor\b", words)
-    return not all(is_one(context, places_in(context, part)) for part in parts)
-
-
-def may_be(context: MissionContext, words: str, options: Sequence[str]) -> str:
-    """That nobody knows which of these places words mean, as a clause."""
-    return f"'{context.as_said(words)}' may be {context.say.any_of(options)}"
-
-
-def chosen_of(context: MissionContext, answer: str, options: Sequence[str]) -> tuple[str, ...]:
-    """Those of the places that were offered which an answer means."""
-    chosen = picked(context.interpreter.read(answer), options)
-    return chosen or tuple(place for place in places_in(context, answer) if place in options)
-
-
-def unknown(context: MissionContext) -> str:
-    """Why nobody knows where to, as a clause."""
-    request, goal = context.situation.request, goal_words(context)
-    goes = request.asks_to(CommandKind.GO)
-    if things := neighbours(context):
-        return f"I do not know where {context.say.are(things[0])}"
-    if cannot_be_put(context, goal) and not goes:
-        return f"I can put things on furniture, or in it, but not '{context.as_said(goal)}'"
-    if FLOOR in goal.split():
-        return "I put nothing on the floor"
-    if goal:
-        return f"I do not know where '{context.as_said(goal)}' is"
-    put = f"put {context.say.the(request.object or '')}"
-    return "I do not know where to " + ("go" if goes else put)
-
-
-def is_one(context: MissionContext, named: Sequence[str]) -> bool:
-    """Whether these are one place (or none), or all the furniture of one room."""
-    if len(named) < 2:
-        return True
-    furniture = {place.name: place.room for place in context.knowledge.places()}
-    rooms = {furniture.get(name) for name in named}
-    return len(rooms) == 1 and set(named) == {n for n, room in furniture.items() if room in rooms}
-
-
-def best_first(context: MissionContext, named: Sequence[str]) -> tuple[str, ...]:
-    """Places where things are put down most easily first."""
-    order = {place: number for number, place in enumerate(context.handiest)}
-    return tuple(sorted(named, key=lambda place: order.get(place, len(order))))

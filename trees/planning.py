@@ -13,11 +13,11 @@ from executive.records import Planned, WaysTold
 from executive.situation import Leg
 from executive.types import Candidate, Source
 from trees.context import MissionContext
+from trees.driving import EXPERIMENTER, Visit
 from trees.hearing import PERSON_TRUST, believed
 from trees.held import HoldWhereToLook
 from trees.nodes import Step
 from trees.person import AskWhere, who_says
-from trees.robot import EXPERIMENTER, Visit
 from trees.telling import tell
 
 MOST_RECORDED = 60

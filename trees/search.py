@@ -8,12 +8,13 @@ from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Source
 from trees.context import MissionContext
+from trees.driving import Visit
 from trees.held import HoldWhereToLook
 from trees.location import resolve_location
+from trees.looking import LookAtCandidate, LookCloser, SeeTarget
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Announce, AskWhere
 from trees.recall import MemoryKnowsPlaces, Recall
-from trees.robot import LookAtCandidate, LookCloser, SeeTarget, Visit
 from trees.telling import tell
 
 
@@ -67,12 +68,12 @@ def look_where_the_words_say(context: MissionContext) -> Behaviour:
     return FirstOf(
         "look where the words say",
         named,
-        choose,
         fallback(
             "there",
             sequence("look", Announce("announce", context), visit_candidates(context)),
             SayNotThere("say it is not there", context),
         ),
+        choose=choose,
     )
 
 
@@ -90,7 +91,6 @@ def visit_candidates(context: MissionContext) -> Behaviour:
     return FirstOf(
         "visit",
         lambda: context.situation.search.candidates,
-        choose,
         sequence(
             "go and look",
             HoldWhereToLook("choice", context),
@@ -98,6 +98,7 @@ def visit_candidates(context: MissionContext) -> Behaviour:
             look_over(context),
             activity=Activity.SEARCHING,
         ),
+        choose=choose,
     )
 
 
@@ -119,8 +120,8 @@ def look_over(context: MissionContext) -> Behaviour:
         FirstOf(
             "each view",
             views,
-            choose,
             sequence("glance", LookAtCandidate("aim", context), see(context)),
+            choose=choose,
         ),
         NotHere("not here", context),
     )

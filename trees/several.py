@@ -10,7 +10,8 @@ from executive.types import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.meant import things_meant
 from trees.nodes import Check, EachOf, Step, fallback, sequence
-from trees.places import destination_of_all, not_seen_yet, taken_from
+from trees.place_words import not_seen_yet
+from trees.places import destination_of_all, taken_from
 from trees.survey import not_seen, nothing_there, survey
 from trees.unknown import nearest, unresolved
 from trees.wholes import without_condition
@@ -37,7 +38,7 @@ def several(context: MissionContext) -> Behaviour:
             sequence(
                 "each of them",
                 destination_of_all(context),
-                EachOf("if it is somewhere", somewhere, lambda _: None, survey(context)),
+                EachOf("if it is somewhere", somewhere, survey(context)),
                 EachThing("each thing", context),
             ),
         ),

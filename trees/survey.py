@@ -12,11 +12,12 @@ from executive.records import Activity
 from executive.situation import candidates_from
 from executive.types import Candidate, Detection, Result, Saw, Source
 from trees.context import MissionContext
+from trees.driving import Visit
 from trees.expected import seen_soonest, whereabouts
+from trees.looking import LookAtCandidate, SeeTarget
 from trees.meant import things_meant
 from trees.nodes import EachOf, Optionally, Step, sequence
-from trees.person import is_place, places_in
-from trees.robot import LookAtCandidate, SeeTarget, Visit
+from trees.place_words import is_place, places_in
 from trees.telling import tell
 from trees.unknown import nearest, unresolved
 
@@ -38,13 +39,12 @@ def survey(context: MissionContext, enough: Callable[[], bool] = lambda: False) 
         EachOf(
             "each place",
             lambda: situation.search.candidates,
-            choose,
             EachOf(
                 "unless it is enough",
                 lambda: [] if enough() else [None],
-                lambda _: None,
                 look_at_all(context),
             ),
+            choose=choose,
         ),
         SawSomething("saw some place", context),
     )
@@ -74,8 +74,8 @@ def look_at_all(context: MissionContext) -> Behaviour:
             EachOf(
                 "each view",
                 views,
-                choose,
                 sequence("glance", LookAtCandidate("aim", context), SeeAll("see", context)),
+                choose=choose,
             ),
             RememberWhatIsGone("remember", context),
             activity=Activity.SEARCHING,

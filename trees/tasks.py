@@ -9,10 +9,11 @@ from executive.records import Activity
 from executive.situation import TAKEN_BACK
 from executive.types import MissionStatus
 from trees.attend import hear_first
+from trees.body import BodyAction
 from trees.context import MissionContext
+from trees.handling import ComeToRest
 from trees.nodes import Action, Check, Selector, sequence
 from trees.order import begin_next, in_full
-from trees.robot import BodyAction, ComeToRest
 from trees.telling import sentence, tell
 
 

@@ -12,11 +12,12 @@ from executive.colors import COLORS, OTHER_SPELLINGS
 from executive.language.placed import placed
 from executive.records import Utterance
 from executive.types import HELD, Command, CommandKind, MissionStatus, Question, QuestionKind
+from trees.asking import AskYesNo
 from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
-from trees.person import AskYesNo, places_in
+from trees.place_words import places_in
 from trees.telling import in_one_sentence
 
 
@@ -31,7 +32,7 @@ def understand(context: MissionContext) -> Behaviour:
         return [request.command] if request.command else []
 
     readers: list[Behaviour] = [
-        FirstOf("on the agenda", at_hand, lambda _: None, TakeUp("take it up", context)),
+        FirstOf("on the agenda", at_hand, TakeUp("take it up", context)),
         ReadCommand("grammar reads it", context),
         sequence(
             "a slip",

@@ -9,7 +9,6 @@ from contextlib import ExitStack
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
-from types import TracebackType
 from typing import Self, TextIO
 
 from executive.app.building import build_parts
@@ -117,7 +116,7 @@ class Session:
         self._sinks = tuple(sinks)
         self._build = build
         self._in_hand: str | None = None
-        self._stands = PERSON
+        self._at = self._stands = PERSON
         self._spoken = NOTHING
         self._last: Outcome | None = None
         self._restless = False
@@ -153,12 +152,7 @@ class Session:
         """Nothing more to open."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Close."""
         self.close()
 
@@ -200,12 +194,17 @@ class Session:
         folder = new_folder(self.settings.runs, started, words) if self._recording else None
         self.folder = folder
         situation = Situation.at_start(
-            words, in_hand=self._in_hand, restless=self._restless, spoken=self._spoken
+            words,
+            in_hand=self._in_hand,
+            restless=self._restless,
+            spoken=self._spoken,
+            at=self._at,
         )
         try:
             self._carry_out_safely(situation, folder, started)
         finally:
             self._in_hand, self._restless = situation.hand.in_hand, situation.ending.restless
+            self._at = situation.dialogue.at
             if situation.dialogue.stands is not None:
                 self._stands = situation.dialogue.stands
             self._leave()
@@ -284,6 +283,7 @@ class Session:
                     "in_hand": self._in_hand or "",
                     "restless": str(self._restless),
                     "spoken": self._spoken.to_json(),
+                    "at": self._at,
                 }
                 logs = self._recording.sinks(folder, started, before)
         except Exception as error:

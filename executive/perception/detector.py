@@ -163,10 +163,21 @@ def class_list(path: Path, metadata: Mapping[str, str]) -> tuple[str, ...]:
     try:
         listed = ast.literal_eval(text[:_LONGEST_LIST])
         if isinstance(listed, dict):
-            listed = [listed[number] for number in sorted(listed, key=int)]
-        if not 0 < len(listed) <= _MOST_CLASSES or not all(isinstance(n, str) for n in listed):
+            numbered = {int(number): name for number, name in listed.items()}
+            listed = [numbered[number] for number in range(len(listed))]
+        if not isinstance(listed, list | tuple) or not 0 < len(listed) <= _MOST_CLASSES:
             raise ValueError
-    except (ValueError, SyntaxError, TypeError, OverflowError, MemoryError, RecursionError):
+        if not all(isinstance(name, str) for name in listed):
+            raise ValueError
+    except (
+        ValueError,
+        SyntaxError,
+        TypeError,
+        LookupError,
+        OverflowError,
+        MemoryError,
+        RecursionError,
+    ):
         raise InputError(str(path), f"its metadata's names are {text[:80]!r}", right) from None
     return tuple(listed)
 

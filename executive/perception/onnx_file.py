@@ -111,7 +111,7 @@ def read_onnx(path: Path) -> OnnxFile:
         if min(weights.dims, default=1) < 0 or prod(weights.dims) > MOST_WEIGHTS:
             raise InputError(where, f"has a tensor of {_times(weights.dims)} numbers")
     picture = _picture(where, model.graph)
-    height, width = _size(where, [d.dim_value for d in picture.shape.dim])
+    height, width = _size(where, _lengths(picture))
     if picture.elem_type not in _KINDS:
         right = f"export it with inputs of type {' or '.join(_KINDS.values())}"
         raise InputError(where, f"takes pictures of type {picture.elem_type} of ONNX", right)
@@ -120,14 +120,20 @@ def read_onnx(path: Path) -> OnnxFile:
 
 
 def _picture(where: str, graph: Any) -> Any:
-    """The type of the first four-dimensional input that is no weight."""
+    """The type of the one input that is no weight."""
     weights = {tensor.name for tensor in graph.initializer}
     inputs = [value.type.tensor_type for value in graph.input if value.name not in weights]
-    for one in inputs:
-        if len(one.shape.dim) == 4:
-            return one
-    shapes = [[d.dim_value for d in one.shape.dim] for one in inputs]
-    raise InputError(where, f"has inputs {shapes}", "one of (1, 3, height, width) is needed")
+    shapes = [_lengths(one) for one in inputs]
+    if [len(shape) for shape in shapes] != [4]:
+        told = ", ".join(f"({_times(shape, ', ')})" for shape in shapes[:8]) or "none"
+        right = "one input of (1, 3, height, width), and no other, is needed"
+        raise InputError(where, f"has inputs {told}", right)
+    return inputs[0]
+
+
+def _lengths(tensor: Any) -> list[int]:
+    """Those of an input; 0 for any, which some exporters write as -1."""
+    return [0 if d.dim_value == -1 else d.dim_value for d in tensor.shape.dim]
 
 
 def _size(where: str, shape: list[int]) -> tuple[int, int]:
@@ -135,7 +141,7 @@ def _size(where: str, shape: list[int]) -> tuple[int, int]:
     batch, channels, height, width = shape
     if batch not in (0, 1):
         raise InputError(where, f"takes {batch} pictures at once", "export it for one picture")
-    if channels not in (0, 3):
+    if channels not in (0, 3) or (channels == 0 and width == 3):
         right = "(1, 3, height, width) is needed: export it with channels first"
         raise InputError(where, f"takes pictures of shape ({_times(shape, ', ')})", right)
     if not 0 <= min(height, width) <= max(height, width) <= LONGEST_SIDE:

@@ -6,6 +6,7 @@ standard output what went wrong.
 """
 
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -20,6 +21,8 @@ MOST_MEMORY = 8 * 2**30
 LONGEST_S = 60.0
 MOST_NUMBERS = 50_000_000
 """In the outputs for one picture."""
+_LACKS = re.compile(r"""Can't create layer .* of type "([^"]+)\"""")
+"""How OpenCV says that it does not know an operation."""
 
 _tried: dict[tuple[bytes, int, int, bool], str] = {}
 
@@ -97,7 +100,9 @@ def main() -> None:
                 print("its output is absurdly large", end="")
                 return
     except cv2.error as error:
-        print(f"OpenCV cannot run it: {error.err}", end="")
+        lacks = _LACKS.search(error.err)
+        why = f"has no operation {lacks[1]}" if lacks else f"cannot run it: {error.err}"
+        print(f"OpenCV {why}", end="")
     except MemoryError:
         print("it takes too much memory", end="")
 

@@ -21,6 +21,7 @@ from executive.replay.recorded import kept, recorded_parts
 from executive.replay.stand_ins import Absent, RecordedTime
 from executive.situation import Situation
 from executive.text import counted, printable
+from executive.types import PERSON
 from logs.questions.difference import (
     ENDED,
     Aspect,
@@ -163,6 +164,7 @@ def _situation(run: Run) -> Situation:
         in_hand=run.metadata.get("in_hand") or None,
         restless=run.metadata.get("restless") == str(True),
         spoken=spoken,
+        at=run.metadata.get("at", PERSON),
     )
 
 

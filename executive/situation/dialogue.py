@@ -20,7 +20,7 @@ class Dialogue:
     away: bool = False
     """Whether the robot has left the person."""
     at: str = field(default=PERSON, metadata=NOT_LOGGED)
-    """The place that the robot has driven to last."""
+    """The place that the robot has driven to last, in this mission or before."""
     stands: str | None = field(default=None, metadata=NOT_LOGGED)
     """Where it came to in this mission; empty if it is on its way, None if it did not drive."""
     inquiries: int = 0

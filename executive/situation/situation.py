@@ -31,6 +31,7 @@ from executive.situation.snapshot import PART, snapshot
 from executive.situation.steering import Steering
 from executive.situation.survey import Survey
 from executive.types import (
+    PERSON,
     Command,
     CommandKind,
     Failed,
@@ -71,12 +72,13 @@ class Situation:
         in_hand: str | None = None,
         restless: bool = False,
         spoken: Spoken = NOTHING,
+        at: str = PERSON,
     ) -> Self:
         """What is known before the first tick: the words, and how things stood before them."""
         return cls(
             request=Request(words),
             hand=Hand(in_hand=in_hand),
-            dialogue=Dialogue(spoken=spoken),
+            dialogue=Dialogue(at=at, spoken=spoken),
             ending=Ending(restless=restless),
         )
 

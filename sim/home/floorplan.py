@@ -8,7 +8,9 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 Span = tuple[float, float]
-Coordinate = Annotated[float, Field(strict=True, ge=-1000.0, le=1000.0)]
+FARTHEST_M = 1000.0
+"""A point may be so far from the origin along x and y; the base reaches a bit farther."""
+Coordinate = Annotated[float, Field(strict=True, ge=-FARTHEST_M, le=FARTHEST_M)]
 """Of a point in `map` as a file gives it (metres)."""
 Length = Annotated[float, Field(strict=True, gt=0.0, le=100.0)]
 """Of something in a home as a file gives it (metres)."""

@@ -17,10 +17,10 @@ from pydantic_core import ErrorDetails
 from executive.errors import InputError
 from executive.files import decoded, read_bytes
 from executive.geometry import heading
-from executive.toml_file import MOST_BYTES, packaged, parse_toml
+from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml
 from executive.types import DELIVERY, PERSON, Place, Pose, Thing, Vector3
 from sim.home.arrangement import Spot, Standing, arrange
-from sim.home.floorplan import Door, Length, Room, Wall, walls
+from sim.home.floorplan import FARTHEST_M, Door, Length, Room, Wall, walls
 from sim.home.furniture import Furniture, PlanarPose, PoseInDegrees, Surface
 from sim.home.naming import usable
 from sim.home.own import Entry, OwnObject, is_declaration
@@ -322,7 +322,7 @@ def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
         return InputError(where, f"there is no key {key}", example)
     if fault["type"] == "missing":
         return InputError(where, f"{key} is missing", example)
-    return InputError(where, f"{key} is {_shown(fault['input'])}", fault["msg"].lower())
+    return InputError(where, f"{key} is {_shown(fault['input'])}", _right(fault))
 
 
 def _key(data: Any, path: tuple[str | int, ...]) -> str:
@@ -338,6 +338,12 @@ def _key(data: Any, path: tuple[str | int, ...]) -> str:
     return ".".join(words)
 
 
+def _right(fault: ErrorDetails) -> str:
+    said = in_words(fault["msg"].lower())
+    is_point = any(bound in (-FARTHEST_M, FARTHEST_M) for bound in fault.get("ctx", {}).values())
+    return f"{said} (metres)" if is_point else said
+
+
 def _shown(value: Any) -> str:
-    text = repr(value)
+    text = str(value).lower() if isinstance(value, bool) else repr(value)
     return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."

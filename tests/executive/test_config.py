@@ -5,9 +5,12 @@ from typing import Any
 
 import pytest
 
+from executive.cache import VARIABLE
 from executive.config import KnowledgeSystem, load_settings
 from executive.errors import InputError
 from executive.events import Inbox
+from executive.ros.address import HEADERS
+from executive.servers.key import EARS_KEY, LLM_KEY
 from kb.llm import open as opening
 
 
@@ -87,3 +90,20 @@ def test_ranking_is_the_default_for_the_embedded_model_only(
     given: dict[str, str], elicitation: str
 ) -> None:
     assert load_settings(**given).elicitation == elicitation
+
+
+def test_a_variable_that_is_no_setting_is_refused_with_the_nearest_that_is(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("EXECUTIVE_TEMPERATUR", "sk-a-secret-perhaps")
+    with pytest.raises(InputError, match="EXECUTIVE_TEMPERATUR: .* EXECUTIVE_TEMPERATURE$") as told:
+        load_settings()
+    assert "secret" not in str(told.value)
+
+
+@pytest.mark.parametrize("name", [LLM_KEY, EARS_KEY, HEADERS, VARIABLE, "executive_seed"])
+def test_variables_that_others_read_are_no_fault(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(name, "1")
+    load_settings()

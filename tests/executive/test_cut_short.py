@@ -17,7 +17,7 @@ from executive.events import Broke, StopRequested
 from executive.replay.replaying import replay
 from executive.types import DriveTo, Failed, Goal, Halt, MissionStatus
 from logs.recording.reader import Run
-from trees.robot import SeeTarget
+from trees.looking import SeeTarget
 
 
 @pytest.fixture

@@ -6,7 +6,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -15,20 +14,13 @@ from patience import PATIENCE_S
 
 from executive.__main__ import main
 
+pytestmark = pytest.mark.usefixtures("own_folder_and_signals")
+
 FAKE = ["--world", "fake", "--search", "paper", "--llm", "none"]
 QUICK = [*FAKE, "--user", "oracle", "--json"]
 FIELDS = "command, kind, target, object, status, reason, source, location, inquiries, visited, \
 llm_calls, candidates, mission_time_s, thinking_time_s, wall_time_s, run_dir, model_failure, \
 goals, tasks"
-
-
-@pytest.fixture(autouse=True)
-def _own_folder_and_signals(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.chdir(tmp_path)
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    yield
-    for number, handler in before.items():
-        signal.signal(number, handler)
 
 
 def test_a_done_mission_exits_0_with_one_json_outcome(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,24 +2,14 @@
 
 import json
 import os
-import signal
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
 from executive.__main__ import main
 
+pytestmark = pytest.mark.usefixtures("own_folder_and_signals")
+
 QUICK = ["--world", "fake", "--llm", "none", "--user", "none"]
-
-
-@pytest.fixture(autouse=True)
-def _own_folder_and_signals(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.chdir(tmp_path)
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    yield
-    for number, handler in before.items():
-        signal.signal(number, handler)
 
 
 @pytest.mark.parametrize(

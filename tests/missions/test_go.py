@@ -74,3 +74,12 @@ def test_where_the_robot_was_just_sent_it_puts_down_what_it_holds() -> None:
     assert (run.outcome.status, run.world.resting_place("scissors")) == (MissionStatus.DONE, "sofa")
     run = run_mission("Take the scissors, go to the sofa, come here and put them down", llm=False)
     assert run.world.resting_place("scissors") == "delivery"
+
+
+def test_the_next_search_is_planned_from_where_the_robot_was_sent(tmp_path: Path) -> None:
+    session = session_of(tmp_path, defaults=False, place={"mug": "desk"})
+    session.run("Go to the bed")
+    assert session.run("Find the mug").visited[0] == "bed"
+    session.close()
+    assert session.folder
+    assert replay(session.folder).parting is None

@@ -131,6 +131,8 @@ def test_what_is_cleared_away_goes_to_nothing_that_is_cleared() -> None:
     places = {"apple": "counter_wagon", "mug": "high_table"}
     clear = run("Clear the kitchen", place=places)
     kitchen = {p.name for p in clear.world.home.furniture if p.room == "kitchen"}
+    assert set(places.values()) <= kitchen
+    assert clear.outcome.status == DONE
     assert not any(clear.world.things[name] in kitchen for name in places)
 
 

@@ -91,7 +91,8 @@ def standing(name: str, spot: Pose) -> Floats:
 def test_a_table_takes_as_many_small_things_as_fit():
     seen, names = table_top(), ["apple", "orange", "mug", "tomato_soup_can", "banana", "peach"]
     for name in names:
-        spot = next(free_spots(TABLE, TOP, MODELS[name], seen))
+        spot = next(free_spots(TABLE, TOP, MODELS[name], seen), None)
+        assert spot, f"no room for the {name}"
         seen = np.concatenate((seen, standing(name, spot)))
 
 

@@ -14,6 +14,7 @@ from executive.types import DriveTo, Failed, LookAt, Pose, Succeeded
 from sim.body.hardware import Hardware
 from sim.bullet.bodies import create_body
 from sim.bullet.client import connect
+from sim.home.floorplan import FARTHEST_M
 from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
@@ -149,6 +150,18 @@ def test_only_what_touches_both_fingers_is_held() -> None:
     hardware.open_fingers(0.06)
     step(client, 100)
     assert not hardware.touched()
+    client.disconnect()
+
+
+@pytest.mark.parametrize("far", [-FARTHEST_M, FARTHEST_M])
+def test_the_base_stands_and_drives_as_far_out_as_a_home_may_be(far: float) -> None:
+    client = connect()
+    hardware = Hardware(client, (far, far, 0.0))
+    step(client, 100)
+    assert hardware.base_pose == pytest.approx((far, far, 0.0), abs=1e-3)
+    hardware.command_base(np.array([0.3, 0.3, 0.0]))
+    step(client, 100)
+    assert hardware.base_velocity == pytest.approx((0.3, 0.3, 0.0), abs=1e-2)
     client.disconnect()
 
 

@@ -33,6 +33,7 @@ def test_boxes_do_not_overlap() -> None:
         for rect in picture.iter(f"{SVG}rect")
         if "x" in rect.attrib
     ]
+    assert len(boxes) > 100
     for (x, y, w, h), (x2, y2, w2, h2) in combinations(boxes, 2):
         assert x2 >= x + w or x >= x2 + w2 or y2 >= y + h or y >= y2 + h2
 

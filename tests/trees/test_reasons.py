@@ -60,7 +60,7 @@ def test_a_loop_fails_for_what_its_last_item_says_that_says_why(context) -> None
     items = iter(("a", ""))
     child = fallback("any", Fails("a", context))
     one = sequence("one", Check("first", context, lambda: bool(next(items))), child)
-    root = FirstOf("each", lambda: (1, 2), lambda item: None, one)
+    root = FirstOf("each", lambda: (1, 2), one)
     assert reason_of(ticked(root)) == "a"
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from trees.person import sentence
+from trees.telling import sentence
 
 
 @pytest.mark.parametrize(

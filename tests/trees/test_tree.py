@@ -26,7 +26,7 @@ def loop(
 ) -> tuple[FirstOf | EachOf, list[int]]:
     chosen: list[int] = []
     leaf = Leaf("leaf", lambda: answers[chosen[-1]])
-    return kind("loop", lambda: items, chosen.append, leaf), chosen
+    return kind("loop", lambda: items, leaf, choose=chosen.append), chosen
 
 
 def test_first_of_goes_on_within_one_tick_until_one_succeeds() -> None:

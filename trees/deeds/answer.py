@@ -13,8 +13,8 @@ from executive.situation import Situation
 from executive.types import PERSON, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.driving import DriveBack
 from trees.nodes import Check, Step, fallback, sequence
-from trees.robot import DriveBack
 from trees.survey import survey
 from trees.telling import tell
 

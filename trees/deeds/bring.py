@@ -10,9 +10,10 @@ from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.deeds.fall import SayItFell, pick_up_again
 from trees.deeds.put_down import put_down_somewhere
+from trees.driving import DriveBack
+from trees.handling import PutDownAt
 from trees.nodes import Check, Step, fallback, sequence
 from trees.person import Report
-from trees.robot import DriveBack, PutDownAt
 
 
 class Bring(Deed):

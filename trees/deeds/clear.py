@@ -9,11 +9,12 @@ from py_trees.common import Status
 from executive.language.phrases import is_plural
 from executive.language.wording import listed
 from executive.types import CommandKind, Outcome, Question, QuestionKind, TaskOutcome
+from trees.asking import Ask
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.nodes import Check, Step, fallback, sequence
-from trees.person import Ask, places_in
-from trees.places import chosen_of, destination_of_all, may_be, may_be_several
+from trees.place_words import chosen_of, may_be, may_be_several, places_in
+from trees.places import destination_of_all
 from trees.survey import not_seen, nothing_there, survey
 from trees.telling import tell
 

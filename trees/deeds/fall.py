@@ -6,8 +6,9 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from trees.context import MissionContext
+from trees.handling import PickUp
+from trees.looking import LookForLost, SeeLost
 from trees.nodes import Check, FirstOf, Step, sequence
-from trees.robot import LookForLost, PickUp, SeeLost
 
 
 def pick_up_again(context: MissionContext, *spots: str, at_goal: bool = False) -> Behaviour:
@@ -27,8 +28,8 @@ def pick_up_again(context: MissionContext, *spots: str, at_goal: bool = False) -
         FirstOf(
             "look around",
             views,
-            choose,
             sequence("glance", LookForLost("aim", context), SeeLost("see", context)),
+            choose=choose,
         ),
         PickUp("pick", context),
     )

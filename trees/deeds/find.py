@@ -7,9 +7,9 @@ from py_trees.behaviour import Behaviour
 from executive.types import HAND, PERSON, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
+from trees.driving import DriveBack
 from trees.nodes import Check, sequence
 from trees.person import Report
-from trees.robot import DriveBack
 
 
 class Find(Deed):

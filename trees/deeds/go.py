@@ -9,10 +9,10 @@ from executive.records import Activity
 from executive.types import PERSON, CommandKind, Outcome, Result, Succeeded, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.driving import DriveToGoal
 from trees.nodes import Check, FirstOf, fallback, sequence
 from trees.person import Report
 from trees.places import destination
-from trees.robot import DriveToGoal
 
 
 class Go(Deed):
@@ -31,7 +31,7 @@ class Go(Deed):
             "go",
             asked_to(context, self.kind),
             destination(context),
-            FirstOf("there", lambda: request.goals, choose, GoThere("drive", context)),
+            FirstOf("there", lambda: request.goals, GoThere("drive", context), choose=choose),
             fallback(
                 "say so",
                 sequence(

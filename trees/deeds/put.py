@@ -10,10 +10,11 @@ from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to
 from trees.deeds.fall import pick_up_again
 from trees.deeds.put_down import go_and_put
+from trees.driving import DriveToGoal
+from trees.handling import PutDownAtGoal
 from trees.held import HoldGoal, each_untried
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut, Report
-from trees.robot import DriveToGoal, PutDownAtGoal
 
 
 class Put(Deed):
@@ -70,13 +71,13 @@ def put_at_goal(context: MissionContext) -> Behaviour:
     holds = Check("still in my hand", context, lambda: situation.hand.in_hand is not None)
     return fallback(
         "put it there",
-        FirstOf("where it is to go", goals, choose_goal, carry(context)),
+        FirstOf("where it is to go", goals, carry(context), choose=choose_goal),
         sequence(
             "elsewhere",
             holds,
             Check("person may help", context, lambda: not situation.dialogue.no_help),
             AskWhereToPut("ask where to put it", context),
-            FirstOf("there", lambda: situation.hand.surfaces, choose, go_and_put(context)),
+            FirstOf("there", lambda: situation.hand.surfaces, go_and_put(context), choose=choose),
             PutElsewhere("put elsewhere", context),
         ),
         NotAtGoal("not there", context),
@@ -91,7 +92,6 @@ def carry(context: MissionContext) -> Behaviour:
         return FirstOf(
             "after a fall",
             lambda: [hand.lost] if hand.lost else [],
-            lambda _: None,
             sequence("once more", pick_up_again(context, FLOOR, at_goal=at_goal), step),
         )
 

@@ -8,10 +8,11 @@ from py_trees.common import Status
 from executive.types import DELIVERY, HAND, HELD, SOMETHING, CommandKind, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
+from trees.driving import DriveToSurface
+from trees.handling import PutDownThere
 from trees.held import HoldSurface, each_untried
 from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut, Report
-from trees.robot import DriveToSurface, PutDownThere
 
 NEAR = 3
 """How many pieces of furniture by the person are tried before they are asked."""
@@ -54,7 +55,7 @@ def empty_hand(context: MissionContext) -> Behaviour:
         HoldsWhatIsMeant("holds it", context),
         fallback(
             "put it down",
-            FirstOf("where it was sent", sent_to, choose, go_and_put(context)),
+            FirstOf("where it was sent", sent_to, go_and_put(context), choose=choose),
             put_down_somewhere(context, "by the person", DELIVERY),
             StillHolds("still in my hand", context),
         ),
@@ -75,14 +76,17 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
     return fallback(
         name,
         FirstOf(
-            "near the person", near, choose, go_and_put(context, HoldSurface("choice", context))
+            "near the person",
+            near,
+            go_and_put(context, HoldSurface("choice", context)),
+            choose=choose,
         ),
         sequence(
             "where the person says",
             Check("still in my hand", context, lambda: situation.hand.in_hand is not None),
             Check("person may help", context, lambda: not situation.dialogue.no_help),
             AskWhereToPut("ask where to put it", context),
-            FirstOf("there", lambda: situation.hand.surfaces, choose, go_and_put(context)),
+            FirstOf("there", lambda: situation.hand.surfaces, go_and_put(context), choose=choose),
         ),
         NotPutDown("no room", context),
     )

@@ -2,7 +2,6 @@
 
 import secrets
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 from starlette.applications import Starlette
@@ -46,12 +45,7 @@ class PastRuns:
         """Nothing more to open."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Serve no more."""
         self.desk.board.end()
         self._server.close()

@@ -40,7 +40,9 @@ def test_nearest_always_goes_on_to_the_nearest_place_that_is_left() -> None:
     (row,) = missions("nearest", "Find a colored_wood_blocks.")
     routes, here = Routes(four_rooms()), four_rooms().robot_start[:2]
     left = {place.name for place in four_rooms().places()}
-    for place in row.visited.split()[:5]:
+    visited = row.visited.split()[:5]
+    assert len(visited) == 5
+    for place in visited:
         assert place == min(left, key=lambda name: routes.length(here, routes.stand(name)))
         left.remove(place)
         here = routes.stand(place)

@@ -31,6 +31,7 @@ PAGES = pytest.mark.parametrize(
 def test_each_text_that_a_page_names_is_there(texts: dict[str, Any], code: str) -> None:
     named = set(re.findall(r'\btext\(\s*"([\w.]+)"', code))
     named |= set(re.findall(r'data-(?:text|label)="(\w+)"', code))
+    assert len(named) > 20
     for key in named:
         found: Any = texts
         for part in key.split("."):

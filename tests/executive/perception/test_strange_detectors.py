@@ -108,8 +108,11 @@ def test_pictures_may_be_taken_in_bytes_or_half_precision(tmp_path: Path, kind: 
     assert boxes_of(OnnxDetector(path, known)) == AN_APPLE
 
 
-def test_open_lengths_are_read_as_the_usual_ones(tmp_path: Path) -> None:
-    path = changed(write_model(tmp_path, v8([APPLE])), takes_shape("batch", 3, "h", "w"))
+@pytest.mark.parametrize("shape", [("batch", 3, "h", "w"), (-1, 3, -1, -1)])
+def test_open_lengths_are_read_as_the_usual_ones(
+    tmp_path: Path, shape: tuple[int | str, ...]
+) -> None:
+    path = changed(write_model(tmp_path, v8([APPLE])), takes_shape(*shape))
     about = read_onnx(path)
     assert (about.height, about.width) == (0, 0)
     OnnxDetector(path, known)
@@ -165,6 +168,18 @@ def with_dims(*dims: int) -> Change:
     return change
 
 
+def takes_more(model: onnx.ModelProto) -> None:
+    model.graph.input.append(helper.make_tensor_value_info("scale", TensorProto.FLOAT, (1, 2)))
+
+
+def uses_another_operation(model: onnx.ModelProto) -> None:
+    model.opset_import.append(helper.make_opsetid("com.them", 1))
+    model.graph.node[0].input[0] = "changed"
+    model.graph.node.insert(
+        0, helper.make_node("Magic", ["images"], ["changed"], domain="com.them")
+    )
+
+
 REFUSED = {
     "data beside it": (refer_elsewhere("w.bin"), "weights in another file, which is not read"),
     "data above it": (refer_elsewhere("../../etc/passwd"), "weights in another file"),
@@ -174,6 +189,9 @@ REFUSED = {
     "negative tensor": (with_dims(-1, 4), "a tensor of -1 x 4 numbers"),
     "huge pictures": (takes_shape(1, 3, 10**6, 10**6), "pictures of 1000000 x 1000000; .*4096"),
     "channels last": (takes_shape(1, SIZE, SIZE, 3), "export it with channels first"),
+    "channels last, open": (takes_shape(1, "h", "w", 3), "export it with channels first"),
+    "another input": (takes_more, r"inputs \(1, 3, 64, 64\), \(1, 2\); one input of .* no other"),
+    "no such operation": (uses_another_operation, "OpenCV has no operation com.them.Magic; export"),
     "grey": (takes_shape(1, 1, SIZE, SIZE), r"\(1, 3, height, width\) is needed"),
     "several": (takes_shape(4, 3, SIZE, SIZE), "takes 4 pictures at once"),
     "doubles": (takes(TensorProto.DOUBLE), "type 11 .* float or uint8 or float16"),
@@ -278,7 +296,11 @@ def test_any_bytes_are_a_network_or_a_sentence(
         read_onnx(path)
 
 
-@pytest.mark.parametrize("names", ["[" * 5000, "{1e999: 'a'}", "['a'] * 9", str(["a"] * 10_001)])
+@pytest.mark.parametrize(
+    "names",
+    ["[" * 5000, "{1e999: 'a'}", "['a'] * 9", str(["a"] * 10_001)]
+    + ["{'apple', 'mug'}", "'ab'", "{3: 'apple', 7: 'mug'}", "{1: 'apple', 2: 'mug'}"],
+)
 def test_a_list_of_classes_that_is_none_is_a_sentence(tmp_path: Path, names: str) -> None:
     with pytest.raises(InputError, match="its metadata's names are"):
         OnnxDetector(write_model(tmp_path, v8([APPLE]), names), known)

@@ -25,7 +25,7 @@ from logs.__main__ import main
 from logs.recorder import Stamp
 from logs.recording.sink import McapSink
 from trees.by_plan import search
-from trees.robot import SeeTarget
+from trees.looking import SeeTarget
 from trees.tree import MissionTree
 
 

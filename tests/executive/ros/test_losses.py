@@ -9,20 +9,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from linking import link_to
 from patience import until
-from second_robot import PROFILE, SPEED_M_S, SecondRobot
+from second_robot import PROFILE, SecondRobot
 
 from executive.errors import UnreachableError
 from executive.events import Inbox
-from executive.ros.address import read_address
-from executive.ros.connection import Connection, connect
+from executive.ros.connection import Connection
 from executive.ros.link import LinkError
 from executive.ros.losses import Losses
-from executive.ros.profile import load_profile
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench, nothing_there
 from executive.types import DriveTo, Failed, Halt, LookAt, Pick, Result, Succeeded
-from sim.fake import straight_s
 
 LOOK = '[look]\naction = "/acme/go"\ntype = "acme_msgs/action/Go"\nsilent_s = 1.0\n'
 WAIT_S = 20.0
@@ -69,21 +67,13 @@ def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def house(tmp_path: Path, wait_s: float) -> Iterator[House]:
-    home, inbox, file = four_rooms(), Inbox(), tmp_path / "mine.toml"
+    inbox, file = Inbox(), tmp_path / "mine.toml"
     look = f'{LOOK}goal = {{ at = "$point" }}\n'
     rest = PROFILE.read_text().replace("[camera]", f"[camera]\nlate_s = {LATE_S}")
     file.write_text(f"link_wait_s = {wait_s}\n{rest}\n{look}")
-    with SecondRobot(home.robot_start) as there:
-
-        def ways(start: str, place: str) -> float:
-            return straight_s(home, start, place, SPEED_M_S)
-
-        address, profile = read_address(there.url), load_profile(str(file))
-        here = connect(address, profile, home, inbox, file.name, ways)
-        try:
-            yield House(there, Bench(here.robot, inbox, there.advance), here)
-        finally:
-            here.close()
+    start = four_rooms().robot_start
+    with SecondRobot(start) as there, link_to(there.url, inbox, file) as here:
+        yield House(there, Bench(here.robot, inbox, there.advance), here)
 
 
 def is_unreachable(result: Result) -> bool:

@@ -7,20 +7,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from linking import link_to
 from motion_robot import PROFILE, MotionRobot
 from scipy.spatial.transform import Rotation
-from second_robot import SPEED_M_S
 
 from executive.app.handling import KnownThings
 from executive.events import Inbox
 from executive.ros.__main__ import main as look
-from executive.ros.address import read_address
-from executive.ros.connection import Connection, connect
-from executive.ros.profile import load_profile
+from executive.ros.connection import Connection
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench, RobotContract
 from executive.types import Box, Detection, DriveTo, Failed, Halt, LookAt, Pick, PutDown, Succeeded
-from sim.fake import straight_s
 from sim.objects.objects import load_objects
 from sim.objects.solids import sample_surface
 
@@ -42,24 +39,11 @@ def profile_file() -> Path:
 @pytest.fixture
 def linked(profile_file: Path) -> Iterator[Linked]:
     home, inbox = four_rooms(), Inbox()
-    with MotionRobot(home.robot_start) as there:
-
-        def ways(start: str, place: str) -> float:
-            return straight_s(home, start, place, SPEED_M_S)
-
-        here = connect(
-            read_address(there.url),
-            load_profile(str(profile_file)),
-            home,
-            inbox,
-            PROFILE.name,
-            ways,
-            hands=KnownThings(home),
-        )
-        try:
-            yield Linked(there, here, Bench(here.robot, inbox, there.advance))
-        finally:
-            here.close()
+    with (
+        MotionRobot(home.robot_start) as there,
+        link_to(there.url, inbox, profile_file, KnownThings(home)) as here,
+    ):
+        yield Linked(there, here, Bench(here.robot, inbox, there.advance))
 
 
 class TestMotionRobot(RobotContract):

@@ -3,19 +3,17 @@
 from collections.abc import Iterator
 
 import pytest
+from linking import link_to
 from odd_wire import Mischief, OddWire
 from patience import until
-from second_robot import PROFILE, SPEED_M_S, SecondRobot
+from second_robot import SecondRobot
 
 from executive.events import Inbox
 from executive.loop import HALTS
-from executive.ros.address import read_address
-from executive.ros.connection import Connection, connect
-from executive.ros.profile import load_profile
+from executive.ros.connection import Connection
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench
 from executive.types import DriveTo, Halt, LookAt, Succeeded
-from sim.fake import straight_s
 
 CASES = {
     "delays": Mischief(delay=0.05),
@@ -26,22 +24,16 @@ CASES = {
 }
 
 
-def straight(start: str, place: str) -> float:
-    return straight_s(four_rooms(), start, place, SPEED_M_S)
-
-
 @pytest.fixture(params=CASES)
 def odd(request: pytest.FixtureRequest) -> Iterator[tuple[SecondRobot, OddWire, Connection, Bench]]:
-    home, inbox = four_rooms(), Inbox()
-    with SecondRobot(home.robot_start) as there, OddWire(there.url, seed=3) as wire:
-        profile = load_profile(str(PROFILE))
-        here = connect(read_address(wire.url), profile, home, inbox, PROFILE.name, straight)
-
+    inbox, start = Inbox(), four_rooms().robot_start
+    with (
+        SecondRobot(start) as there,
+        OddWire(there.url, seed=3) as wire,
+        link_to(wire.url, inbox) as here,
+    ):
         wire.mischief = CASES[request.param]
-        try:
-            yield there, wire, here, Bench(here.robot, inbox, there.advance)
-        finally:
-            here.close()
+        yield there, wire, here, Bench(here.robot, inbox, there.advance)
 
 
 def test_every_goal_ends_and_what_moves_is_stopped(

@@ -2,26 +2,25 @@
 
 import math
 from collections.abc import Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+from linking import link_to
 from patience import until
-from second_robot import ACTIONS, PROFILE, SPEED_M_S, SecondRobot
+from second_robot import ACTIONS, PROFILE, SecondRobot
 
 from executive.events import Inbox
-from executive.ros.address import read_address
-from executive.ros.connection import Connection, connect
+from executive.ros.connection import Connection
 from executive.ros.link import LinkError
-from executive.ros.profile import Profile, load_profile
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.camera import CameraBench, CameraContract
 from executive.testing.contracts.requests import end_of
 from executive.testing.contracts.robot import Bench, RobotContract
 from executive.types import DriveTo, Failed, Halt, Succeeded
-from sim.fake import straight_s
 
 
 @dataclass
@@ -32,28 +31,20 @@ class Linked:
     bench: Bench
 
 
-def straight(start: str, place: str) -> float:
-    return straight_s(four_rooms(), start, place, SPEED_M_S)
+@pytest.fixture
+def profile() -> Path:
+    return PROFILE
 
 
 @pytest.fixture
-def profile() -> Profile:
-    return load_profile(str(PROFILE))
-
-
-@pytest.fixture
-def linked(profile: Profile) -> Iterator[Linked]:
-    home, inbox = four_rooms(), Inbox()
-    with SecondRobot(home.robot_start) as there:
-        here = connect(read_address(there.url), profile, home, inbox, PROFILE.name, straight)
+def linked(profile: Path) -> Iterator[Linked]:
+    inbox, start = Inbox(), four_rooms().robot_start
+    with SecondRobot(start) as there, link_to(there.url, inbox, profile) as here:
 
         def moving() -> tuple[str, ...]:
             return ("base",) if there.speed else ()
 
-        try:
-            yield Linked(there, here, inbox, Bench(here.robot, inbox, there.advance, moving=moving))
-        finally:
-            here.close()
+        yield Linked(there, here, inbox, Bench(here.robot, inbox, there.advance, moving=moving))
 
 
 class TestSecondRobot(RobotContract):
@@ -96,11 +87,11 @@ def test_a_goal_looks_as_the_profile_has_it(linked: Linked) -> None:
 
 class TestLegs:
     @pytest.fixture
-    def profile(self, tmp_path: Path) -> Profile:
+    def profile(self, tmp_path: Path) -> Path:
         file = tmp_path / "legs.toml"
         legs = 'silent_s = 3.0\npath = "/acme/way"\nleg_m = 1.5'
         file.write_text(PROFILE.read_text().replace("silent_s = 3.0", legs))
-        return load_profile(str(file))
+        return file
 
     def test_a_drive_goes_in_legs_that_end_where_it_should(self, linked: Linked) -> None:
         began = linked.there.at[:2]
@@ -122,10 +113,10 @@ class TestLegs:
 )
 class TestLimits:
     @pytest.fixture
-    def profile(self, tmp_path: Path, limits: str) -> Profile:
+    def profile(self, tmp_path: Path, limits: str) -> Path:
         file = tmp_path / "limits.toml"
         file.write_text(f"{PROFILE.read_text()}\n[limits]\n{limits}\n")
-        return load_profile(str(file))
+        return file
 
     def test_they_are_kept_in_words(self, linked: Linked, place: str, said: str) -> None:
         assert linked.bench.do(DriveTo(place)) == Failed(said)
@@ -170,16 +161,11 @@ def test_a_halt_that_is_lost_on_its_way_is_told_again(linked: Linked) -> None:
 
 
 def test_a_halt_without_a_link_does_not_pretend() -> None:
-    home, inbox = four_rooms(), Inbox()
-    with SecondRobot(home.robot_start) as there:
-        here = connect(
-            read_address(there.url), load_profile(str(PROFILE)), home, inbox, "", straight
-        )
-    request = here.robot.start(Halt())
-    try:
-        result = end_of(inbox, request)
-    finally:
-        here.close()
+    inbox, switched_on = Inbox(), ExitStack()
+    there = switched_on.enter_context(SecondRobot(four_rooms().robot_start))
+    with link_to(there.url, inbox) as here:
+        switched_on.close()
+        result = end_of(inbox, here.robot.start(Halt()))
     assert isinstance(result, Failed)
     assert "I cannot be told to stop, and may go on" in result.reason
 

@@ -21,12 +21,6 @@ def robot() -> Iterator[Simulation]:
         yield simulation
 
 
-@pytest.fixture
-def client(robot: Simulation) -> Iterator[Raw]:
-    with Raw(robot) as raw:
-        yield raw
-
-
 def camera(client: Raw) -> tuple[np.ndarray, np.ndarray]:
     """Where the camera is in `map`, and where it looks, by the frames that are published."""
     frames = {}

@@ -2,7 +2,6 @@
 
 import json
 import socket
-from collections.abc import Iterator
 
 import cbor2
 import pytest
@@ -17,18 +16,6 @@ from sim.served.offered import GRAPH
 from sim.served.simulation import Simulation
 
 DRIVE = "/navigate_to_pose"
-
-
-@pytest.fixture(scope="module")
-def robot() -> Iterator[Simulation]:
-    with served() as simulation:
-        yield simulation
-
-
-@pytest.fixture
-def client(robot: Simulation) -> Iterator[Raw]:
-    with Raw(robot) as raw:
-        yield raw
 
 
 BROKEN = [

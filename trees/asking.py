@@ -1,0 +1,136 @@
+"""A question to the person: put again while the answer makes no sense, and given up in the end."""
+
+from abc import abstractmethod
+from dataclasses import replace
+
+from py_trees.common import Status
+
+from executive.language.meaning import Answer, Refusal, Said, Unread
+from executive.records import Activity, Utterance
+from executive.text import printable, too_long
+from executive.types import Answered, Question, Result, Source
+from trees.attention import attend_to
+from trees.context import MissionContext
+from trees.nodes import Action, why_of
+from trees.telling import tell
+
+
+class Ask(Action):
+    """Puts a question, and puts it again while the answer makes no sense.
+
+    Writes dialogue.inquiries, and dialogue.no_help if no answer is of use.
+    """
+
+    source = Source.USER
+    activity = Activity.ASKING
+
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Wait for each answer as long as the parameters allow."""
+        super().__init__(name, context, context.parameters.answer_s)
+        self._tries = 0
+        self._attended = False
+
+    @abstractmethod
+    def question(self) -> Question:
+        """What to ask."""
+
+    @abstractmethod
+    def understood(self, answer: str) -> bool:
+        """Take the answer in, if it makes sense."""
+
+    @abstractmethod
+    def unresolved(self) -> str:
+        """What stays unknown without an answer, as a clause."""
+
+    def declines(self, answer: str) -> bool:
+        """Whether the answer is that there is none."""
+        return self.context.interpreter.declines(answer)
+
+    def initialise(self) -> None:
+        """Ask for the first time."""
+        self._tries, self._attended = 0, False
+        super().initialise()
+
+    def start(self) -> int:
+        """Ask."""
+        question = self.question()
+        question = replace(question, text=printable(question.text))
+        self._tries += 1
+        self.situation.dialogue.inquiries += 1
+        self.context.recorder.record(Utterance("robot", question.text))
+        return self.context.user.ask(question)
+
+    def ended(self, result: Result) -> Status:
+        """Take the answer, ask again, or accept that there is none."""
+        if not isinstance(result, Answered):
+            return self._no_help(why_of(result))
+        self.context.recorder.record(Utterance("person", result.text))
+        unread = too_long(result.text)
+        said = self.context.interpreter.read(result.text)
+        refuses = isinstance(said, Refusal) and said.words != ""
+        if not unread and not refuses and self.declines(result.text):
+            return self._no_help("you could not tell me")
+        if not unread and self.understood(result.text):
+            return self.succeed(result.text)
+        self._attended = not unread and self._attend_to(said, result.text)
+        if self.situation.agenda.interrupts:
+            return Status.RUNNING  # until the tree gives it up, in this tick
+        if self._tries < self.context.parameters.questions:
+            return self.start_again()
+        return self._no_help(unread or f"I did not understand your answer '{result.text}'")
+
+    def _attend_to(self, said: Said, words: str) -> bool:
+        """Answer what is no answer: a further wish, a correction, a question."""
+        if isinstance(said, Answer | Unread):
+            return False
+        tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
+        return True
+
+    def doing(self) -> str:
+        """It waits."""
+        return "wait for your answer"
+
+    def out_of_time(self) -> Status:
+        """Nobody answered."""
+        return self._no_help(f"nobody answered within {self._patience_s:g} s")
+
+    def cancel(self, request: int) -> None:
+        """Withdraw the question."""
+        self.context.user.cancel(request)
+
+    def _no_help(self, why: str) -> Status:
+        self.situation.dialogue.no_help = why
+        return self.fail(f"{self.unresolved()}, and {why}")
+
+
+class AskYesNo(Ask):
+    """Asks whether something is so; fails if it is not."""
+
+    _agrees: bool | None = None
+
+    @abstractmethod
+    def agreed(self) -> None:
+        """Take it as so."""
+
+    def declines(self, answer: str) -> bool:
+        """A no is an answer."""
+        return self.context.interpreter.agrees(answer) is None and super().declines(answer)
+
+    def understood(self, answer: str) -> bool:
+        """Hear yes and no."""
+        self._agrees = self.context.interpreter.agrees(answer)
+        if self._agrees:
+            self.agreed()
+        return self._agrees is not None
+
+    def ended(self, result: Result) -> Status:
+        """Fail on a no, too; a yes settles what is asked for."""
+        status = super().ended(result)
+        if status != Status.SUCCESS:
+            return status
+        if not self._agrees:
+            return self.fail(f"{self.unresolved()}, and you said no")
+        assert self.situation.request.command
+        return self.succeed(
+            f"{self.situation.request.command.kind} {self.situation.request.command.target}"
+        )

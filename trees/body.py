@@ -1,0 +1,160 @@
+"""What all actions of the robot's body and eyes have in common: a goal, and what its failure means.
+
+The leaves themselves are in `trees/driving.py`, `trees/looking.py` and `trees/handling.py`.
+"""
+
+from abc import abstractmethod
+
+from py_trees.common import Status
+
+from executive.types import (
+    SOMETHING,
+    DriveTo,
+    Failed,
+    Goal,
+    Halt,
+    LookAt,
+    Pick,
+    PutDown,
+    Result,
+    Succeeded,
+)
+from trees.context import MissionContext
+from trees.nodes import UNSAID, Action, why_of
+from trees.telling import tell
+
+
+class BodyAction(Action):
+    """Something that the robot does with its body or its eyes.
+
+    Whatever fails, or takes too long, comes by here: it is noted where it counts, once for all.
+    """
+
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Give the robot as long as the parameters allow."""
+        super().__init__(name, context, context.parameters.action_s)
+
+    @abstractmethod
+    def attempt(self) -> str:
+        """What is tried, as an infinitive."""
+
+    @abstractmethod
+    def note_failure(self, why: str) -> None:
+        """Note what cannot be known, or be done, because this failed."""
+
+    def failed(self, result: Result) -> Status:
+        """Fail for the reason that the robot gives."""
+        why = self.why(result)
+        self.note_failure(why)
+        return self.fail(f"I could not {self.attempt()}: {why}" if why == UNSAID else why)
+
+    def why(self, result: Result) -> str:
+        """Why it failed, in words: what robots say of things and places are names."""
+        return self.context.say.in_words(why_of(result))
+
+    def out_of_time(self) -> Status:
+        """Fail because it took too long."""
+        why = f"it took longer than {self._patience_s:g} s"
+        self.note_failure(why)
+        return self.fail(f"I could not {self.attempt()}: {why}")
+
+
+class RobotAction(BodyAction):
+    """Pursues one goal of the robot.
+
+    Writes ending.restless, dialogue.at and dialogue.stands where it drove to, and hand.lost if it
+    lost what it held; what failed goes to search.looks or hand.unplaced.
+    """
+
+    searches = False
+    """Whether it serves to look for the thing, so that its failure leaves a place unseen."""
+
+    def __init__(self, name: str, context: MissionContext) -> None:
+        """Have no goal yet."""
+        super().__init__(name, context)
+        self._goal: Goal = Halt()
+
+    @abstractmethod
+    def goal(self) -> Goal:
+        """What to pursue."""
+
+    def progress(self) -> str:
+        """What to tell the person when it begins, who cannot see it; empty if that is known."""
+        return ""
+
+    def start(self) -> int:
+        """Hand the goal to the robot, and tell the person."""
+        if said := self.progress():
+            tell(self.context, said)
+        self._goal = self.goal()
+        self.feedback_message = _in_words(self._goal)
+        self.situation.ending.restless = True
+        if isinstance(self._goal, DriveTo):
+            self.situation.dialogue.stands = ""
+        return self.context.robot.start(self._goal)
+
+    def ended(self, result: Result) -> Status:
+        """Succeed as the robot did; note if it lost what it held."""
+        self.situation.ending.restless = not isinstance(result, Succeeded)
+        if isinstance(result, Succeeded):
+            if isinstance(self._goal, DriveTo):
+                self.situation.dialogue.at = self.situation.dialogue.stands = self._goal.place
+            return Status.SUCCESS
+        if isinstance(result, Failed) and result.lost:
+            self.situation.hand.lost, self.situation.hand.in_hand = self.why(result), None
+        return self.failed(result)
+
+    def doing(self) -> str:
+        """By the goal."""
+        say = self.context.say
+        match self._goal:
+            case DriveTo(place):
+                return f"drive to {say.the(place)}"
+            case LookAt(place):
+                return f"look {say.at(place)}"
+            case Pick(detection):
+                return f"pick up {say.the(detection.label)}"
+            case PutDown(place):
+                return f"put {say.the(self.situation.hand.in_hand or SOMETHING)} {say.at(place)}"
+            case Halt():
+                return "stop"
+
+    def attempt(self) -> str:
+        """By the goal."""
+        say = self.context.say
+        match self._goal:
+            case DriveTo(place):
+                return f"get to {say.the(place)}"
+            case LookAt(place):
+                return f"look at {say.the(place)}"
+            case Pick(detection):
+                return f"pick up {say.the(detection.label)}"
+            case PutDown(place):
+                it = say.it(self.situation.request.object or SOMETHING)
+                return f"put {it} down {say.at(place)}"
+            case Halt():
+                return "stop"
+
+    def note_failure(self, why: str) -> None:
+        """A place stays out of reach, or unseen; or there is no room for what is in the hand."""
+        match self._goal:
+            case DriveTo(place) if self.searches:
+                self.situation.search.looks.not_reached(place, why)
+            case LookAt(place) if self.searches:
+                self.situation.search.looks.not_seen(place, why)
+            case PutDown(place):
+                self.situation.hand.unplaced[place] = why
+
+    def cancel(self, request: int) -> None:
+        """Brake."""
+        self.context.robot.cancel(request)
+
+
+def _in_words(goal: Goal) -> str:
+    match goal:
+        case Pick(detection):
+            return detection.label
+        case Halt():
+            return ""
+        case _:
+            return goal.place

@@ -1,0 +1,159 @@
+"""Questions to the person about which thing is meant."""
+
+from dataclasses import replace
+
+from executive.language.answers import named, picked
+from executive.language.meaning import Answer, Choice, Refusal, Request, Said
+from executive.types import CommandKind, Question, QuestionKind
+from trees.asking import Ask, AskYesNo
+from trees.attention import all_of
+from trees.meant import without_exceptions
+from trees.telling import tell
+from trees.unknown import nearest, unknown, unresolved
+
+_QUESTIONS = {CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL}
+
+
+class AskDoYouMean(AskYesNo):
+    """Asks whether a known name is meant: the robot never silently guesses.
+
+    Reads request.guess; writes request.command.
+    """
+
+    def question(self) -> Question:
+        """Offer the guess."""
+        assert self.situation.request.command
+        target, guess = self.situation.request.command.target, self.situation.request.guess
+        meant = self.context.say.the(guess)
+        text = f"{unknown(self.context, target)}. Do you mean {meant}?"
+        objects = self.context.knowledge.objects_named(guess)
+        return Question(QuestionKind.CONFIRM, guess, text, objects)
+
+    def agreed(self) -> None:
+        """The guess is what was asked for."""
+        assert self.situation.request.command
+        command = replace(self.situation.request.command, target=self.situation.request.guess)
+        self.situation.request.command = command
+
+    def understood(self, answer: str) -> bool:
+        """Instead of yes or no, the person may say what they mean: "no, the mug"."""
+        names = self.context.knowledge.names_in(answer)
+        refused = self.context.interpreter.agrees(answer) is False
+        if len(names) != 1 or (refused and names[0] == self.situation.request.guess):
+            return super().understood(answer)
+        self.situation.request.guess = names[0]
+        self._agrees = True
+        self.agreed()
+        return True
+
+    def unresolved(self) -> str:
+        """Name the guess."""
+        assert self.situation.request.command
+        target, guess = self.situation.request.command.target, self.situation.request.guess
+        return unresolved(self.context, target, (guess,))
+
+
+class AskWhichObject(Ask):
+    """Asks which thing is meant, where the words fit several or none.
+
+    Reads request.options; writes request.object, or fewer request.options.
+    """
+
+    def question(self) -> Question:
+        """Offer the members of the class, or the nearest known names."""
+        assert self.situation.request.command
+        target, any_of = self.situation.request.command.target, self.context.say.any_of
+        if (options := self.situation.request.options) and self.situation.request.several:
+            text = f"I can do one thing at a time. Which first: {any_of(options)}?"
+        elif options:
+            kind = "" if self.situation.request.command.purpose else f" {target}"
+            text = f"Which{kind} do you mean: {any_of(options)}?"
+        elif self._all_left_out():
+            text = f"I know no other {target}. Which thing do you mean?"
+        else:
+            options, said = self._other_names(target), unknown(self.context, target)
+            meant = f"Do you mean {any_of(options)}, or something else?"
+            text = f"{said}. {meant if options else 'Which thing do you mean?'}"
+        return Question(QuestionKind.WHICH_OBJECT, target, text, options)
+
+    def _all_left_out(self) -> bool:
+        """Whether things were named, and all of them said not to be meant: "another mug"."""
+        assert self.situation.request.command
+        return bool(self.context.knowledge.objects_named(self.situation.request.command.target))
+
+    def _other_names(self, target: str) -> tuple[str, ...]:
+        """The nearest known names, less the one that the person did not mean."""
+        names = nearest(self.context, target)
+        return tuple(name for name in names if name != self.situation.request.guess)
+
+    def understood(self, answer: str) -> bool:
+        """One object is enough; several narrow the next question down."""
+        options, find = self.situation.request.options, self.context.knowledge.objects_named
+        said = self.context.interpreter.read(answer)
+        if chosen := picked(said, self.question().options):
+            meant = tuple(one for name in chosen for one in find(name))
+        else:
+            meant = find(answer) or self._named(said)
+        if options:
+            meant = tuple(one for one in meant if one in options)
+        assert self.situation.request.command
+        meant = without_exceptions(self.context.knowledge, self.situation.request.command, meant)
+        if len(meant) > 1:
+            self.situation.request.options = meant
+        elif meant:
+            self.situation.request.object = meant[0]
+        return len(meant) == 1
+
+    def _attend_to(self, said: Said, words: str) -> bool:
+        """Several may be meant, or any but the one that is named."""
+        request, find = self.situation.request, self.context.knowledge.objects_named
+        if isinstance(said, Refusal) and (rest := self._but(said.words)):
+            request.options = rest
+            return True
+        several = self._several(said)
+        if not several or not request.options:
+            return super()._attend_to(said, words)
+        names = tuple(dict.fromkeys(one for name in several for one in find(name)))
+        tell(self.context, all_of(self.context, names, words))
+        return True
+
+    def _but(self, words: str) -> tuple[str, ...]:
+        """What is left of the things that were offered; none if none is named, or each."""
+        request, find = self.situation.request, self.context.knowledge.objects_named
+        named = [one for name in self.context.knowledge.names_in(words) for one in find(name)]
+        rest = tuple(one for one in request.options if one not in named)
+        return rest if len(rest) < len(request.options) else ()
+
+    def _several(self, said: Said) -> tuple[str, ...]:
+        """More than one of those that were offered: "all", "the apple and the pear"."""
+        offered = self.question().options
+        if not isinstance(said, Answer) or (said.things and said.things.one_of):
+            return ()
+        if said.choice == Choice.ALL:
+            return offered
+        names = tuple(thing.words for thing in said.things.members) if said.things else ()
+        are_known = all(self.context.knowledge.objects_named(name) for name in names)
+        return names if len(names) > 1 and are_known else ()
+
+    def _named(self, said: Said) -> tuple[str, ...]:
+        """What an answer names in more words; a command is one only for what was offered."""
+        command = self.situation.request.command
+        if (
+            isinstance(said, Request)
+            and command
+            and said.tasks[0].verb in _QUESTIONS - {command.kind}
+        ):
+            return ()  # "where is the apple?"
+        offered = self.situation.request.options or not isinstance(said, Request)
+        return self.context.knowledge.objects_named(named(said)) if offered else ()
+
+    def unresolved(self) -> str:
+        """Name the nearest known things."""
+        assert self.situation.request.command
+        target = self.situation.request.command.target
+        if self.situation.request.options:
+            options = self.context.say.any_of(self.situation.request.options)
+            return f"'{self.context.as_said(target)}' may be {options}"
+        if self._all_left_out():
+            return f"I know no other {target}"
+        return unresolved(self.context, target, nearest(self.context, target))

@@ -1,0 +1,142 @@
+"""Leaves that drive the robot: to where a thing may be, to where it is to go, and back."""
+
+from py_trees.common import Status
+
+from executive.records import Activity
+from executive.types import PERSON, Candidate, DriveTo, Goal, Result, Succeeded
+from trees.body import RobotAction
+from trees.context import MissionContext
+from trees.progress import on_the_way, on_to_the_next
+from trees.recall import is_here
+
+EXPERIMENTER = "experimenter"
+"""Who names a place to which an experimenter sends the robot."""
+
+
+class DriveToCandidate(RobotAction):
+    """Goes to the place where the thing may be.
+
+    Reads search.candidate; writes dialogue.away.
+    """
+
+    activity = Activity.DRIVING
+    searches = True
+
+    def goal(self) -> Goal:
+        """Drive to the candidate."""
+        assert self.situation.search.candidate
+        self.situation.dialogue.away = True
+        return DriveTo(self.situation.search.candidate.place)
+
+
+class Visit(DriveToCandidate):
+    """Goes to a place for the first time: it counts as visited if it is reached.
+
+    Where an experimenter sends the robot meanwhile, it goes instead, without a word.
+
+    Reads search.candidate, search.sent_to and search.looks; writes search.looks.
+    """
+
+    def start(self) -> int:
+        """Go where it is sent, if it is."""
+        search = self.situation.search
+        if search.sent_to and is_here(self.context, search.sent_to):
+            search.candidate = Candidate(search.sent_to, EXPERIMENTER)
+        search.sent_to = ""
+        return super().start()
+
+    def update(self) -> Status:
+        """Turn round where it is sent elsewhere."""
+        sent_to, request = self.situation.search.sent_to, self._request
+        if sent_to and is_here(self.context, sent_to) and request is not None:
+            self._wait_no_more(request)
+            self.cancel(request)
+            return self.start_again()
+        return super().update()
+
+    def progress(self) -> str:
+        """The first place was announced; of the next ones, say why."""
+        return on_to_the_next(self.context)
+
+    def ended(self, result: Result) -> Status:
+        """Count only a place that was reached."""
+        assert self.situation.search.candidate
+        if isinstance(result, Succeeded):
+            self.situation.search.looks.reached(self.situation.search.candidate.place)
+        return super().ended(result)
+
+
+class DriveBack(RobotAction):
+    """Goes to where things are asked for or delivered: `person` or `delivery`.
+
+    Writes dialogue.away.
+    """
+
+    activity = Activity.DRIVING
+
+    def __init__(self, name: str, context: MissionContext, place: str) -> None:
+        """Name the place."""
+        super().__init__(name, context)
+        self._place = place
+
+    def progress(self) -> str:
+        """Say what comes of it."""
+        return on_the_way(self.context, self._place)
+
+    def goal(self) -> Goal:
+        """Drive there."""
+        return DriveTo(self._place)
+
+    def ended(self, result: Result) -> Status:
+        """Be back with the person."""
+        self.situation.dialogue.away = not isinstance(result, Succeeded)
+        return super().ended(result)
+
+
+class DriveToSurface(RobotAction):
+    """Goes to the furniture where the held thing may be put down.
+
+    Reads hand.surface; writes dialogue.away.
+    """
+
+    activity = Activity.DRIVING
+
+    def progress(self) -> str:
+        """Say where to."""
+        return on_the_way(self.context, self.situation.hand.surface)
+
+    def goal(self) -> Goal:
+        """Drive there; the person is not there."""
+        self.situation.dialogue.away = True
+        return DriveTo(self.situation.hand.surface)
+
+
+class DriveToGoal(RobotAction):
+    """Goes to where the thing, or the robot, is to go.
+
+    Reads request.goal; writes dialogue.away, and hand.unplaced if there is something in the hand.
+    """
+
+    activity = Activity.DRIVING
+
+    def progress(self) -> str:
+        """Say where to."""
+        return on_the_way(self.context, self.situation.request.goal)
+
+    def goal(self) -> Goal:
+        """Drive there."""
+        self.situation.dialogue.away = True
+        return DriveTo(self.situation.request.goal)
+
+    def ended(self, result: Result) -> Status:
+        """Be with the person, if that is the goal."""
+        if isinstance(result, Succeeded) and self.situation.request.goal == PERSON:
+            self.situation.dialogue.away = False
+        return super().ended(result)
+
+    def note_failure(self, why: str) -> None:
+        """It cannot be put down there."""
+        if self.situation.hand.in_hand:
+            place = self.situation.request.goal
+            there = self.context.say.the(place)
+            self.situation.hand.unplaced[place] = f"I could not get to {there}: {why}"

@@ -1,0 +1,166 @@
+"""Leaves that point the robot's head, and see what is in the picture."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from py_trees.common import Status
+
+from executive.records import Activity
+from executive.types import SOMETHING, Candidate, Detection, Goal, LookAt, Result, Saw
+from trees.body import BodyAction, RobotAction
+from trees.context import MissionContext
+
+
+class LookAtCandidate(RobotAction):
+    """Points the head at the next part of the place.
+
+    Reads search.candidate and search.view; clears search.doubtful.
+    """
+
+    activity = Activity.LOOKING
+    searches = True
+
+    def goal(self) -> Goal:
+        """Look at the view at hand."""
+        assert self.situation.search.candidate
+        self.situation.search.doubtful = None
+        return LookAt(self.situation.search.candidate.place, self.situation.search.view)
+
+
+class LookCloser(RobotAction):
+    """Brings what may be the thing to the middle of the picture.
+
+    Reads search.doubtful, search.candidate and search.view.
+    """
+
+    activity = Activity.LOOKING
+    searches = True
+
+    def goal(self) -> Goal:
+        """Look at the doubtful detection."""
+        assert self.situation.search.candidate
+        assert self.situation.search.doubtful
+        point = self.situation.search.doubtful.position
+        return LookAt(self.situation.search.candidate.place, self.situation.search.view, point)
+
+
+class LookForLost(RobotAction):
+    """Points the head at where the thing may have fallen.
+
+    Reads hand.spot and search.view.
+    """
+
+    activity = Activity.LOOKING
+
+    def goal(self) -> Goal:
+        """Look at the next part of the spot."""
+        return LookAt(self.situation.hand.spot, self.situation.search.view)
+
+
+class SeeTarget(BodyAction):
+    """Takes a picture and succeeds if the thing is in it, surely and wholly.
+
+    Reads request.object and search.candidate; writes search.detection and search.found if it is
+    sure, else search.doubtful or search.looks.
+    """
+
+    activity = Activity.LOOKING
+
+    def __init__(self, name: str, context: MissionContext, closer: bool = False) -> None:
+        """`closer`, a part of the thing is enough."""
+        super().__init__(name, context)
+        self._closer = closer
+
+    def doing(self) -> str:
+        """It sees."""
+        candidate = self.situation.search.candidate
+        return f"look {self.context.say.at(candidate.place)}" if candidate else ""
+
+    def start(self) -> int:
+        """Look."""
+        return self.context.perception.see()
+
+    def ended(self, result: Result) -> Status:
+        """Keep the surest detection of the thing, and where it was; remember all that was seen."""
+        search = self.situation.search
+        assert search.candidate
+        if not isinstance(result, Saw):
+            return self.failed(result)
+        self._remember(result.detections)
+        search.doubtful = None
+        seen = self._surest(result)
+        if seen is None:
+            search.looks.without(search.candidate.place, search.view)
+            self.feedback_message = f"no {self.situation.request.object} in view"
+            return Status.FAILURE
+        if seen.confidence < self.context.parameters.min_confidence:
+            search.doubtful = seen
+            self.feedback_message = f"perhaps {seen.label}, confidence {seen.confidence:.2f}"
+            return Status.FAILURE
+        if seen.cut_off and not self._closer:
+            search.doubtful = seen
+            self.feedback_message = f"{seen.label}, at the edge of the picture"
+            return Status.FAILURE
+        search.detection = seen
+        search.found = self._where(seen)
+        if search.looks.all_but(search.candidate.place, search.view):
+            self.context.facts.looked(search.candidate.place)
+        return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
+
+    def attempt(self) -> str:
+        """By the place."""
+        candidate = self.situation.search.candidate
+        return f"look at {self.context.say.the(candidate.place) if candidate else 'it'}"
+
+    def note_failure(self, why: str) -> None:
+        """A part of the place stays unseen."""
+        assert self.situation.search.candidate
+        self.situation.search.looks.not_seen(self.situation.search.candidate.place, why)
+
+    def cancel(self, request: int) -> None:
+        """Look no more."""
+        self.context.perception.cancel(request)
+
+    def _where(self, seen: Detection) -> Candidate:
+        """Here; but what is seen on furniture behind this place is on that."""
+        here = self.situation.search.candidate
+        assert here
+        below = self.context.place_at(seen.position) if seen.position else None
+        return replace(here, place=below or here.place)
+
+    def _surest(self, saw: Saw) -> Detection | None:
+        """The surest detection of the thing, if it was seen."""
+        return next((d for d in saw.detections if d.label == self.situation.request.object), None)
+
+    def _remember(self, detections: Iterable[Detection]) -> None:
+        """A thing may be on furniture behind this place; with none below it, it counts as here."""
+        assert self.situation.search.candidate
+        for seen in detections:
+            if seen.confidence < self.context.parameters.min_confidence:
+                continue
+            self.context.facts.saw((seen.label,), self._where(seen).place)
+
+
+class SeeLost(SeeTarget):
+    """Takes a picture and succeeds if what fell from the hand is in it.
+
+    Reads request.object and hand.spot; writes search.detection.
+    """
+
+    def ended(self, result: Result) -> Status:
+        """Keep where it lies now; it was found elsewhere."""
+        if not isinstance(result, Saw):
+            return self.failed(result)
+        seen = self._surest(result)
+        if seen is None:
+            it = self.context.say.it(self.situation.request.object or SOMETHING)
+            return self.fail(f"I do not see {it} {self.context.say.at(self.situation.hand.spot)}")
+        self.situation.search.detection = seen
+        return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
+
+    def attempt(self) -> str:
+        """By the spot."""
+        return f"look at {self.context.say.the(self.situation.hand.spot)}"
+
+    def note_failure(self, why: str) -> None:
+        """Nothing: this is no search of a place."""
