@@ -2,7 +2,8 @@
 
     ExecutiveError            speaks to the person who can act: what, where, and what would be right
     ├── InputError            a file, an option or a reply that came from outside is wrong
-    └── ModelError            the language model cannot be loaded or reached
+    ├── ModelError            the language model cannot be loaded or reached
+    └── UnreachableError      there is no way to the robot any more
 
 A mission that merely does not succeed is no error: it ends with an Outcome.
 """
@@ -29,3 +30,7 @@ class InputError(ExecutiveError):
 
 class ModelError(ExecutiveError):
     """The language model is missing, broken, or does not answer."""
+
+
+class UnreachableError(ExecutiveError):
+    """There is no way to the robot any more: nothing that it is asked for would be done."""

@@ -338,8 +338,8 @@ class Inbox:
 def _fit(result: Result) -> Result:
     """The result with texts that can be written down, whoever made it."""
     match result:
-        case Failed(reason, lost):
-            return Failed(_text(reason), lost)
+        case Failed(reason):
+            return replace(result, reason=_text(reason))
         case Answered(text):
             return Answered(_text(text))
         case Replied(text=text):

@@ -550,11 +550,13 @@ class Succeeded:
 class Failed:
     """It could not be done, and why, as a clause for the person: "the way is blocked".
 
-    `lost` tells that what was in the hand fell out of it on the way, and lies about.
+    `lost` tells that what was in the hand fell out of it on the way, and lies about; `unreachable`
+    that there is no way to the robot any more, so that the mission ends: nothing else is tried.
     """
 
     reason: str
     lost: bool = False
+    unreachable: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

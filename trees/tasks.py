@@ -9,10 +9,12 @@ from executive.records import Activity
 from executive.situation import TAKEN_BACK
 from executive.types import MissionStatus
 from trees.attend import hear_first
+from trees.body import BodyAction
 from trees.context import MissionContext
 from trees.handling import ComeToRest
 from trees.nodes import Action, Check, Selector, sequence
 from trees.order import begin_next, in_full
+from trees.telling import sentence, tell
 
 
 class EachTask(Selector):
@@ -21,7 +23,8 @@ class EachTask(Selector):
     At each tick it is heard first what the person says. Then its children find out what there is to
     do, if nothing is at hand. What is on the agenda when a task has ended is done next, whoever put
     it there meanwhile; what is to be done `instead` of the task at hand, or what is taken back,
-    interrupts it, so that whatever it started is cancelled.
+    interrupts it, so that whatever it started is cancelled. A robot that cannot be reached any more
+    ends them all: neither other places nor other tasks are tried.
     """
 
     def __init__(self, name: str, context: MissionContext, *ways: Behaviour) -> None:
@@ -36,6 +39,10 @@ class EachTask(Selector):
         if self.status == Status.RUNNING:
             yield from self._attend.tick()
         while True:
+            if self._context.situation.ending.unreachable:
+                self._end_for_good()
+                yield self
+                return
             if agenda.interrupts and not self._goes_on():
                 self.status = Status.SUCCESS
                 yield self
@@ -49,6 +56,19 @@ class EachTask(Selector):
             if not begin_next(self._context):
                 self._context.situation.conclude()
                 return
+
+    def _end_for_good(self) -> None:
+        """Say why nothing more can be done, once; what was under way has failed for that."""
+        situation = self._context.situation
+        for node in self.iterate():
+            if isinstance(node, BodyAction) and node.is_under_way:
+                node.note_failure(situation.ending.unreachable)
+        self.stop(Status.INVALID)
+        self.status = Status.SUCCESS
+        situation.ending.status = MissionStatus.NOT_DONE
+        situation.ending.tell(situation.ending.unreachable)
+        tell(self._context, sentence(f"Sorry: {situation.ending.why}"))
+        situation.end_task()
 
     def _goes_on(self) -> bool:
         """Give up the task at hand; whether there is another."""

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 
 from executive.computing import Computation, Worker
+from executive.errors import UnreachableError
 from executive.events import Inbox
 from executive.geometry import back_project
 from executive.interfaces import Camera, Detector, Recorder
@@ -118,7 +119,7 @@ class CameraPerception:
         log.debug(what, exc_info=error)
         self._recorder.record(Note("error", "".join(traceback.format_exception(error))))
         why = printable(f"{what}: {error}" if str(error) else f"{what}: {type(error).__name__}")
-        self._inbox.end(request, Failed(why))
+        self._inbox.end(request, Failed(why, unreachable=isinstance(error, UnreachableError)))
 
 
 def locate(detection: Detection, frame: Frame) -> Detection:

@@ -10,6 +10,7 @@ from executive.computing import still_wanted
 from executive.geometry import Floats, back_project
 from executive.guards import in_words
 from executive.ros.link import Link, LinkError
+from executive.ros.losses import Losses
 from executive.ros.messages import stamp_of
 from executive.ros.pictures import color_of, depth_of, lens_of
 from executive.ros.profile import Profile
@@ -30,22 +31,26 @@ LINK_S = 5.0
 class WireCamera:
     """Implements `Camera`; `capture` takes tens of milliseconds, and never longer than it may."""
 
-    def __init__(self, wire: WireThread, link: Link, profile: Profile, senses: Senses) -> None:
+    def __init__(
+        self, wire: WireThread, link: Link, profile: Profile, senses: Senses, losses: Losses
+    ) -> None:
         """Take no picture yet."""
         self._wire = wire
         self._link = link
         self._profile = profile
         self._senses = senses
+        self._losses = losses
         self._numbers = count()
 
     def capture(self) -> Frame:
         """A picture of now; not called on the thread that ticks.
 
         Raises:
+            NoLinkError: if the link was lost, and does not come back.
             LinkError: if none comes, or not such as can be used.
             GivenUpError: if it is part of a computation that was given up.
         """
-        taking = self._wire.start(self._take())
+        taking = self._wire.start(self._losses.outlived(self._take))
         try:
             while True:
                 try:

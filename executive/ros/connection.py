@@ -15,6 +15,7 @@ from executive.ros.camera import WireCamera
 from executive.ros.checking import faults
 from executive.ros.clock import GoalClock, RobotClock
 from executive.ros.link import Link, LinkError
+from executive.ros.losses import Losses
 from executive.ros.profile import Profile
 from executive.ros.rclpy_link import RclpyLink
 from executive.ros.robot import Places, WireRobot
@@ -123,13 +124,15 @@ def connect(
         if (pose := senses.base) is not None:
             told(pose)
 
-    camera = WireCamera(line.wire, line.link, profile, senses)
+    losses = Losses(line.link, profile.link_wait_s, brake.settled)
+    camera = WireCamera(line.wire, line.link, profile, senses, losses)
     robot = WireRobot(
         line.wire,
         line.link,
         profile,
         senses,
         brake,
+        losses,
         places,
         ways,
         inbox,

@@ -4,7 +4,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from executive.errors import ExecutiveError
+from executive.errors import ExecutiveError, UnreachableError
 from executive.ros.offers import Offers
 from executive.ros.protocol import GoalStatus, Message
 
@@ -14,6 +14,10 @@ Receive = Callable[[Message], None]
 
 class LinkError(ExecutiveError):
     """It did not get through, or nobody answered, and why, as a clause for the person."""
+
+
+class NoLinkError(LinkError, UnreachableError):
+    """The link was lost and did not come back."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

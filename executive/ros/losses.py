@@ -1,16 +1,17 @@
 """A link that is lost during a goal: it is waited for, and the goal is done again from its begin.
 
-Only a goal for which that is right is given here: a drive or a look, not a grasp.
+What handles things is not done again; but that there is no link any more, is known of it, too.
 """
 
 import logging
 from collections.abc import Awaitable, Callable
+from typing import TypeVar
 
 from executive.guards import in_words
-from executive.ros.link import Link, LinkError
-from executive.types import Failed, Succeeded
+from executive.ros.link import Link, LinkError, NoLinkError
+from executive.types import Failed
 
-Attempt = Callable[[], Awaitable[Succeeded | Failed]]
+T = TypeVar("T")
 
 log = logging.getLogger(__name__)
 
@@ -26,41 +27,57 @@ class Losses:
         self._link = link
         self._wait_s = wait_s
         self._settled = settled
-        self._was_in_vain = False
+        self._in_vain: int | None = None
+        """How often it had been lost when it was last waited for in vain."""
 
-    async def outlived(self, attempt: Attempt) -> Succeeded | Failed:
+    @property
+    def is_for_good(self) -> bool:
+        """Whether there is no link, and it was waited for in vain."""
+        return bool(self._link.loss) and self._in_vain == self._link.losses
+
+    async def outlived(self, attempt: Callable[[], Awaitable[T]], *, again: bool = True) -> T:
         """Attempt something; once more, if that fails, the link was lost, and it comes back.
 
-        A goal may also fail because of the stop that follows when there is a link again.
+        A goal may also fail because of the stop that follows when there is a link again. What must
+        not be done `again` has failed, but not before there is a link again.
 
         Raises:
-            LinkError: if it does not come back, or is lost again.
+            NoLinkError: if the link was lost, and does not come back.
+            LinkError: if it fails otherwise.
         """
-        before = self._link.losses
-        if not self._link.loss:
-            self._was_in_vain = False
+        before, again = self._link.losses, again and self._wait_s > 0
         try:
             result = await attempt()
-        except LinkError:
-            if not self._is_waited_for(before):
+        except LinkError as error:
+            if not self._was_lost(before):
+                raise
+            await self._come_back(in_words(error))
+            if not again:
                 raise
         else:
-            if isinstance(result, Succeeded) or result.lost or not self._is_waited_for(before):
+            failed = isinstance(result, Failed) and not result.lost
+            if not (failed and again and self._was_lost(before)):
                 return result
-        await self._wait()
-        return await attempt()
+            await self._come_back(f"there is no link to the robot: {self._link.loss}")
+        return await self.outlived(attempt, again=False)
 
-    def _is_waited_for(self, before: int) -> bool:
-        """Whether it was lost since then; one that did not come back is not waited for again."""
-        was_lost = bool(self._link.loss) or self._link.losses != before
-        return was_lost and self._wait_s > 0 and not self._was_in_vain
+    def _was_lost(self, before: int) -> bool:
+        return bool(self._link.loss) or self._link.losses != before
 
-    async def _wait(self) -> None:
+    async def _come_back(self, without: str) -> None:
+        """Wait for the link; one that did not come back is not waited for again.
+
+        `without` is what is said if there is none and it is not waited for.
+        """
+        if self._link.loss and (self.is_for_good or not self._wait_s):
+            raise NoLinkError(without)
+        if not self._wait_s:
+            return
         log.warning("I lost the link to my robot: I wait for it, %g s at most", self._wait_s)
         try:
             await self._link.ready(self._wait_s)
         except LinkError as error:
-            self._was_in_vain = True
-            raise LinkError(f"I waited {self._wait_s:g} s, and {in_words(error)}") from None
+            self._in_vain = self._link.losses
+            raise NoLinkError(f"I waited {self._wait_s:g} s, and {in_words(error)}") from None
         log.warning("there is a link to my robot again: I go on")
         await self._settled()

@@ -278,7 +278,7 @@ class Profile(_Section):
     tried: str = "not on hardware"
     """Where this was tried, for who reads it."""
     link_wait_s: Annotated[float, Field(ge=0, le=3600)] = 30.0
-    """So long a drive or a look waits for a link that was lost (s, real time), to be done again."""
+    """So long a link that was lost is waited for (s, real time), before the mission ends."""
     frames: Frames = Frames()
     drive: Drive
     look: Look | None = None

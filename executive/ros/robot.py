@@ -1,6 +1,7 @@
 """A robot over the wire: goals become goals of its own actions, as its profile names them."""
 
 import asyncio
+import math
 from collections.abc import Awaitable, Callable, Mapping
 from datetime import datetime
 from typing import Any, Protocol
@@ -11,7 +12,7 @@ from executive.geometry import Floats
 from executive.guards import in_words
 from executive.ros.actions import Actions
 from executive.ros.arm import Arm, Hands, Planar
-from executive.ros.link import GoalEnd, Link, LinkError
+from executive.ros.link import GoalEnd, Link, LinkError, NoLinkError
 from executive.ros.looking import Looking
 from executive.ros.losses import Losses
 from executive.ros.messages import (
@@ -36,6 +37,7 @@ from executive.types import (
     LookAt,
     Pick,
     Place,
+    Pose,
     PutDown,
     Succeeded,
     Vector3,
@@ -44,10 +46,14 @@ from executive.types import (
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
 FACING_S = 0.5
+MOVED_M = 0.3
+"""A base that is so far from where it arrived is somewhere else."""
+TELLING_S = 1.0
+"""So long after a loss of the link it may take until the robot tells where it is."""
 HANDLING = ("pick", "place", "gripper")
 CANNOT_STOP = "I cannot be told to stop, and may go on"
 STOPPING_S = 3.0
-"""So long a halt waits for a link that was lost: with it come the means to stop."""
+"""So long a halt waits for a link that was just lost: with it come the means to stop."""
 
 
 class Places(Protocol):
@@ -76,6 +82,7 @@ class WireRobot:
         profile: Profile,
         senses: Senses,
         brake: Brake,
+        losses: Losses,
         places: Places,
         ways: Callable[[str, str], float],
         inbox: Inbox,
@@ -99,7 +106,7 @@ class WireRobot:
         self._places = places
         self._inbox = inbox
         self._actions = Actions(link, profile)
-        self._losses = Losses(link, profile.link_wait_s, brake.settled)
+        self._losses = losses
         self._looking = Looking(profile, senses, places.view_targets)
         self._link = link
         self._real = profile.clock is None or profile.clock.counts_while_idle
@@ -107,6 +114,8 @@ class WireRobot:
         self._task: asyncio.Task[None] | None = None
         self._arm = Arm(profile, senses, hands, self._act, self._go) if profile.arm else None
         self._at: str | None = None
+        self._arrived: tuple[Pose | None, int] = None, 0
+        """Where the base was when it got there, and how often the link had been lost by then."""
         self._spent = 0.0
         self._began: float | None = None
         self._ended: float | None = None
@@ -180,7 +189,7 @@ class WireRobot:
             return await self._done(goal)
         except LinkError as error:
             self._at = None
-            return Failed(in_words(error))
+            return Failed(in_words(error), unreachable=isinstance(error, NoLinkError))
         except Exception as error:
             return Failed(f"something is wrong with what my robot says: {in_words(error)}")
 
@@ -213,16 +222,16 @@ class WireRobot:
             case LookAt(place, view, point):
                 return await self._losses.outlived(lambda: self._look(place, view, point))
             case Pick(detection):
-                return await self._pick(detection)
+                return await self._losses.outlived(lambda: self._pick(detection), again=False)
             case PutDown(place):
-                return await self._put_down(place)
+                return await self._losses.outlived(lambda: self._put_down(place), again=False)
             case Halt():
                 return await self._halt()
 
     async def _halt(self) -> Succeeded | Failed:
         if self._link.loss:
             try:
-                await self._link.ready(STOPPING_S)
+                await self._link.ready(0.0 if self._losses.is_for_good else STOPPING_S)
             except LinkError as error:
                 return Failed(f"{CANNOT_STOP}: {in_words(error)}")
         failures = await self._brake.cancel_all()
@@ -256,7 +265,7 @@ class WireRobot:
                 return self._actions.failure(end, f"I did not get to the {place}", lost)
             if lost:
                 return Failed(f"what I held fell on the way to the {place}", lost)
-        self._at = place
+        self._at, self._arrived = place, (self._senses.base, self._link.losses)
         return Succeeded()
 
     async def _go(self, pose: Planar) -> str:
@@ -264,6 +273,18 @@ class WireRobot:
         where = planar_pose(*pose, self._profile.frames.map)
         end = await self._act("drive", {"pose": where, "place": self._at or ""})
         return "" if end.succeeded else self._actions.failure(end, "I cannot drive there").reason
+
+    async def _is_at(self, place: str) -> bool:
+        """Whether it is where it last got to; without a link nobody knew whether it was moved."""
+        then, losses = self._arrived
+        if self._at != place or losses == self._link.losses:
+            return self._at == place
+        now = await self._senses.base_anew(TELLING_S)
+        if then is not None and (now is None or math.dist(now.position, then.position) > MOVED_M):
+            self._at = None
+        else:
+            self._arrived = then, self._link.losses
+        return self._at == place
 
     def _stand(self, place: str) -> Planar | None:
         try:
@@ -288,7 +309,7 @@ class WireRobot:
     # --- looking ---
 
     async def _look(self, place: str, view: int, point: Vector3 | None) -> Succeeded | Failed:
-        if place != FLOOR and self._at != place:
+        if place != FLOOR and not await self._is_at(place):
             return Failed(f"I am not at the {place}")
         if not 0 <= view < self.views(place):
             return Failed(f"there are only {self.views(place)} views of the {place}")
@@ -342,7 +363,7 @@ class WireRobot:
     async def _put_down(self, place: str) -> Succeeded | Failed:
         if not self._profile.has_arm:
             return Failed("I have no arm")
-        if self._at != place:
+        if not await self._is_at(place):
             return Failed(f"I am not at the {place}")
         if place == PERSON:
             return Failed("I can only put things down on furniture")

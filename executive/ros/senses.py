@@ -41,10 +41,12 @@ class Senses:
         self._base_moves: bool | None = None
         self._joints_move: bool | None = None
         self._newest = 0.0
+        self._framed = 0
+        """How often the link had been lost when frames were last told."""
         self._endings: list[Callable[[], None]] = []
         kind = "tf2_msgs/msg/TFMessage"
         link.subscribe("/tf_static", kind, lambda message: self.frames.take(message, fixed=True))
-        link.subscribe("/tf", kind, self.frames.take)
+        link.subscribe("/tf", kind, self._take_frames)
         if profile.clock is not None:
             link.subscribe(profile.clock.topic, "rosgraph_msgs/msg/Clock", self._take_clock)
         self._felt = asyncio.Event()
@@ -68,6 +70,15 @@ class Senses:
     def base(self) -> Pose | None:
         """Where the base is in the map; None if nobody tells."""
         return self.frames.pose(self._profile.frames.base, self._profile.frames.map)
+
+    async def base_anew(self, within_s: float) -> Pose | None:
+        """Where the base is in the map, as told since the link was last lost; None if it is not."""
+        latest = time.monotonic() + within_s
+        while self._framed != self._link.losses:
+            if time.monotonic() > latest:
+                return None
+            await asyncio.sleep(0.01)
+        return self.base
 
     async def feel_hand_anew(self) -> None:
         """Hear again what is in the hand: what a goal has changed may be told after its end."""
@@ -114,6 +125,10 @@ class Senses:
         return f"my {' and my '.join(moving)} {verb}"
 
     # --- what comes ---
+
+    def _take_frames(self, message: Message) -> None:
+        self.frames.take(message)
+        self._framed = self._link.losses
 
     def _take_clock(self, message: Message) -> None:
         self.clock, self.clock_heard = seconds(message["clock"]), time.monotonic()

@@ -22,6 +22,8 @@ class Ending:
     """Who said stop; empty if nobody did. No tick comes after this, or the next two."""
     broke: str = field(default="", metadata=NOT_LOGGED)
     """Why the program itself failed; empty if it did not."""
+    unreachable: str = field(default="", metadata=NOT_LOGGED)
+    """Why there is no way to the robot any more; empty if there is one, as far as is known."""
     decided: bool = field(default=False, metadata=NOT_LOGGED)
     """Whether the tree has decided how the mission ends."""
     restless: bool = False

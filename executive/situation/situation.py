@@ -34,6 +34,7 @@ from executive.types import (
     PERSON,
     Command,
     CommandKind,
+    Failed,
     MissionStatus,
     Outcome,
     Replied,
@@ -88,6 +89,8 @@ class Situation:
                 self.request.words = words
             case Ended(result=Replied() | Scored()):
                 self.model.calls += 1
+            case Ended(result=Failed(reason, unreachable=True)):
+                self.ending.unreachable = reason
             case StopRequested(by):
                 self.ending.stop(by)
             case Broke(reason):

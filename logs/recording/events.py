@@ -65,8 +65,8 @@ def _beside_its_gist(event: Event) -> dict[str, Any]:
 
 def _result_fields(result: Result) -> dict[str, Any]:
     match result:
-        case Failed(lost=lost):
-            return {"lost": lost}
+        case Failed(lost=lost, unreachable=unreachable):
+            return {"lost": lost, "unreachable": unreachable}
         case Saw(number, detections):
             return {"frame_number": number, "detections": [_to_fields(d) for d in detections]}
         case Replied() | Scored():
@@ -90,7 +90,7 @@ _EVENTS: dict[type, Callable[[Any], Event]] = {
 }
 _RESULTS: dict[type, Callable[[Any], Result]] = {
     Succeeded: lambda _: Succeeded(),
-    Failed: lambda message: Failed(message.text, message.lost),
+    Failed: lambda message: Failed(message.text, message.lost, message.unreachable),
     Answered: lambda message: Answered(message.text),
     Saw: lambda message: Saw(message.frame_number, tuple(map(_detection, message.detections))),
     Replied: lambda message: llm_call_from_message(message.llm_call).result,

@@ -127,6 +127,7 @@ EVENT: Definitions = {
         "deed": "string",
         "was": "string",
         "confidence": "double",
+        "unreachable": "bool",
     },
 }
 

@@ -113,6 +113,11 @@ class SecondRobot:
     def busy(self) -> bool:
         return bool(self._under_way)
 
+    def is_wanted(self, topic: str) -> bool:
+        """Whether anybody has subscribed to it."""
+        wishes = [tuple(one.values()) for one in tuple(self._clients.values())]
+        return any(wish.topic == topic for one in wishes for wish in one)
+
     def cut(self, *, only_stop: bool = False) -> None:
         """Break off all connections, or that for stopping, where nothing is subscribed to."""
         clients = self._clients.items()

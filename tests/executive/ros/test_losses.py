@@ -2,7 +2,9 @@
 
 import asyncio
 import logging
+import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +13,9 @@ from linking import link_to
 from patience import until
 from second_robot import PROFILE, SecondRobot
 
+from executive.errors import UnreachableError
 from executive.events import Inbox
+from executive.ros.connection import Connection
 from executive.ros.link import LinkError
 from executive.ros.losses import Losses
 from executive.testing.bench import four_rooms
@@ -20,13 +24,15 @@ from executive.types import DriveTo, Failed, Halt, LookAt, Pick, Result, Succeed
 
 LOOK = '[look]\naction = "/acme/go"\ntype = "acme_msgs/action/Go"\nsilent_s = 1.0\n'
 WAIT_S = 20.0
+LATE_S = 0.5
 
 
 class House:
     """The second robot, its link, and a drive to its desk."""
 
-    def __init__(self, there: SecondRobot, bench: Bench, link: Any) -> None:
-        self.there, self.bench, self.link = there, bench, link
+    def __init__(self, there: SecondRobot, bench: Bench, here: Connection) -> None:
+        self.there, self.bench = there, bench
+        self.link, self.camera = here.line.link, here.camera
 
     @property
     def goals(self) -> int:
@@ -53,13 +59,25 @@ def wait_s() -> float:
 
 
 @pytest.fixture
+def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What begins without a link soon gives it up."""
+    for module in ("actions", "camera"):
+        monkeypatch.setattr(f"executive.ros.{module}.LINK_S", 0.1)
+
+
+@pytest.fixture
 def house(tmp_path: Path, wait_s: float) -> Iterator[House]:
     inbox, file = Inbox(), tmp_path / "mine.toml"
     look = f'{LOOK}goal = {{ at = "$point" }}\n'
-    file.write_text(f"link_wait_s = {wait_s}\n{PROFILE.read_text()}\n{look}")
+    rest = PROFILE.read_text().replace("[camera]", f"[camera]\nlate_s = {LATE_S}")
+    file.write_text(f"link_wait_s = {wait_s}\n{rest}\n{look}")
     start = four_rooms().robot_start
     with SecondRobot(start) as there, link_to(there.url, inbox, file) as here:
-        yield House(there, Bench(here.robot, inbox, there.advance), here.line.link)
+        yield House(there, Bench(here.robot, inbox, there.advance), here)
+
+
+def is_unreachable(result: Result) -> bool:
+    return isinstance(result, Failed) and result.unreachable
 
 
 def reason(result: Result) -> str:
@@ -137,8 +155,67 @@ def test_one_that_is_called_off_while_there_is_no_link_never_moves_again(
 def test_a_link_that_does_not_come_back_is_told(house: House) -> None:
     request = house.drive()
     house.lose()
-    said = reason(house.bench.end_of(request))
-    assert said.startswith("I waited 0.3 s, and there is no link to the robot: ")
+    end = house.bench.end_of(request)
+    assert reason(end).startswith("I waited 0.3 s, and there is no link to the robot: ")
+    assert is_unreachable(end)
+
+
+@pytest.mark.parametrize("wait_s", [0.3])
+def test_it_is_not_waited_for_again_neither_by_a_goal_nor_by_a_halt(
+    house: House, hurried: None
+) -> None:
+    request = house.drive()
+    house.lose()
+    house.bench.end_of(request)
+    for goal in (Halt(), DriveTo("sofa"), Pick(nothing_there())):
+        end = house.bench.do(goal)
+        assert "there is no link to the robot: " in reason(end)
+        assert is_unreachable(end) == (goal != Halt())
+
+
+@pytest.mark.parametrize("wait_s", [0.3])
+def test_in_a_grasp_the_link_is_waited_for_too(house: House) -> None:
+    house.there.deaf.add("/acme/grab")
+    request = house.bench.robot.start(Pick(nothing_there()))
+    until(lambda: house.goals, "the grasp")
+    house.lose()
+    assert is_unreachable(house.bench.end_of(request))
+
+
+@pytest.mark.parametrize("wait_s", [0.3])
+def test_a_picture_without_a_link_says_that_the_robot_is_gone(house: House, hurried: None) -> None:
+    house.lose()
+    with pytest.raises(UnreachableError, match="I waited 0.3 s"):
+        house.camera.capture()
+
+
+def test_a_picture_is_taken_when_there_is_a_link_again(house: House) -> None:
+    with ThreadPoolExecutor() as beside:
+        house.there.told["/acme/rgb"] = {"header": {"stamp": {"sec": 0, "nanosec": 0}}}
+        taking = beside.submit(house.camera.capture)
+        until(lambda: house.there.is_wanted("/acme/rgb"), "the wish for a picture")
+        house.lose()
+        house.there.told.clear()
+        time.sleep(2 * LATE_S)
+        house.find()
+        assert taking.result().color.any()
+
+
+def test_a_robot_that_was_moved_while_there_was_no_link_is_not_where_it_was(house: House) -> None:
+    assert house.bench.do(DriveTo("desk")) == Succeeded()
+    house.lose()
+    x, y, yaw = house.there.at
+    house.there.at = x + 1.0, y, yaw
+    house.find()
+    assert house.bench.do(LookAt("desk")) == Failed("I am not at the desk")
+
+
+def test_one_that_was_not_moved_still_is(house: House) -> None:
+    assert house.bench.do(DriveTo("desk")) == Succeeded()
+    house.there.deaf.add("/acme/go")
+    house.there.cut()
+    until(lambda: house.link.losses, "the loss")
+    assert "no sign of /acme/go" in reason(house.bench.do(LookAt("desk")))
 
 
 @pytest.mark.parametrize("wait_s", [0])

@@ -10,7 +10,7 @@ from executive.interfaces import SimulatedHome
 from executive.language.wording import Wording
 from executive.records import EventTaken, Record, Tick
 from executive.text import printable
-from executive.types import FLOOR, Goal, LookAt, Saw, Succeeded
+from executive.types import FLOOR, HAND, Goal, LookAt, Saw, Succeeded
 from logs.recorder import Stamp
 
 NAME = r"(?P<thing>[a-z][a-z0-9_]*)"
@@ -77,10 +77,9 @@ class Witness:
         self.look()
 
     def look(self) -> None:
-        """Note where everything is."""
+        """Note where everything is; what is on no furniture is most likely in the hand."""
         for name in self._names:
-            if place := self._world.resting_place(name):
-                self.was_at[name].add(place)
+            self.was_at[name].add(self._world.resting_place(name) or HAND)
 
     def heard(self, text: str) -> None:
         """Judge a sentence of the robot's."""
