@@ -4,6 +4,7 @@ A question is answered, and what is told is remembered; a further wish goes on t
 correction takes the place of the task at hand; what is taken back is not done.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -28,11 +29,12 @@ from executive.language.wording import either
 from executive.replies import Standing, about, reply
 from executive.situation import Situation, Task
 from executive.text import too_long
-from executive.types import Command, Commands
+from executive.types import Command, CommandKind, Commands
 from trees.context import MissionContext
 from trees.telling import in_one_sentence
 
 _IT = frozenset(("it", "that", "this", "them"))
+_FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
 _ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
 
 
@@ -57,6 +59,9 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         said = correction or resolved(said, spoken)  # "it is on the sofa"
     if said == Answer(Choice.YES):
         return now
+    named = getattr(correction, "meant", None) if correction else getattr(said, "things", None)
+    if at_hand and isinstance(named, Things) and context.interpreter.only(words):
+        return _only(context, named, words, at_hand)
     if denial := not correction and context.interpreter.denial(words):
         return _refuse(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
@@ -67,6 +72,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         case Refusal() if answer := _refuse(context, said.words, at_hand):
             return answer
         case Refusal() if said.words and not _named(context, said.words):
+            if _FORGETS.search(words) and (all_of_it := _refuse(context, "everything", at_hand)):
+                return all_of_it  # what nobody knows may be all that is to be done
             return f"{NOT_KNOWN_WHAT.format('not')} {now}"
         case Request() if answer := _reply(context, said, now):
             return answer
@@ -75,6 +82,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
             if (alone := left_alone(said)) and isinstance(commands, tuple):
                 return _instead_of(context, alone, commands, at_hand)
             if at_hand and isinstance(commands, tuple):
+                if fails := _if_it_fails(context, commands, at_hand):
+                    return _replace(context, ((fails,),))
                 if _in_its_stead(context, said, at_hand):
                     return _replace(context, commands)
                 if said.first:
@@ -138,6 +147,18 @@ def correct(context: MissionContext, said: Correction, words: str, now: str) -> 
     return _replace(context, commands)
 
 
+def differs(context: MissionContext, said: Request, words: str) -> bool:
+    """Whether something else is asked for than what is at hand, and nothing beside it."""
+    at_hand = context.situation.request.command
+    commands = commands_in(resolved(said, spoken_now(context.situation)), words)
+    if at_hand is None or not isinstance(commands, tuple):
+        return False
+    [command, *others] = [one for group in commands for one in group]
+    same = _objects(context, command) == _objects(context, at_hand)
+    where = (command.kind, command.source, command.goal)
+    return bool(others) or not same or where != (at_hand.kind, at_hand.source, at_hand.goal)
+
+
 def _correct_later(context: MissionContext, said: Correction, at_hand: Command, words: str) -> str:
     """Change the task that waits, if it is that which is not meant: "the pear, not the apple"."""
     agenda = context.situation.agenda
@@ -155,14 +176,22 @@ def _correct_later(context: MissionContext, said: Correction, at_hand: Command, 
     return f"All right: I {' and '.join(wishes)} instead."
 
 
-def all_of(context: MissionContext, names: Sequence[str], words: str) -> str:
-    """Do what is at hand with each of these things, which were named where one was asked for."""
+def all_of(
+    context: MissionContext, names: Sequence[str], words: str, *, one_of: bool = False
+) -> str:
+    """Do what is at hand with each of these things, which were named where one was asked for.
+
+    Or with `one_of` them, which takes least time.
+    """
     at_hand = context.situation.agenda.whole_of(context.situation.request.command)
     assert at_hand
     things = (context.say.words(name) for name in names)
-    meant = Things(tuple(Thing(thing, definite=True, said=thing) for thing in things))
+    meant = Things(tuple(Thing(thing, definite=True, said=thing) for thing in things), one_of)
     commands = corrected(Correction(meant), at_hand, words)
-    return commands if isinstance(commands, str) else _replace(context, commands, "")
+    if isinstance(commands, str):
+        return commands
+    said = _replace(context, commands, "")
+    return "All right: I choose the one that takes least time." if one_of else said
 
 
 def _replace(context: MissionContext, commands: Commands, instead: str = " instead") -> str:
@@ -176,9 +205,55 @@ def _replace(context: MissionContext, commands: Commands, instead: str = " inste
 def _do_first(context: MissionContext, commands: Commands, at_hand: Command) -> str:
     """Do these at once, and the task at hand after them."""
     first, *others = [command for group in commands for command in group]
-    context.situation.agenda.replace(first, [*others, at_hand])
-    then = " and ".join(in_one_sentence(context, one) for one in (first, *others))
-    return f"All right: I {then} first."
+    agenda = context.situation.agenda
+    agenda.tasks[:] = [t for t in agenda.tasks if not _same(t.command, (first, *others))]
+    if not _same(at_hand, (first, *others)):
+        others.append(at_hand)
+    agenda.replace(first, others)
+    wishes = [in_one_sentence(context, one) for group in commands for one in group]
+    return f"All right: I {' and '.join(wishes)} first."
+
+
+def _same(command: Command, others: Sequence[Command]) -> bool:
+    """Whether it is one of the others, however it was said."""
+    return replace(command, words="") in [replace(one, words="") for one in others]
+
+
+def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) -> Command | None:
+    """The task at hand with what is to be done if the thing is not there; None if that is unasked.
+
+    As in "if you cannot find it, bring the mug".
+    """
+    match commands:
+        case [[Command(kind=CommandKind.CHECK, conditional=True, unless=Command()) as command]]:
+            pass
+        case _:
+            return None
+    if at_hand.conditional or _objects(context, command) != _objects(context, at_hand):
+        return None
+    sought = replace(command, conditional=False, unless=None) if command.source else None
+    source = command.source or at_hand.source
+    return replace(at_hand, conditional=True, source=source, sought=sought, unless=command.unless)
+
+
+def _only(context: MissionContext, things: Things, words: str, at_hand: Command) -> str:
+    """Do what is named, and nothing else that was to be done; or do it instead of all of that."""
+    agenda = context.situation.agenda
+    named = _named(context, " or ".join(thing.words for thing in things.members))
+    if not named:
+        return f"{context.interpreter.not_understood(words)}."
+    waiting = [task for task in agenda.tasks if named & _objects(context, task.command)]
+    for task in [task for task in agenda.tasks if task not in waiting and not task.depth]:
+        agenda.strike_out(task)
+    wishes = [task.command for task in waiting]
+    if named & _objects(context, at_hand):
+        wishes.insert(0, at_hand)
+    elif waiting:
+        agenda.take_back()
+    else:
+        return correct(context, Correction(things), words, "")
+    wanted = " and ".join(in_one_sentence(context, one) for one in wishes)
+    return f"All right: I {wanted}, and nothing else."
 
 
 def _instead_of(

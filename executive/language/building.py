@@ -216,6 +216,10 @@ class Builder(Deeds):
         """As in "whichever"."""
         return Answer(Choice.ANY)
 
+    def nearest(self, parts: list[Part]) -> Answer:
+        """As in "whichever is closest"."""
+        return Answer(Choice.NEAREST)
+
     def both(self, parts: list[Part]) -> Answer:
         """As in "both", "all of them"."""
         return Answer(Choice.ALL)

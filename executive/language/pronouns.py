@@ -75,23 +75,29 @@ def with_names(said: Correction, spoken: Spoken) -> Correction:
 
 
 def _tasks(
-    tasks: tuple[Task, ...], spoken: Spoken, holds: bool, things: Things | None = None
+    tasks: tuple[Task, ...],
+    spoken: Spoken,
+    holds: bool,
+    things: Things | None = None,
+    place: Where | None = None,
 ) -> tuple[Task, ...]:
     """With names for what was named before in the same breath, else for what was spoken of.
 
-    What a condition names is nearer than that: "if there is an apple, bring it". The `things` are
-    what was named before all of the tasks.
+    What a condition names is nearer than that: "if there is an apple, bring it". The `things` and
+    the `place` are what was named before all of the tasks.
     """
     done: list[Task] = []
     named: tuple[Thing, ...] = things.members if things else ()
-    place: Where | None = None
     for task in folded([_after_question(task, spoken) for task in tasks]):
+        if not (things or spoken.things):
+            task = _with_own_things(task)
         before = _named_in(task.sought) or (_all_of(task.things, named) or things)
         meant = _meant_by(task, before, spoken, holds)
         source, goal = (_where(where, things, place, spoken) for where in (task.source, task.goal))
         if _is_there(source) and (task.verb in _ANYWHERE or asks_for_things(task)):
             source = None  # "how many fruits are there"
-        sought = task.sought and _tasks((task.sought,), spoken, holds, meant)[0]
+        nearest = _before_condition(task, meant, things, spoken)
+        sought = task.sought and _tasks((task.sought,), spoken, holds, nearest, place)[0]
         done.append(replace(task, things=meant, source=source, goal=goal, sought=sought))
         things = meant if meant and not is_it(meant) else things
         named += things.members if things and things is meant else ()
@@ -99,12 +105,33 @@ def _tasks(
     return tuple(done)
 
 
+def _with_own_things(task: Task) -> Task:
+    """Where nothing was spoken of, "it" in "if it is not there, bring the pear" is the pear."""
+    of_nothing = task.verb == CommandKind.CHECK and task.sought is None and is_it(task.things)
+    if of_nothing and task.unless and task.unless.things:
+        return replace(task, things=task.unless.things)
+    return task
+
+
+def _before_condition(
+    task: Task, meant: Things | None, things: Things | None, spoken: Spoken
+) -> Things | None:
+    """What a condition may call "it".
+
+    In "if it is on the desk, bring the pear" that was spoken of before, if anything was; otherwise
+    it is what is to be done something with.
+    """
+    if task.sought and is_it(task.sought.things) and not is_it(task.things):
+        return things or (None if spoken.things else meant)
+    return meant
+
+
 def _after_question(task: Task, spoken: Spoken) -> Task:
     """The same with what was asked last as its condition: "is there a mug?", "if so, bring it"."""
     asked = spoken.request.tasks[-1] if spoken.request else None
     if task.sought != SO or asked is None or asked.verb != CommandKind.CHECK:
         return task
-    if task.unless:
+    if task.things is None and task.verb == CommandKind.CHECK:  # "if not, bring the pear"
         return replace(asked, conditional=True, unless=task.unless)
     return replace(task, sought=asked)
 
@@ -215,7 +242,8 @@ def _another(thing: Thing, spoken: Spoken) -> Thing:
     if not kind:
         return thing
     others = tuple(Thing(name, said=name) for name in spoken.things)
-    return Thing(kind, 1, exceptions=(*thing.exceptions, *others), said=kind)
+    number = thing.number or 1
+    return Thing(kind, number, exceptions=(*thing.exceptions, *others), said=kind)
 
 
 def _where(

@@ -76,6 +76,7 @@ class Reader:
         self._denials = re.compile(rf"\b(?:{_any_of(words['negations'] + words['denials'])})\b")
         self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
         self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
+        self._only = re.compile(rf"^(?:no,? )?(?:please )?(?:{_any_of(words['only'])})(?= )")
         self._conditions = re.compile(rf"\b(?:{_any_of(words['conditions'])})\b")
         self._numbers: dict[str, int] = words["numbers"]
         self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
@@ -195,6 +196,10 @@ class Reader:
         each = self.plain(words).replace(",", " ").split()
         said = ((w, int(w) if w.isdecimal() else self._numbers.get(w, 1)) for w in each)
         return [(word, number) for word, number in said if number != 1]
+
+    def only(self, words: str) -> bool:
+        """Whether they begin with a word that says that nothing else is meant."""
+        return self._only.search(plain_letters(words)) is not None
 
     def declines(self, words: str) -> bool:
         """Whether there is something among them that people say who do not know."""

@@ -59,6 +59,62 @@ def test_a_correction_takes_the_place_of_the_task_at_any_moment(at: int) -> None
     assert mission.world.resting_place("hammer") == "shelf_lobby"
 
 
+def test_who_changed_their_mind_has_the_new_wish_done_and_no_other() -> None:
+    mission = run("Bring the hammer", "I changed my mind, bring the mug")
+    assert tasks(mission) == [("bring", "mug", DONE)]
+
+
+@pytest.mark.parametrize("words", ["Forget the mug", "Never mind the mug", "Forget about the mug"])
+def test_what_is_to_be_forgotten_is_not_done_and_the_rest_is(words: str) -> None:
+    mission = run("Bring the hammer, then the mug", words)
+    assert [(kind, status) for kind, _, status in tasks(mission)] == [
+        ("bring", NOT_DONE),
+        ("bring", DONE),
+    ]
+    assert mission.world.resting_place("hammer") == "delivery"
+    assert mission.world.resting_place("mug") != "delivery"
+
+
+def test_forgetting_what_nobody_knows_ends_all() -> None:
+    mission = run("Bring the hammer, then the mug", "Forget the coffee")
+    assert {status for _, _, status in tasks(mission)} == {NOT_DONE}
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+
+
+@pytest.mark.parametrize(
+    ("words", "brought"),
+    [
+        ("only the mug", {"mug"}),
+        ("just the hammer, please", {"hammer"}),
+        ("no, just the mug", {"mug"}),
+        ("only the pear", {"pear"}),
+    ],
+)
+def test_only_this_is_nothing_else(words: str, brought: set[str]) -> None:
+    mission = run("Bring the hammer, then the mug", words)
+    things = ("hammer", "mug", "pear")
+    assert {x for x in things if mission.world.resting_place(x) == "delivery"} == brought
+
+
+def test_what_is_to_be_done_first_is_not_done_twice() -> None:
+    mission = run("Bring the hammer, then the mug, then the pear", "Bring the pear first")
+    assert [name for _, name, _ in tasks(mission)].count("pear") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "brought"),
+    [
+        ("If you can't find it, bring the mug", "hammer"),
+        ("If it isn't on the shelf, bring the mug", "hammer"),
+        ("If it isn't on the desk, bring the mug", "mug"),
+    ],
+)
+def test_what_to_do_if_it_fails_is_no_further_wish(words: str, brought: str) -> None:
+    mission = run("Bring the hammer", words)
+    things = ("hammer", "mug")
+    assert [x for x in things if mission.world.resting_place(x) == "delivery"] == [brought]
+
+
 @pytest.mark.physics
 def test_what_was_half_taken_in_physics_is_put_away_first(tmp_path: Path) -> None:
     inbox, clocks = Inbox(), []
