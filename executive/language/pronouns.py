@@ -20,6 +20,7 @@ from executive.language.meaning import (
     Things,
     Where,
 )
+from executive.language.phrases import is_plural
 from executive.language.spoken import QUESTIONS, Spoken, called
 from executive.types import CommandKind
 
@@ -150,6 +151,8 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
     seen = not before and spoken.request and spoken.request.tasks[-1].verb in QUESTIONS
     if seen and (rest := _all_but(task.things, members)):
         return rest
+    if seen and len(members) > 1 and is_it(task.things) and not of_several(task.things):
+        return _which(task.things, spoken)
     if before and (other := _the_other(task.things, before, spoken)):
         return other
     if picked := _picked(task.things, members):
@@ -161,6 +164,14 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
         return before.without(task.things.exceptions) if named else task.things
     in_hand = holds and task.verb in _OF_THE_HAND
     return task.things if in_hand else _things(task.things, spoken)
+
+
+def _which(things: Things, spoken: Spoken) -> Things:
+    """As in "bring it", where several were seen: that has to be asked."""
+    if not spoken.called or is_plural(spoken.called):
+        return things
+    kind = Thing(spoken.called, definite=True, said=spoken.called)
+    return Things((kind,)).without(things.exceptions)
 
 
 def _all_of(things: Things | None, named: tuple[Thing, ...]) -> Things | None:
@@ -180,7 +191,7 @@ def _picked(things: Things, members: tuple[Thing, ...]) -> Things | None:
         at = which - (which > 0)
         return Things((members[at],)) if -len(members) <= at < len(members) and which else None
     if number == ALL or number == len(members) or (of_several(things) and not number):
-        return Things(members).without(thing.exceptions)
+        return _less(members, thing.exceptions)
     some = Things(members, one_of=True, number=number).without(thing.exceptions)
     return some if 0 < number < len(members) else None
 
@@ -192,9 +203,14 @@ def _all_but(things: Things, members: tuple[Thing, ...]) -> Things | None:
     [thing] = things.members
     if thing.words or thing.number != ALL or not thing.said.startswith("all"):
         return None
-    left_out = {but.words for but in thing.exceptions}
-    rest = tuple(one for one in members if one.words.replace("_", " ") not in left_out)
-    return Things(rest) if rest else None
+    return _less(members, thing.exceptions)
+
+
+def _less(members: tuple[Thing, ...], left_out: tuple[Thing, ...]) -> Things:
+    """Those that are not left out: "them but not the pear"."""
+    names = {but.words for but in left_out}
+    rest = tuple(one for one in members if one.words.replace("_", " ") not in names)
+    return Things(rest) if rest and len(rest) < len(members) else Things(members).without(left_out)
 
 
 def _the_other(things: Things, before: Things, spoken: Spoken) -> Things | None:
@@ -227,8 +243,8 @@ def _meant(thing: Thing, spoken: Spoken) -> tuple[Thing, ...]:
     """The things that a word stands for."""
     if thing.other:
         return (_another(thing, spoken),)
-    if not thing.pronoun or not spoken.things:
-        return (thing,)
+    if not thing.pronoun or not spoken.things or thing.place_in_list is not None:
+        return (thing,)  # of these, a number in the list is known already, or there is none
     if (thing.number or 0) > 1 and (kind := spoken.called or spoken.things[-1]):
         return (Thing(kind, thing.number, said=f"{thing.said.partition(' ')[0]} {kind}"),)
     every = thing.number == ALL or of_several(Things((thing,)))

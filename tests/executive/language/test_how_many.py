@@ -3,7 +3,7 @@
 import pytest
 
 from executive.language.grammar import EnglishInterpreter
-from executive.language.spoken import NOTHING, after
+from executive.language.spoken import NOTHING, Spoken, after
 
 read = EnglishInterpreter()
 
@@ -58,3 +58,66 @@ def test_what_is_to_be_gone_from_a_place_is_not_put_there() -> None:
     [[command]] = read.commands("Get rid of the mug on the desk")
     assert (command.kind, command.target) == ("clear", "mug")
     assert (command.source, command.goal) == ("desk", "")
+
+
+def seen(question: str, *things: str) -> Spoken:
+    """What is spoken of when these were told in answer to a question."""
+    return after(read.read(question), NOTHING, things=things, place="desk")
+
+
+def targets(words: str, spoken: Spoken) -> list[str]:
+    return [command.target for group in read.commands(words, spoken) for command in group]
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("Bring both", ["mug", "pear"]),
+        ("Put both on the sofa", ["mug", "pear"]),
+        ("Bring them but not the pear", ["mug"]),
+        ("Bring them except the mug", ["pear"]),
+        ("Bring the third one", ["third one"]),
+        ("Bring the second one", ["pear"]),
+    ],
+)
+def test_which_of_two_are_meant(words: str, meant: list[str]) -> None:
+    two = after(read.read("Find the mug and the pear"), NOTHING, things=("mug", "pear"))
+    assert targets(words, two) == meant
+
+
+def test_the_first_of_one_is_not_guessed() -> None:
+    one = after(read.read("Find the pear"), NOTHING, things=("pear",))
+    assert targets("Bring the first one", one) == ["first one"]
+
+
+@pytest.mark.parametrize(
+    ("question", "meant"),
+    [
+        ("Is there a fruit on the desk?", "fruit"),
+        ("How many fruits are on the desk?", "it"),
+        ("What is on the desk?", "it"),
+    ],
+)
+def test_which_of_several_that_were_seen_it_is_has_to_be_asked(question: str, meant: str) -> None:
+    assert targets("Bring it", seen(question, "apple", "pear")) == [meant]
+    assert targets("Bring it", seen(question, "apple")) == ["apple"]
+
+
+@pytest.mark.parametrize(
+    ("words", "goal"),
+    [
+        ("And the pear on the bed", "bed"),
+        ("Do the same with the pear", "sofa"),
+        ("What about the pear?", "sofa"),
+        ("Now the pear", "sofa"),
+    ],
+)
+def test_the_same_may_be_asked_for_with_another_thing(words: str, goal: str) -> None:
+    before = after(read.read("Put the mug on the sofa"), NOTHING, things=("mug",), place="sofa")
+    [[command]] = read.commands(words, before)
+    assert (command.kind, command.target, command.goal) == ("put", "pear", goal)
+
+
+def test_the_same_may_be_asked_about_another_place() -> None:
+    [[command]] = read.commands("And on the sofa?", seen("What is on the desk?", "mug"))
+    assert (command.kind, command.source) == ("tell", "sofa")
