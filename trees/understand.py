@@ -6,7 +6,6 @@ from itertools import chain
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.language.corrections import corrected
 from executive.language.meaning import Answer, Correction, Request, Said, Unread
 from executive.records import Utterance
 from executive.types import HELD, Command, MissionStatus, Question, QuestionKind
@@ -182,11 +181,6 @@ class ConfirmCommand(AskYesNo):
             return True
         if (wish := self._wish(said, words)) is None:
             return super()._attend_to(said, words)
-        if wish.meant is None:  # "yes, to the desk": all of it
-            for task in [*self.situation.agenda.tasks]:
-                match corrected(wish, task.command, words):
-                    case [[command]]:
-                        self.situation.agenda.change(task, command)
         tell(self.context, correct(self.context, wish, words, f"I {self.doing()}."))
         return True
 

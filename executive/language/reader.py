@@ -125,7 +125,9 @@ class Reader:
         if not isinstance(self.read(words), Unread):
             return None
         corrected = corrected_in_one_breath(plain, self._turn, self._read, likely=True)
-        return corrected or with_pauses(plain, self._deed, self._read, likely=True)
+        if corrected or (likely := with_pauses(plain, self._deed, self._read, likely=True)):
+            return corrected or likely
+        return beside_a_request(plain, self._asides, self._pause, self._read_loosely, likely=True)
 
     def _read(self, text: str) -> Said:
         """The same of words in plain form."""

@@ -103,6 +103,7 @@ def test_what_is_wished_behind_a_yes_is_meant_of_all() -> None:
     [
         ("bring mug desk", "I know no 'mug desk'. Do you mean the mug? I make nothing of 'desk'."),
         ("brng the pear if the mug is on the desk", "Do you mean: bring the pear if the mug is on"),
+        ("The mug is on the desk. Bring the pear", "bring the pear? I make nothing of 'mug' and"),
         ("brng a pear if there is one, otherwise the mug", "or else bring the mug?"),
     ],
 )

@@ -96,6 +96,59 @@ def test_only_this_is_nothing_else(words: str, brought: set[str]) -> None:
     assert {x for x in things if mission.world.resting_place(x) == "delivery"} == brought
 
 
+@pytest.mark.parametrize("words", ["only the pear", "just the pear, please", "no, only the pear"])
+@pytest.mark.parametrize("wanted", ["Bring two fruits", "Bring all the fruits"])
+def test_only_this_of_several_is_not_all_of_them(wanted: str, words: str) -> None:
+    mission = run(wanted, words)
+    brought = [x for x, at in mission.world.things.items() if at == "delivery"]
+    assert brought == ["pear"]
+
+
+@pytest.mark.parametrize("words", ["leave the mug", "not the mug", "leave the mug there"])
+@pytest.mark.parametrize("at", [1, 2, 3])
+def test_what_is_to_be_left_is_not_cleared_away(words: str, at: int) -> None:
+    during = saying(words, at)
+    place = {"mug": "desk", "apple": "desk"}
+    mission = run_mission("Clear the desk", llm=False, during=during, place=place)
+    assert mission.world.resting_place("mug") == "desk"
+    assert mission.world.resting_place("apple") != "desk"
+
+
+def test_of_all_but_one_the_others_are_brought() -> None:
+    mission = run("Bring all the tools", "not the hammer")
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+    assert mission.world.resting_place("power_drill") == "delivery"
+
+
+@pytest.mark.parametrize(
+    "words", ["to the desk", "No, to the desk", "Put them on the desk instead"]
+)
+def test_another_place_is_that_of_all_that_was_asked_for_in_one_breath(words: str) -> None:
+    mission = run("Bring the mug and the hammer", words)
+    assert mission.world.resting_place("mug") == "desk"
+    assert mission.world.resting_place("hammer") == "desk"
+
+
+def test_another_place_is_not_that_of_what_has_one_of_its_own() -> None:
+    mission = run("Put the mug on the sofa and the hammer on the bed", "no, to the desk")
+    places = {mission.world.resting_place("mug"), mission.world.resting_place("hammer")}
+    assert "desk" in places
+    assert len(places) == 2
+
+
+def test_both_are_those_of_one_breath() -> None:
+    mission = run("Bring the mug and the hammer", "Put both on the desk")
+    assert mission.world.resting_place("mug") == "desk"
+    assert mission.world.resting_place("hammer") == "desk"
+
+
+@pytest.mark.parametrize("words", ["not on the sofa", "anywhere but on the sofa"])
+def test_where_it_is_not_to_go_is_asked_about(words: str) -> None:
+    during = saying(words, 1)
+    mission = run_mission("Put the hammer on the sofa", llm=False, during=during, answers=["desk"])
+    assert mission.world.resting_place("hammer") == "desk"
+
+
 def test_what_is_to_be_done_first_is_not_done_twice() -> None:
     mission = run("Bring the hammer, then the mug, then the pear", "Bring the pear first")
     assert [name for _, name, _ in tasks(mission)].count("pear") == 1
