@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from executive.language.commands import NOT_KNOWN_WHAT, THING, commands_in, left_alone
+from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
 from executive.language.folding import of_several
 from executive.language.meaning import (
@@ -23,21 +23,19 @@ from executive.language.meaning import (
     Thing,
     Things,
 )
-from executive.language.phrases import NEGATION
 from executive.language.placed import placed
 from executive.language.pronouns import resolved, with_names
 from executive.language.spoken import Spoken
-from executive.language.wording import either
 from executive.replies import Standing, about, reply
-from executive.situation import Situation, Task
+from executive.situation import Situation
 from executive.text import too_long
-from executive.types import ALL, Command, CommandKind, Commands
+from executive.types import Command, CommandKind, Commands
 from trees.context import MissionContext
+from trees.taken_back import is_about, refused
 from trees.telling import in_one_sentence
+from trees.wishes import added, done_first, named_in, objects_of, replaced
 
-_IT = frozenset(("it", "that", "this", "them"))
 _FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
-_ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
 
 
 def attend_to(context: MissionContext, words: str, now: str) -> str:
@@ -61,23 +59,23 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         said = correction or resolved(said, spoken)  # "it is on the sofa"
     if said == Answer(Choice.YES):
         return now
-    named = getattr(correction, "meant", None) if correction else getattr(said, "things", None)
+    named = correction.meant if correction else said.things if isinstance(said, Answer) else None
     if at_hand and isinstance(named, Things) and context.interpreter.only(words):
         return _only(context, named, words, at_hand)
     if denial := not correction and context.interpreter.denial(words):
         if at_hand and _denies_goal(context, words, at_hand):
             context.situation.agenda.replace(replace(at_hand, goal=""))
             return "Then not there."
-        return _refuse(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
+        return refused(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
         case Courtesy():
             return context.interpreter.talk(words)
         case Question() | Statement():
             return _reply(context, said, now) or context.interpreter.talk(words)
-        case Refusal() if answer := _refuse(context, said.words, at_hand):
+        case Refusal() if answer := refused(context, said.words, at_hand):
             return answer
-        case Refusal() if said.words and not _named(context, said.words):
-            if _FORGETS.search(words) and (all_of_it := _refuse(context, "everything", at_hand)):
+        case Refusal() if said.words and not named_in(context, said.words):
+            if _FORGETS.search(words) and (all_of_it := refused(context, "everything", at_hand)):
                 return all_of_it  # what nobody knows may be all that is to be done
             return f"{NOT_KNOWN_WHAT.format('not')} {now}"
         case Request() if answer := _reply(context, said, now):
@@ -88,12 +86,12 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
                 return _instead_of(context, alone, commands, at_hand)
             if at_hand and isinstance(commands, tuple):
                 if fails := _if_it_fails(context, commands, at_hand):
-                    return _replace(context, ((fails,),))
+                    return replaced(context, ((fails,),))
                 if _in_its_stead(context, said, at_hand):
-                    return _replace(context, commands)
+                    return replaced(context, commands)
                 if said.first:
-                    return _do_first(context, commands, at_hand)
-            return _add(context, commands, now)
+                    return done_first(context, commands, at_hand)
+            return added(context, commands, now)
     if correction and at_hand:
         return correct(context, correction, words, now)
     why_not = context.interpreter.remark(words)
@@ -102,7 +100,7 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
 
 def _denies_goal(context: MissionContext, words: str, at_hand: Command) -> bool:
     """Whether it is the place where the thing is to go that is not meant: "not on the sofa"."""
-    if at_hand.kind != CommandKind.PUT or _named(context, words):
+    if at_hand.kind != CommandKind.PUT or named_in(context, words):
         return False
     places = context.knowledge.places_named
     said = (place for place in placed(words, context.knowledge.is_place) if place)
@@ -140,7 +138,7 @@ def _in_its_stead(context: MissionContext, said: Request, at_hand: Command) -> b
     things = [t for task in said.tasks if task.things for t in task.things.members]
     certain = (t for t in things if t.definite and t.number is None)
     left_out = (but.words for thing in certain for but in thing.exceptions if but.words)
-    return any(_is_about(context, words, at_hand) for words in left_out)
+    return any(is_about(context, words, at_hand) for words in left_out)
 
 
 def _reply(context: MissionContext, said: Question | Statement | Request, now: str) -> str:
@@ -168,8 +166,8 @@ def correct(context: MissionContext, said: Correction, words: str, now: str) -> 
         return changed
     commands = corrected(with_names(said, spoken), at_hand, words)
     if said.adds or not isinstance(commands, tuple):
-        return _add(context, commands, now)
-    return _replace(context, (*commands, *_likewise(context, said, at_hand, commands, words)))
+        return added(context, commands, now)
+    return replaced(context, (*commands, *_likewise(context, said, at_hand, commands, words)))
 
 
 def _likewise(
@@ -181,7 +179,7 @@ def _likewise(
     anew.
     """
     agenda, asked_anew = context.situation.agenda, [one for group in commands for one in group]
-    things = {name for one in asked_anew for name in _objects(context, one)}
+    things = {name for one in asked_anew for name in objects_of(context, one)}
     changed: list[tuple[Command, ...]] = []
     for task in [task for task in agenda.tasks if not task.depth]:
         command = task.command
@@ -190,7 +188,7 @@ def _likewise(
             if isinstance(others := corrected(said, command, words), tuple):
                 agenda.tasks.remove(task)
                 changed += others
-        elif len(asked_anew) > 1 and _objects(context, command) <= things:
+        elif len(asked_anew) > 1 and objects_of(context, command) <= things:
             agenda.tasks.remove(task)
     return tuple(changed)
 
@@ -202,7 +200,7 @@ def differs(context: MissionContext, said: Request, words: str) -> bool:
     if at_hand is None or not isinstance(commands, tuple):
         return False
     [command, *others] = [one for group in commands for one in group]
-    same = _objects(context, command) == _objects(context, at_hand)
+    same = objects_of(context, command) == objects_of(context, at_hand)
     where = (command.kind, command.source, command.goal)
     return bool(others) or not same or where != (at_hand.kind, at_hand.source, at_hand.goal)
 
@@ -211,9 +209,9 @@ def _correct_later(context: MissionContext, said: Correction, at_hand: Command, 
     """Change the task that waits, if it is that which is not meant: "the pear, not the apple"."""
     agenda = context.situation.agenda
     named = " or ".join(thing.words for thing in said.wrong.members) if said.wrong else ""
-    if not (wrong := _named(context, named)) or wrong & _objects(context, at_hand):
+    if not (wrong := named_in(context, named)) or wrong & objects_of(context, at_hand):
         return ""
-    task = next((one for one in agenda.tasks if wrong & _objects(context, one.command)), None)
+    task = next((one for one in agenda.tasks if wrong & objects_of(context, one.command)), None)
     commands = corrected(replace(said, wrong=None), task.command, words) if task else ""
     if not task or not isinstance(commands, tuple):
         return ""
@@ -238,33 +236,8 @@ def all_of(
     commands = corrected(Correction(meant), at_hand, words)
     if isinstance(commands, str):
         return commands
-    said = _replace(context, commands, "")
+    said = replaced(context, commands, "")
     return "All right: I choose the one that takes least time." if one_of else said
-
-
-def _replace(context: MissionContext, commands: Commands, instead: str = " instead") -> str:
-    """Do these at once in place of the task at hand."""
-    first, *others = [command for group in commands for command in group]
-    context.situation.agenda.replace(first, others)
-    then = " and ".join(in_one_sentence(context, one) for one in (first, *others))
-    return f"All right: I {then}{instead}."
-
-
-def _do_first(context: MissionContext, commands: Commands, at_hand: Command) -> str:
-    """Do these at once, and the task at hand after them."""
-    first, *others = [command for group in commands for command in group]
-    agenda = context.situation.agenda
-    agenda.tasks[:] = [t for t in agenda.tasks if not _same(t.command, (first, *others))]
-    if not _same(at_hand, (first, *others)):
-        others.append(at_hand)
-    agenda.replace(first, others)
-    wishes = [in_one_sentence(context, one) for group in commands for one in group]
-    return f"All right: I {' and '.join(wishes)} first."
-
-
-def _same(command: Command, others: Sequence[Command]) -> bool:
-    """Whether it is one of the others, however it was said."""
-    return replace(command, words="") in [replace(one, words="") for one in others]
 
 
 def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) -> Command | None:
@@ -277,7 +250,7 @@ def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) 
             pass
         case _:
             return None
-    if at_hand.conditional or _objects(context, command) != _objects(context, at_hand):
+    if at_hand.conditional or objects_of(context, command) != objects_of(context, at_hand):
         return None
     sought = replace(command, conditional=False, unless=None) if command.source else None
     source = command.source or at_hand.source
@@ -287,17 +260,17 @@ def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) 
 def _only(context: MissionContext, things: Things, words: str, at_hand: Command) -> str:
     """Do what is named, and nothing else that was to be done; or do it instead of all of that."""
     agenda = context.situation.agenda
-    named = _named(context, " or ".join(thing.words for thing in things.members))
+    named = named_in(context, " or ".join(thing.words for thing in things.members))
     if not named:
         return f"{context.interpreter.not_understood(words)}."
     whole = [task for task in agenda.tasks if not task.depth]
-    waiting = [task for task in whole if named & _objects(context, task.command)]
+    waiting = [task for task in whole if named & objects_of(context, task.command)]
     wishes = [task.command for task in waiting]
-    if not all(_objects(context, one) <= named for one in wishes):
+    if not all(objects_of(context, one) <= named for one in wishes):
         return f"{context.interpreter.not_understood(words)}."
     for task in [task for task in whole if task not in waiting]:
         agenda.strike_out(task)
-    if not _objects(context, at_hand) <= named:  # of all that was wanted, only this
+    if not objects_of(context, at_hand) <= named:  # of all that was wanted, only this
         if not waiting:
             return correct(context, Correction(things), words, "")
         agenda.take_back()
@@ -311,96 +284,7 @@ def _instead_of(
     context: MissionContext, alone: str, commands: Commands, at_hand: Command | None
 ) -> str:
     """Do these, and leave alone what is named: it may be what the task at hand is about."""
-    if at_hand and _is_about(context, alone, at_hand):
-        return _replace(context, commands)
-    refused = _refuse(context, alone, None)
-    return " ".join(filter(None, (refused, _add(context, commands, ""))))
-
-
-def _add(context: MissionContext, commands: Commands | str | None, now: str) -> str:
-    """Do these afterwards."""
-    if not isinstance(commands, tuple):
-        return commands or f"I do not understand that. {now}"
-    context.situation.agenda.add(commands)
-    wishes = [in_one_sentence(context, one) for group in commands for one in group]
-    return f"All right: I {' and '.join(wishes)} afterwards."
-
-
-def _refuse(context: MissionContext, words: str, at_hand: Command | None) -> str:
-    """Do nothing that the words are about, now or later; empty if none of it was to be done."""
-    agenda, named = context.situation.agenda, _named(context, words)
-    everything = not named and _means_all(words)
-    waiting = [t for t in agenda.tasks if everything or named & _objects(context, t.command)]
-    is_part = any(task.depth for task in waiting) and not everything
-    left_out: list[Command] = []
-    is_now = not is_part or context.situation.request.object in named
-    if at_hand and not is_part and (others := _others(context, at_hand, named)):
-        return _replace(context, ((others,),))
-    if at_hand and is_now and _is_about(context, words, at_hand):
-        agenda.take_back()
-        context.situation.request.command = at_hand
-        left_out.append(at_hand)
-    for task in waiting:
-        if task in agenda.tasks:
-            left_out.append(_leave_out(context, task, named))
-    wishes = [in_one_sentence(context, command) for command in left_out]
-    return f"Then I do not {either(wishes)}." if wishes else ""
-
-
-def _others(context: MissionContext, at_hand: Command, named: set[str]) -> Command | None:
-    """As many things, but none of those named; None if there are too few, or it is about others."""
-    things = _objects(context, at_hand)
-    if named and at_hand.kind == CommandKind.CLEAR and not things:  # whatever is there
-        left_out = tuple(sorted(named))
-        exceptions = (*at_hand.exceptions, *left_out)
-        return replace(at_hand, target=THING, number=ALL, exceptions=exceptions)
-    left_out, others = tuple(sorted(named & things)), things - named
-    enough = 1 < at_hand.number <= len(others) or (others and _of_all(at_hand))
-    if not left_out or not enough:
-        return None
-    return replace(at_hand, exceptions=(*at_hand.exceptions, *left_out))
-
-
-def _of_all(command: Command) -> bool:
-    """Whether all of a kind are meant."""
-    return command.number == ALL or command.plural
-
-
-def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:
-    """Strike out a task that waits, or what is not to be meant by it; what is not done then."""
-    command, others = task.command, _objects(context, task.command) - named
-    if not named or not others:
-        context.situation.agenda.strike_out(task)
-        return command
-    left_out = tuple(sorted(_objects(context, command) & named))
-    narrower = replace(command, exceptions=(*command.exceptions, *left_out))
-    context.situation.agenda.change(task, narrower)
-    return replace(command, target=" and ".join(left_out))
-
-
-def _is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
-    """Whether it is the task at hand that is not to be done."""
-    request = context.situation.request
-    if named := _named(context, words):
-        return request.object in named or bool(named & _objects(context, at_hand))
-    return _means_all(words) or bool(_IT & _words(words))
-
-
-def _named(context: MissionContext, words: str) -> set[str]:
-    names = context.knowledge.names_in(NEGATION.sub(" ", words.lower().replace("_", " ")))
-    return {one for name in names for one in context.knowledge.objects_named(name)}
-
-
-def _objects(context: MissionContext, command: Command) -> set[str]:
-    """The things that it may be about."""
-    names = command.among or (command.target,)
-    return {one for name in names for one in context.knowledge.objects_named(name)}
-
-
-def _means_all(words: str) -> bool:
-    """As in "do not bring anything", but not "I need nothing else"."""
-    return bool(_ALL & _words(words)) and "else" not in _words(words)
-
-
-def _words(words: str) -> set[str]:
-    return set(words.lower().split())
+    if at_hand and is_about(context, alone, at_hand):
+        return replaced(context, commands)
+    said = refused(context, alone, None)
+    return " ".join(filter(None, (said, added(context, commands, ""))))

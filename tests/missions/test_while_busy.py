@@ -114,6 +114,16 @@ def test_what_is_to_be_left_is_not_cleared_away(words: str, at: int) -> None:
     assert mission.world.resting_place("apple") != "desk"
 
 
+def test_what_is_to_be_left_is_not_brought_afterwards_either() -> None:
+    during = saying("not the mug", 1)
+    place = {"mug": "desk", "apple": "desk"}
+    mission = run_mission(
+        "Clear the desk, then bring the mug", llm=False, during=during, place=place
+    )
+    assert mission.world.resting_place("mug") == "desk"
+    assert mission.world.resting_place("apple") != "desk"
+
+
 def test_of_all_but_one_the_others_are_brought() -> None:
     mission = run("Bring all the tools", "not the hammer")
     assert mission.world.resting_place("hammer") == "shelf_lobby"

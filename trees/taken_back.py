@@ -1,0 +1,85 @@
+"""What is not to be done, now or later, of all that was asked for."""
+
+from dataclasses import replace
+
+from executive.language.commands import THING
+from executive.language.wording import either
+from executive.situation import Task
+from executive.types import ALL, Command, CommandKind
+from trees.context import MissionContext
+from trees.telling import in_one_sentence
+from trees.wishes import named_in, objects_of, replaced
+
+_IT = frozenset(("it", "that", "this", "them"))
+_ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
+
+
+def refused(context: MissionContext, words: str, at_hand: Command | None) -> str:
+    """Do nothing that the words are about, now or later; empty if none of it was to be done."""
+    agenda, named = context.situation.agenda, named_in(context, words)
+    everything = not named and _means_all(words)
+    waiting = [t for t in agenda.tasks if everything or named & objects_of(context, t.command)]
+    is_part = any(task.depth for task in waiting) and not everything
+    left_out: list[Command] = []
+    is_now = not is_part or context.situation.request.object in named
+    if at_hand and not is_part and (others := _others(context, at_hand, named)):
+        for task in waiting:
+            _leave_out(context, task, named)
+        return replaced(context, ((others,),))
+    if at_hand and is_now and is_about(context, words, at_hand):
+        agenda.take_back()
+        context.situation.request.command = at_hand
+        left_out.append(at_hand)
+    for task in waiting:
+        if task in agenda.tasks:
+            left_out.append(_leave_out(context, task, named))
+    wishes = [in_one_sentence(context, command) for command in left_out]
+    return f"Then I do not {either(wishes)}." if wishes else ""
+
+
+def _others(context: MissionContext, at_hand: Command, named: set[str]) -> Command | None:
+    """As many things, but none of those named; None if there are too few, or it is about others."""
+    things = objects_of(context, at_hand)
+    if named and at_hand.kind == CommandKind.CLEAR and not things:  # whatever is there
+        left_out = tuple(sorted(named))
+        exceptions = (*at_hand.exceptions, *left_out)
+        return replace(at_hand, target=THING, number=ALL, exceptions=exceptions)
+    left_out, others = tuple(sorted(named & things)), things - named
+    enough = 1 < at_hand.number <= len(others) or (others and _of_all(at_hand))
+    if not left_out or not enough:
+        return None
+    return replace(at_hand, exceptions=(*at_hand.exceptions, *left_out))
+
+
+def _of_all(command: Command) -> bool:
+    """Whether all of a kind are meant."""
+    return command.number == ALL or command.plural
+
+
+def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:
+    """Strike out a task that waits, or what is not to be meant by it; what is not done then."""
+    command, others = task.command, objects_of(context, task.command) - named
+    if not named or not others:
+        context.situation.agenda.strike_out(task)
+        return command
+    left_out = tuple(sorted(objects_of(context, command) & named))
+    narrower = replace(command, exceptions=(*command.exceptions, *left_out))
+    context.situation.agenda.change(task, narrower)
+    return replace(command, target=" and ".join(left_out))
+
+
+def is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
+    """Whether it is the task at hand that is not to be done."""
+    request = context.situation.request
+    if named := named_in(context, words):
+        return request.object in named or bool(named & objects_of(context, at_hand))
+    return _means_all(words) or bool(_IT & _words(words))
+
+
+def _means_all(words: str) -> bool:
+    """As in "do not bring anything", but not "I need nothing else"."""
+    return bool(_ALL & _words(words)) and "else" not in _words(words)
+
+
+def _words(words: str) -> set[str]:
+    return set(words.lower().split())
