@@ -193,6 +193,16 @@ def _likewise(
     return tuple(changed)
 
 
+def is_about_the_same(context: MissionContext, said: Request, words: str) -> bool:
+    """Whether all that is asked for is about the one thing of the task at hand."""
+    request = context.situation.request
+    commands = commands_in(resolved(said, spoken_now(context.situation)), words)
+    if request.object is None or not isinstance(commands, tuple):
+        return False
+    each = [objects_of(context, one) for group in commands for one in group]
+    return all(things == {request.object} for things in each)
+
+
 def differs(context: MissionContext, said: Request, words: str) -> bool:
     """Whether something else is asked for than what is at hand, and nothing beside it."""
     at_hand = context.situation.request.command

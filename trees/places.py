@@ -6,6 +6,8 @@ from dataclasses import replace
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.commands import in_words
+from executive.language.meaning import Answer, Correction, Request, Said
 from executive.language.wording import either
 from executive.types import (
     PERSON,
@@ -16,6 +18,7 @@ from executive.types import (
     QuestionKind,
     Source,
 )
+from trees.attention import correct, is_about_the_same
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
 from trees.person import AskForPlace, AskWhere
@@ -287,9 +290,20 @@ class AskWhereTo(AskForPlace):
         return bool(named)
 
     def _another(self, answer: str) -> tuple[str, ...]:
-        """None of the places that were offered, but one that was not: "on the sofa"."""
+        """None of the places that were offered, but one that was not: "on the sofa, please"."""
+        match self.context.interpreter.read(answer):
+            case Answer(where=[place]):
+                answer = in_words(place)
         named = places_in(self.context, answer) if is_place(self.context, answer) else ()
         return named if len(named) == 1 else ()
+
+    def _attend_to(self, said: Said, words: str) -> bool:
+        """What else is to be done with the same thing, is to be done instead: "give it to me"."""
+        if not isinstance(said, Request) or not is_about_the_same(self.context, said, words):
+            return super()._attend_to(said, words)
+        now = f"I {self.doing()}."
+        tell(self.context, correct(self.context, Correction(said), words, now))
+        return True
 
     def unresolved(self) -> str:
         """What is not known."""

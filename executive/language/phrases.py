@@ -16,12 +16,20 @@ MOST_WORDS = 6
 """Longest name that is looked for in a text."""
 PREPOSITIONS = frozenset(("at", "by", "from", "in", "inside", "of", "on", "over", "top", "under"))
 """Words before a place that do not say which one it is."""
-CLAUSE_ENDS = re.compile(r"[,;:.!?\n]|\b(?:or|and|then|but|maybe|perhaps)\b")
+_NOT_ANY = ("anywhere", "anything", "any", "everywhere", "everything", "all")
+"""Before "but", these leave out what follows."""
+CLAUSE_ENDS = re.compile(
+    r"[,;:.!?\n]|\b(?:or|and|then|maybe|perhaps)\b|\b"
+    + "".join(rf"(?<!\b{word} )" for word in _NOT_ANY)
+    + r"but\b"
+)
 ENGLISH: Mapping[str, Any] = tomllib.loads(
     (Path(__file__).parent / "assets" / "english.toml").read_text("utf-8")
 )
 """The words of English that have a value of their own."""
-NEGATION = re.compile(rf"\b(?:{'|'.join(ENGLISH['negations'])})\b|n['’]t\b")
+NEGATION = re.compile(
+    rf"\b(?:{'|'.join(ENGLISH['negations'])}|other than|(?:{'|'.join(_NOT_ANY)}) but)\b|n['’]t\b"
+)
 """A clause with one of these names nothing."""
 _DETERMINERS = frozenset(("a", "an", "any", "my", "our", "some", "that", "the", "this", "your"))
 

@@ -128,12 +128,30 @@ def test_leaves_less_to_ask(answer: str, next_question: str) -> None:
 
 @pytest.mark.parametrize(
     ("answer", "place"),
-    [("coffee", "coffee table"), ("dining", "dining table"), ("on the sofa", "sofa")],
+    [
+        ("coffee", "coffee table"),
+        ("dining", "dining table"),
+        ("on the sofa", "sofa"),
+        ("on the sofa, please", "sofa"),
+        ("neither, on the sofa", "sofa"),
+    ],
 )
 def test_part_of_a_name_is_enough_where_several_were_offered(answer: str, place: str) -> None:
     questions, ended = asked("Put the hammer on the table", answer)
     assert len(questions) == 1
     assert place in ended
+
+
+@pytest.mark.parametrize("words", ["Put the hammer on the table", "Put the hammer"])
+def test_who_is_asked_where_to_may_want_it_themselves(words: str) -> None:
+    questions, ended = asked(words, "give it to me")
+    assert (len(questions), ended) == (1, "Here is the hammer from the shelf in the lobby.")
+
+
+@pytest.mark.parametrize("answer", ["anywhere but the sofa", "anything but the sofa"])
+def test_where_it_is_not_to_go_is_no_answer(answer: str) -> None:
+    _, ended = asked("Put the hammer", answer, "the bed")
+    assert ended == "I put the hammer on the bed."
 
 
 def test_what_waits_may_be_corrected_by_its_name() -> None:
