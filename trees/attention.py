@@ -37,6 +37,14 @@ from trees.wishes import added, done_first, named_in, objects_of, replaced
 
 _FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
 
+_TELLS = re.compile(
+    r"^\W*(?:what|why|how|where|who|when|is|are)\b"
+    r"|\b(?:it|that|this|they) (?:is|was|are|were|has|does|did|looks|seems)\b"
+    r"(?!.*\b(?:need|want|necessary|bother|matter))",
+    re.I,
+)
+"""What is asked, or told of a thing, takes nothing back: "it is not heavy"."""
+
 
 def attend_to(context: MissionContext, words: str, now: str) -> str:
     """Note what follows from words that answer no question, and say what to say to them.
@@ -66,7 +74,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         if at_hand and _denies_goal(context, words, at_hand):
             context.situation.agenda.replace(replace(at_hand, goal=""))
             return "Then not there."
-        return refused(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
+        answer = "" if _TELLS.search(words) else refused(context, words, at_hand)
+        return answer or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
         case Courtesy():
             return context.interpreter.talk(words)
@@ -181,13 +190,22 @@ def _likewise(
     agenda, asked_anew = context.situation.agenda, [one for group in commands for one in group]
     things = {name for one in asked_anew for name in objects_of(context, one)}
     changed: list[tuple[Command, ...]] = []
-    for task in [task for task in agenda.tasks if not task.depth]:
+    whole = [task for task in agenda.tasks if not task.depth]
+    breath = [at_hand, *(t.command for t in whole if t.command.words == at_hand.words)]
+    wanted = {name for one in breath for name in objects_of(context, one)}
+    only_these = len(asked_anew) > 1 and things <= wanted  # "no, the mug and the pear", of three
+    for task in whole:
         command = task.command
         alike = (command.words, command.kind, command.goal)
         if said.meant is None and alike == (at_hand.words, at_hand.kind, at_hand.goal):
             if isinstance(others := corrected(said, command, words), tuple):
                 agenda.tasks.remove(task)
                 changed += others
+        elif command.words == at_hand.words and isinstance(said.meant, Things):
+            if objects_of(context, command) <= things:
+                agenda.tasks.remove(task)
+            elif only_these:
+                agenda.strike_out(task)
         elif len(asked_anew) > 1 and objects_of(context, command) <= things:
             agenda.tasks.remove(task)
     return tuple(changed)

@@ -11,6 +11,7 @@ from trees.telling import in_one_sentence
 from trees.wishes import named_in, objects_of, replaced
 
 _IT = frozenset(("it", "that", "this", "them"))
+_SEVERAL = frozenset(("them", "both", "those", "these"))
 _ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
 
 
@@ -18,8 +19,13 @@ def refused(context: MissionContext, words: str, at_hand: Command | None) -> str
     """Do nothing that the words are about, now or later; empty if none of it was to be done."""
     agenda, named = context.situation.agenda, named_in(context, words)
     everything = not named and _means_all(words)
-    waiting = [t for t in agenda.tasks if everything or named & objects_of(context, t.command)]
-    is_part = any(task.depth for task in waiting) and not everything
+    breath = at_hand.words if at_hand and not named and _SEVERAL & _words(words) else None
+    waiting = [
+        task
+        for task in agenda.tasks
+        if everything or task.command.words == breath or named & objects_of(context, task.command)
+    ]
+    is_part = any(task.depth for task in waiting) and bool(named)
     left_out: list[Command] = []
     is_now = not is_part or context.situation.request.object in named
     if at_hand and not is_part and (others := _others(context, at_hand, named)):

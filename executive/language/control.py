@@ -57,7 +57,8 @@ def _plain(words: str) -> str:
     apart = unicodedata.normalize("NFD", compatible.casefold())
     letters = "".join(c for c in apart if unicodedata.category(c) != "Mn")
     said = _SIGNS.sub(". stop. ", re.sub("[’‘`´ʼ]", "'", letters))
-    said = _INSTEAD.sub("", said)
+    if not _URGENT.intersection(_WORD.findall(said)):
+        said = _INSTEAD.sub("", said)
     return _EAGER.sub(" ", _NO_APOSTROPHE.sub(r"\1'\2", _DISGUISED.sub(_undisguised, said)))
 
 
@@ -123,7 +124,7 @@ _FILE = tomllib.loads((Path(__file__).parent / "assets" / "control.toml").read_t
 _INSTEAD = re.compile(
     rf"\b(?:(?:i|have|i've|just) )*changed my mind[,.;:!]? "
     rf"(?=(?:and |so |now |please )*(?:{'|'.join(ENGLISH['deeds'].split())})\b)"
-    r"|^\W*(?:(?:no|oh|ok|okay|please|just|and),? )*(?:forget|never mind) (?:about )?"
+    r"|^\W*(?:(?:no|oh|ok|okay|please|just|and|robot),? )*(?:forget|never mind) (?:about )?"
     rf"(?=(?:the|my|our) (?!(?:{'|'.join(_FILE['all'].split())})\b))"
 )
 """Who says so wants something else, or one thing no more: the rest says what."""

@@ -31,7 +31,12 @@ MORE = (
     *("I changed my mind", "Actually, I've changed my mind", "I don't want it anymore"),
     *("I changed my mind about that", "I changed my mind, bring the mug, no, stop"),
     *("Forget the whole thing", "forget about the mission", "Forget the rest", "Forget it"),
-    *("I changed my mind, leave it", "Forget the pear and stop", "never mind that"),
+    *(
+        "I changed my mind, leave it",
+        "Forget the pear and stop",
+        "forget the pear stop",
+        "never mind that",
+    ),
     *("I don't need the mug any more", "that will do", "That'll do.", "thatll do"),
     *("no no no", "No, no, no!", "nonono", "I can't wait, stop", "I can't, wait!"),
     *(

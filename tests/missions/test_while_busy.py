@@ -159,6 +159,25 @@ def test_where_it_is_not_to_go_is_asked_about(words: str) -> None:
     assert mission.world.resting_place("hammer") == "desk"
 
 
+@pytest.mark.parametrize("words", ["Forget both", "Forget them", "Do not bring them"])
+def test_both_are_taken_back(words: str) -> None:
+    mission = run("Bring the hammer, then the mug", words)
+    assert {status for _, _, status in tasks(mission)} == {NOT_DONE}
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+
+
+def test_who_names_some_of_three_again_means_these() -> None:
+    mission = run("Bring the hammer, the mug and the pear", "No, the mug and the pear")
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+    assert mission.world.resting_place("mug") == "delivery"
+    assert mission.world.resting_place("pear") == "delivery"
+
+
+@pytest.mark.parametrize("words", ["What if it is not there?", "It is not heavy"])
+def test_what_is_told_or_asked_takes_nothing_back(words: str) -> None:
+    assert tasks(run("Bring the hammer", words)) == [("bring", "hammer", DONE)]
+
+
 def test_what_is_to_be_done_first_is_not_done_twice() -> None:
     mission = run("Bring the hammer, then the mug, then the pear", "Bring the pear first")
     assert [name for _, name, _ in tasks(mission)].count("pear") == 1
