@@ -139,7 +139,8 @@ class WireRobot:
         now = self._senses.clock if self._ended is None else self._ended
         if self._began is None or now is None:
             return self._spent
-        return self._spent + max(0.0, now - self._began)
+        self._began = min(self._began, now)  # its clock may begin anew, with no link to it
+        return self._spent + now - self._began
 
     def views(self, place: str) -> int:
         """How many looks it takes to see all of a place."""
