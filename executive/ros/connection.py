@@ -77,7 +77,7 @@ def dial(address: Address, within_s: float = CONNECTING_S) -> Line:
         return Line(wire, wire.run(link()))
     except LinkError as error:
         wire.close()
-        raise InputError(f"--robot {address}", in_words(error), RIGHT) from None
+        raise InputError(f"--robot {address}".rstrip(":"), in_words(error), RIGHT) from None
 
 
 def connect(
