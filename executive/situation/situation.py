@@ -7,6 +7,7 @@ from typing import Any, Self
 
 from executive.events import (
     ON,
+    BodyTold,
     Broke,
     DeadlinePassed,
     Deed,
@@ -99,6 +100,8 @@ class Situation:
                 self.ending.break_off(reason)
             case Heard(words):
                 self.dialogue.heard.append(words)
+            case BodyTold(words):
+                self.dialogue.news.append(words)
             case HandFelt(holding):
                 self.hand.feel(holding)
             case Intervened(deed=Deed.HOLD_PLACE, became=on):
