@@ -447,6 +447,14 @@ class Interpreter(Protocol):
         """
         ...
 
+    def after_yes(self, answer: str) -> Said:
+        """What is said behind a yes: "yes, and the pear"; `Unread` if it does not begin so."""
+        ...
+
+    def only(self, words: str) -> bool:
+        """Whether it says that nothing else is meant: "only the mug", "no, just the pear"."""
+        ...
+
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
         ...

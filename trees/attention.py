@@ -4,11 +4,13 @@ A question is answered, and what is told is remembered; a further wish goes on t
 correction takes the place of the task at hand; what is taken back is not done.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
+from executive.language.commands import NOT_KNOWN_WHAT, THING, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
+from executive.language.folding import of_several
 from executive.language.meaning import (
     Answer,
     Choice,
@@ -22,17 +24,19 @@ from executive.language.meaning import (
     Things,
 )
 from executive.language.phrases import NEGATION
+from executive.language.placed import placed
 from executive.language.pronouns import resolved, with_names
 from executive.language.spoken import Spoken
 from executive.language.wording import either
 from executive.replies import Standing, about, reply
 from executive.situation import Situation, Task
 from executive.text import too_long
-from executive.types import Command, Commands
+from executive.types import ALL, Command, CommandKind, Commands
 from trees.context import MissionContext
 from trees.telling import in_one_sentence
 
 _IT = frozenset(("it", "that", "this", "them"))
+_FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
 _ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
 
 
@@ -48,8 +52,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         return f"Sorry: {why}."
     request, agenda = context.situation.request, context.situation.agenda
     at_hand = agenda.whole_of(request.command)
-    spoken = spoken_now(context.situation)
     said = context.interpreter.read(words)
+    spoken = _of_all_spoken(context.situation, said)
     correction = as_correction(said)
     if isinstance(said, Answer) and said.where and not said.told and _goes_somewhere(at_hand):
         correction = Correction(place=said.where[0])  # "on the sofa": where to, and not where it is
@@ -57,7 +61,13 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         said = correction or resolved(said, spoken)  # "it is on the sofa"
     if said == Answer(Choice.YES):
         return now
+    named = getattr(correction, "meant", None) if correction else getattr(said, "things", None)
+    if at_hand and isinstance(named, Things) and context.interpreter.only(words):
+        return _only(context, named, words, at_hand)
     if denial := not correction and context.interpreter.denial(words):
+        if at_hand and _denies_goal(context, words, at_hand):
+            context.situation.agenda.replace(replace(at_hand, goal=""))
+            return "Then not there."
         return _refuse(context, words, at_hand) or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
         case Courtesy():
@@ -67,6 +77,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         case Refusal() if answer := _refuse(context, said.words, at_hand):
             return answer
         case Refusal() if said.words and not _named(context, said.words):
+            if _FORGETS.search(words) and (all_of_it := _refuse(context, "everything", at_hand)):
+                return all_of_it  # what nobody knows may be all that is to be done
             return f"{NOT_KNOWN_WHAT.format('not')} {now}"
         case Request() if answer := _reply(context, said, now):
             return answer
@@ -75,6 +87,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
             if (alone := left_alone(said)) and isinstance(commands, tuple):
                 return _instead_of(context, alone, commands, at_hand)
             if at_hand and isinstance(commands, tuple):
+                if fails := _if_it_fails(context, commands, at_hand):
+                    return _replace(context, ((fails,),))
                 if _in_its_stead(context, said, at_hand):
                     return _replace(context, commands)
                 if said.first:
@@ -84,6 +98,15 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         return correct(context, correction, words, now)
     why_not = context.interpreter.remark(words)
     return why_not or f"{context.interpreter.not_understood(words)}. {now}"
+
+
+def _denies_goal(context: MissionContext, words: str, at_hand: Command) -> bool:
+    """Whether it is the place where the thing is to go that is not meant: "not on the sofa"."""
+    if at_hand.kind != CommandKind.PUT or _named(context, words):
+        return False
+    places = context.knowledge.places_named
+    said = (place for place in placed(words, context.knowledge.is_place) if place)
+    return any({*places(place)} & {*places(at_hand.goal)} for place in said)
 
 
 def _goes_somewhere(command: Command | None) -> bool:
@@ -99,6 +122,17 @@ def spoken_now(situation: Situation) -> Spoken:
     things = (request.object or request.command.target,)
     place = request.goal or request.command.goal or request.command.source or before.place
     return Spoken(things, request.command.target, place, before.request)
+
+
+def _of_all_spoken(situation: Situation, said: object) -> Spoken:
+    """The same; of "them" and "both", with what waits, if it was asked for in one sentence."""
+    spoken, at_hand = spoken_now(situation), situation.request.command
+    tasks = said.tasks if isinstance(said, Request) else ()
+    if at_hand is None or not any(of_several(task.things) for task in tasks):
+        return spoken
+    waiting = (task.command for task in situation.agenda.tasks if not task.depth)
+    others = [one.target for one in waiting if one.words == at_hand.words]
+    return replace(spoken, things=(*spoken.things, *others))
 
 
 def _in_its_stead(context: MissionContext, said: Request, at_hand: Command) -> bool:
@@ -129,13 +163,48 @@ def correct(context: MissionContext, said: Correction, words: str, now: str) -> 
     """Do this instead of the task at hand, or beside it."""
     at_hand = context.situation.agenda.whole_of(context.situation.request.command)
     assert at_hand
-    spoken = spoken_now(context.situation)
+    spoken = _of_all_spoken(context.situation, said.meant)
     if changed := _correct_later(context, said, at_hand, words):
         return changed
     commands = corrected(with_names(said, spoken), at_hand, words)
     if said.adds or not isinstance(commands, tuple):
         return _add(context, commands, now)
-    return _replace(context, commands)
+    return _replace(context, (*commands, *_likewise(context, said, at_hand, commands, words)))
+
+
+def _likewise(
+    context: MissionContext, said: Correction, at_hand: Command, commands: Commands, words: str
+) -> Commands:
+    """What else was asked for in one sentence with the task at hand, if it is to go elsewhere, too.
+
+    Tasks that wait, of which that takes the place, are struck out; so are those that are asked for
+    anew.
+    """
+    agenda, asked_anew = context.situation.agenda, [one for group in commands for one in group]
+    things = {name for one in asked_anew for name in _objects(context, one)}
+    changed: list[tuple[Command, ...]] = []
+    for task in [task for task in agenda.tasks if not task.depth]:
+        command = task.command
+        alike = (command.words, command.kind, command.goal)
+        if said.meant is None and alike == (at_hand.words, at_hand.kind, at_hand.goal):
+            if isinstance(others := corrected(said, command, words), tuple):
+                agenda.tasks.remove(task)
+                changed += others
+        elif len(asked_anew) > 1 and _objects(context, command) <= things:
+            agenda.tasks.remove(task)
+    return tuple(changed)
+
+
+def differs(context: MissionContext, said: Request, words: str) -> bool:
+    """Whether something else is asked for than what is at hand, and nothing beside it."""
+    at_hand = context.situation.request.command
+    commands = commands_in(resolved(said, spoken_now(context.situation)), words)
+    if at_hand is None or not isinstance(commands, tuple):
+        return False
+    [command, *others] = [one for group in commands for one in group]
+    same = _objects(context, command) == _objects(context, at_hand)
+    where = (command.kind, command.source, command.goal)
+    return bool(others) or not same or where != (at_hand.kind, at_hand.source, at_hand.goal)
 
 
 def _correct_later(context: MissionContext, said: Correction, at_hand: Command, words: str) -> str:
@@ -155,14 +224,22 @@ def _correct_later(context: MissionContext, said: Correction, at_hand: Command, 
     return f"All right: I {' and '.join(wishes)} instead."
 
 
-def all_of(context: MissionContext, names: Sequence[str], words: str) -> str:
-    """Do what is at hand with each of these things, which were named where one was asked for."""
+def all_of(
+    context: MissionContext, names: Sequence[str], words: str, *, one_of: bool = False
+) -> str:
+    """Do what is at hand with each of these things, which were named where one was asked for.
+
+    Or with `one_of` them, which takes least time.
+    """
     at_hand = context.situation.agenda.whole_of(context.situation.request.command)
     assert at_hand
     things = (context.say.words(name) for name in names)
-    meant = Things(tuple(Thing(thing, definite=True, said=thing) for thing in things))
+    meant = Things(tuple(Thing(thing, definite=True, said=thing) for thing in things), one_of)
     commands = corrected(Correction(meant), at_hand, words)
-    return commands if isinstance(commands, str) else _replace(context, commands, "")
+    if isinstance(commands, str):
+        return commands
+    said = _replace(context, commands, "")
+    return "All right: I choose the one that takes least time." if one_of else said
 
 
 def _replace(context: MissionContext, commands: Commands, instead: str = " instead") -> str:
@@ -176,9 +253,58 @@ def _replace(context: MissionContext, commands: Commands, instead: str = " inste
 def _do_first(context: MissionContext, commands: Commands, at_hand: Command) -> str:
     """Do these at once, and the task at hand after them."""
     first, *others = [command for group in commands for command in group]
-    context.situation.agenda.replace(first, [*others, at_hand])
-    then = " and ".join(in_one_sentence(context, one) for one in (first, *others))
-    return f"All right: I {then} first."
+    agenda = context.situation.agenda
+    agenda.tasks[:] = [t for t in agenda.tasks if not _same(t.command, (first, *others))]
+    if not _same(at_hand, (first, *others)):
+        others.append(at_hand)
+    agenda.replace(first, others)
+    wishes = [in_one_sentence(context, one) for group in commands for one in group]
+    return f"All right: I {' and '.join(wishes)} first."
+
+
+def _same(command: Command, others: Sequence[Command]) -> bool:
+    """Whether it is one of the others, however it was said."""
+    return replace(command, words="") in [replace(one, words="") for one in others]
+
+
+def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) -> Command | None:
+    """The task at hand with what is to be done if the thing is not there; None if that is unasked.
+
+    As in "if you cannot find it, bring the mug".
+    """
+    match commands:
+        case [[Command(kind=CommandKind.CHECK, conditional=True, unless=Command()) as command]]:
+            pass
+        case _:
+            return None
+    if at_hand.conditional or _objects(context, command) != _objects(context, at_hand):
+        return None
+    sought = replace(command, conditional=False, unless=None) if command.source else None
+    source = command.source or at_hand.source
+    return replace(at_hand, conditional=True, source=source, sought=sought, unless=command.unless)
+
+
+def _only(context: MissionContext, things: Things, words: str, at_hand: Command) -> str:
+    """Do what is named, and nothing else that was to be done; or do it instead of all of that."""
+    agenda = context.situation.agenda
+    named = _named(context, " or ".join(thing.words for thing in things.members))
+    if not named:
+        return f"{context.interpreter.not_understood(words)}."
+    whole = [task for task in agenda.tasks if not task.depth]
+    waiting = [task for task in whole if named & _objects(context, task.command)]
+    wishes = [task.command for task in waiting]
+    if not all(_objects(context, one) <= named for one in wishes):
+        return f"{context.interpreter.not_understood(words)}."
+    for task in [task for task in whole if task not in waiting]:
+        agenda.strike_out(task)
+    if not _objects(context, at_hand) <= named:  # of all that was wanted, only this
+        if not waiting:
+            return correct(context, Correction(things), words, "")
+        agenda.take_back()
+    else:
+        wishes.insert(0, at_hand)
+    wanted = " and ".join(in_one_sentence(context, one) for one in wishes)
+    return f"All right: I {wanted}, and nothing else."
 
 
 def _instead_of(
@@ -208,7 +334,7 @@ def _refuse(context: MissionContext, words: str, at_hand: Command | None) -> str
     is_part = any(task.depth for task in waiting) and not everything
     left_out: list[Command] = []
     is_now = not is_part or context.situation.request.object in named
-    if at_hand and (others := _others(context, at_hand, named)):
+    if at_hand and not is_part and (others := _others(context, at_hand, named)):
         return _replace(context, ((others,),))
     if at_hand and is_now and _is_about(context, words, at_hand):
         agenda.take_back()
@@ -224,10 +350,20 @@ def _refuse(context: MissionContext, words: str, at_hand: Command | None) -> str
 def _others(context: MissionContext, at_hand: Command, named: set[str]) -> Command | None:
     """As many things, but none of those named; None if there are too few, or it is about others."""
     things = _objects(context, at_hand)
-    left_out = tuple(sorted(named & things))
-    if not left_out or not 1 < at_hand.number <= len(things - named):
+    if named and at_hand.kind == CommandKind.CLEAR and not things:  # whatever is there
+        left_out = tuple(sorted(named))
+        exceptions = (*at_hand.exceptions, *left_out)
+        return replace(at_hand, target=THING, number=ALL, exceptions=exceptions)
+    left_out, others = tuple(sorted(named & things)), things - named
+    enough = 1 < at_hand.number <= len(others) or (others and _of_all(at_hand))
+    if not left_out or not enough:
         return None
     return replace(at_hand, exceptions=(*at_hand.exceptions, *left_out))
+
+
+def _of_all(command: Command) -> bool:
+    """Whether all of a kind are meant."""
+    return command.number == ALL or command.plural
 
 
 def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:

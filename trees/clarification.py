@@ -3,20 +3,26 @@
 from dataclasses import replace
 
 from executive.language.answers import how_many_of, named, picked
+from executive.language.commands import in_words
 from executive.language.meaning import (
+    ALL,
+    ME,
     Answer,
     Choice,
     Correction,
     Refusal,
     Request,
     Said,
+    Task,
     Thing,
     Things,
+    Where,
 )
 from executive.types import CommandKind, Question, QuestionKind
 from trees.asking import Ask, AskYesNo
 from trees.attention import all_of, correct
 from trees.meant import without_exceptions
+from trees.passed_over import passed_over_in_name
 from trees.telling import tell
 from trees.unknown import nearest, unknown, unresolved
 
@@ -35,6 +41,8 @@ class AskDoYouMean(AskYesNo):
         target, guess = self.situation.request.command.target, self.situation.request.guess
         meant = self.context.say.the(guess)
         text = f"{unknown(self.context, target)}. Do you mean {meant}?"
+        if more := passed_over_in_name(self.context, target, guess):
+            text += f" I make nothing of '{self.context.as_said(more)}'."
         objects = self.context.knowledge.objects_named(guess)
         return Question(QuestionKind.CONFIRM, guess, text, objects)
 
@@ -99,6 +107,8 @@ class AskWhichObject(Ask):
         """One object is enough; several narrow the next question down."""
         options, find = self.situation.request.options, self.context.knowledge.objects_named
         said = self.context.interpreter.read(answer)
+        if self._names_others_too(said) or self._to_another_place(said):
+            return False
         if chosen := picked(said, self.question().options):
             meant = tuple(one for name in chosen for one in find(name))
         else:
@@ -123,17 +133,41 @@ class AskWhichObject(Ask):
             said = Correction(Things((Thing(number=number, said=str(number)),)))
             tell(self.context, correct(self.context, said, words, f"I {self.doing()}."))
             return True
-        several = self._several(said)
+        if self._to_another_place(said):  # "put the pear on the desk"
+            assert isinstance(said, Request)
+            now = f"I {self.doing()}."
+            tell(self.context, correct(self.context, Correction(said), words, now))
+            return True
+        nearest = isinstance(said, Answer) and said.choice == Choice.NEAREST
+        several = request.options if nearest else self._several(said)
         if not several or not request.options:
             return super()._attend_to(said, words)
         names = tuple(dict.fromkeys(one for name in several for one in find(name)))
-        tell(self.context, all_of(self.context, names, words))
+        tell(self.context, all_of(self.context, names, words, one_of=nearest))
         return True
+
+    def _names_others_too(self, said: Said) -> bool:
+        """Whether all of several things are meant, of which some were not offered."""
+        find, options = self.context.knowledge.objects_named, self.situation.request.options
+        things = said.things if isinstance(said, Answer) else None
+        if not options or not things or things.one_of or len(things.members) < 2:
+            return False
+        named = [find(thing.words) for thing in things.members]
+        return all(named) and any(not {*each} & {*options} for each in named)
+
+    def _to_another_place(self, said: Said) -> bool:
+        """Whether one of the things is to go elsewhere than was asked for."""
+        match said:
+            case Request(tasks=[Task(goal=Where() as goal)]) if named(said) and goal != ME:
+                command = self.situation.request.command
+                return command is None or in_words(goal) != command.goal
+        return False
 
     def _but(self, words: str) -> tuple[str, ...]:
         """What is left of the things that were offered; none if none is named, or each."""
         request, find = self.situation.request, self.context.knowledge.objects_named
         named = [one for name in self.context.knowledge.names_in(words) for one in find(name)]
+        named += picked(self.context.interpreter.read(words), request.options)
         rest = tuple(one for one in request.options if one not in named)
         return rest if len(rest) < len(request.options) else ()
 
@@ -145,6 +179,11 @@ class AskWhichObject(Ask):
         if said.choice == Choice.ALL:
             return offered
         members = said.things.members if said.things else ()
+        match members:
+            case [Thing(words="", number=number, exceptions=[_, *_] as left_out)] if number == ALL:
+                known = self.context.knowledge.objects_named
+                but = {name for thing in left_out for name in known(thing.words)}
+                return tuple(name for name in offered if not but & {*known(name)})
         if members and all(thing.place_in_list for thing in members):
             each = (picked(Answer(place_in_list=t.place_in_list), offered) for t in members)
             return tuple(one for names in each for one in names)

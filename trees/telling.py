@@ -1,5 +1,7 @@
 """How the person is told things: on one line, and in words."""
 
+from dataclasses import replace
+
 from executive.language.commands import THING
 from executive.language.phrases import is_plural
 from executive.language.wording import as_said, either
@@ -31,6 +33,24 @@ def sentence(text: str) -> str:
 
 def in_one_sentence(context: MissionContext, command: Command) -> str:
     """All that a command asks for, in words: "bring the mug from the desk"."""
+    instead = in_one_sentence(context, command.unless) if command.unless else ""
+    return f"{_deed(context, command)}{_condition(context, command)}" + (
+        f", or else {instead}" * bool(instead)
+    )
+
+
+def _condition(context: MissionContext, command: Command) -> str:
+    """On what it depends, as in " if the mug is on the desk"; a check says that itself."""
+    if not command.conditional or command.kind == CommandKind.CHECK:
+        return ""
+    if command.sought is None:
+        return " if I find it"
+    sought = _deed(context, replace(command.sought, kind=CommandKind.CHECK))
+    return f" if {sought.removeprefix('check whether ')}".replace("if look for", "if I find")
+
+
+def _deed(context: MissionContext, command: Command) -> str:
+    """The same less what it depends on."""
     what, goal = _things(context, command), to_where(context, command)
     there = _where(context, command, command.source) if command.source else ""
     source = f"from {_place(context, command, command.source)}" if command.source else ""

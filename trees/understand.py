@@ -1,24 +1,22 @@
 """What is asked for? The grammar of commands says, else the language model and the person do."""
 
-import re
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.colors import COLORS, OTHER_SPELLINGS
-from executive.language.placed import placed
+from executive.language.meaning import Answer, Correction, Request, Said, Unread
 from executive.records import Utterance
-from executive.types import HELD, Command, CommandKind, MissionStatus, Question, QuestionKind
+from executive.types import HELD, Command, MissionStatus, Question, QuestionKind
 from trees.asking import AskYesNo
+from trees.attention import attend_to, correct, differs
 from trees.context import MissionContext
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
-from trees.place_words import places_in
-from trees.telling import in_one_sentence
+from trees.passed_over import passed_over
+from trees.telling import in_one_sentence, tell
 
 
 def understand(context: MissionContext) -> Behaviour:
@@ -166,6 +164,34 @@ class ConfirmCommand(AskYesNo):
     def agreed(self) -> None:
         """The command stands."""
 
+    def understood(self, answer: str) -> bool:
+        """A yes or no with a wish behind it is more than that: "yes, to the desk"."""
+        said = self.context.interpreter.read(answer)
+        if self._wish(said, answer):
+            return False
+        if isinstance(said, Request) and not said.later:
+            self._agrees = True  # "bring it", where that was asked about
+            return True
+        return super().understood(answer)
+
+    def _attend_to(self, said: Said, words: str) -> bool:
+        """Do what is wished in place of what was asked about, or beside it."""
+        if isinstance(said, Answer | Correction) and self.context.interpreter.only(words):
+            tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
+            return True
+        if (wish := self._wish(said, words)) is None:
+            return super()._attend_to(said, words)
+        tell(self.context, correct(self.context, wish, words, f"I {self.doing()}."))
+        return True
+
+    def _wish(self, said: Said, words: str) -> Correction | None:
+        """What is wished beside a yes or no; None if nothing is, or what was asked about."""
+        if isinstance(said, Unread):
+            said = self.context.interpreter.after_yes(words)
+        if isinstance(said, Request):
+            said = Correction(said) if differs(self.context, said, words) else said
+        return said if isinstance(said, Correction) else None
+
     def unresolved(self) -> str:
         """It is not known what was asked for."""
         return f"I am not sure what '{self.situation.request.words}' asks for"
@@ -177,41 +203,6 @@ def named(command: Command) -> str:
     source = f"from {command.source}" if command.source else ""
     goal = f"to {command.goal}" if command.goal else ""
     return " ".join(filter(None, (kind, command.target, source, goal)))
-
-
-def passed_over(context: MissionContext, commands: Sequence[Command]) -> list[str]:
-    """What stands in the words, and nothing was made of, as it was said.
-
-    That is things and places, colours, numbers, and what it depends on.
-    """
-    knowledge, words = context.knowledge, context.situation.request.words
-    read = " and ".join(name for one in commands for name in (one.target, *one.exceptions))
-    things = [name for name in knowledge.names_in(words) if name not in knowledge.names_in(read)]
-    spoken_of = {place for one in commands for place in _places_of(context, one)}
-    places = [
-        place
-        for place in placed(words, knowledge.is_place)
-        if place and not {*places_in(context, place)} <= spoken_of
-    ]
-    said = set(re.findall(r"[a-z]+", words.lower()))
-    colors = [
-        color
-        for color in (*COLORS, *OTHER_SPELLINGS)
-        if color in said
-        and not any(knowledge.objects_named(f"{color} {c.target}") for c in commands)
-    ]
-    others = context.interpreter.passed_over(words, commands)
-    things_said = (context.as_said(context.say.words(name)) for name in things)
-    return [*dict.fromkeys((*things_said, *places, *colors, *others))]
-
-
-def _places_of(context: MissionContext, command: Command) -> set[str]:
-    """The furniture that a command speaks of."""
-    return {
-        *places_in(context, command.source),
-        *places_in(context, command.goal),
-        *(places_in(context, command.target) if command.kind == CommandKind.GO else ()),
-    }
 
 
 class NotUnderstood(Step):

@@ -29,6 +29,8 @@ def beside_a_request(
     pause: re.Pattern[str],
     read: Callable[[str], Said],
     left: int = MOST,
+    *,
+    likely: bool = False,
 ) -> Request | None:
     """The request among several sentences, if all others ask for nothing; None if they may.
 
@@ -40,6 +42,7 @@ def beside_a_request(
         pause: where a sentence may end.
         read: reads words in plain form.
         left: how many other sentences there may be yet.
+        likely: whether what is probably meant is enough: what is told may be about another thing.
     """
     if not left or not (parts := pause.split(text, 1))[1:]:
         return None
@@ -47,13 +50,14 @@ def beside_a_request(
     said = read(first)
     if isinstance(said, Request):
         beside = _beside(rest, read(rest), asides, read)
-        return _with(said, *beside) if beside is not None and not beside[0] else None
+        return _with(said, *beside, likely) if beside is not None and not beside[0] else None
     if (beside := _beside(first, said, asides, read)) is None:
         return None
     request = read(rest)
     if isinstance(request, Unread):
-        request = beside_a_request(rest, asides, pause, read, left - 1) or request
-    return _with(request, *beside) if isinstance(request, Request) else None
+        more = beside_a_request(rest, asides, pause, read, left - 1, likely=likely)
+        request = more or request
+    return _with(request, *beside, likely) if isinstance(request, Request) else None
 
 
 def _beside(
@@ -70,17 +74,20 @@ def _beside(
     found = next(filter(None, (aside.fullmatch(text) for aside in asides)), None)
     if found is None:
         return None
-    named = read(f"find {found['thing']}") if found.groupdict().get("thing") else None
-    match named:
-        case Request(tasks=[Task(things=Things(members=[thing]), source=source)]):
-            return (thing.words,), source
-    return (), None
+    if not (said_of := found.groupdict().get("thing")):
+        return (), None
+    match read(f"find {said_of}"):
+        case Request(tasks=[Task(things=Things(members=things), source=source)]):
+            return tuple(thing.words for thing in things), source
+    return None  # "it" would be what was spoken of before
 
 
-def _with(said: Request, names: tuple[str, ...], where: Where | None) -> Request | None:
+def _with(
+    said: Request, names: tuple[str, ...], where: Where | None, likely: bool
+) -> Request | None:
     """The request with these names for "it"; None if what was told of is none of what it is about.
 
-    It would be forgotten then.
+    It would be forgotten then, if it is not `likely` enough.
     """
     meant = resolved(said, Spoken(names, " ".join(names)))
     assert isinstance(meant, Request)
@@ -90,5 +97,5 @@ def _with(said: Request, names: tuple[str, ...], where: Where | None) -> Request
     things = first.things.members if first.things else ()
     is_told_of = bool(things) and (not names or [thing.words for thing in things] == [*names])
     if first.source or not is_told_of:
-        return None
+        return meant if likely else None
     return replace(meant, tasks=(replace(first, source=where), *others))

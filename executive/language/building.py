@@ -73,6 +73,11 @@ class Builder(Deeds):
         """As in "and the pear", "the pear, too": the same as before, with more things."""
         return Correction(next(p for p in parts if isinstance(p, Things)), adds=True)
 
+    def more_there(self, parts: list[Part]) -> Correction:
+        """As in "and the pear on the sofa", "and on the sofa": the same as before, there."""
+        said = [p for p in parts if not isinstance(p, Token)]
+        return replace(self._corrects(said), adds=True)
+
     def refusal(self, parts: list[Part]) -> Refusal:
         """As in "do not touch the hammer"."""
         return Refusal(rest_of(parts))
@@ -215,6 +220,10 @@ class Builder(Deeds):
     def any_one(self, parts: list[Part]) -> Answer:
         """As in "whichever"."""
         return Answer(Choice.ANY)
+
+    def nearest(self, parts: list[Part]) -> Answer:
+        """As in "whichever is closest"."""
+        return Answer(Choice.NEAREST)
 
     def both(self, parts: list[Part]) -> Answer:
         """As in "both", "all of them"."""

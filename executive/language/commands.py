@@ -151,15 +151,20 @@ def _conditional(task: Task, words: str) -> Command:
         task = replace(task, things=sought.things, source=task.source or sought.source)
     [deed] = (_command(replace(task, conditional=False), task.things, words),)
     asks = task.verb == CommandKind.CHECK  # "is it there? If not, ..."
+    apart = sought.source is not None or _words_of(sought.things) != _words_of(task.things)
     unless = task.unless
     if unless and is_it(unless.things):
         unless = replace(unless, things=sought.things)
     return replace(
         deed,
         conditional=True,
-        sought=_command(sought, sought.things, words) if sought.source and not asks else None,
+        sought=_command(sought, sought.things, words) if apart and not asks else None,
         unless=_command(unless, unless.things, words) if unless else None,
     )
+
+
+def _words_of(things: Things | None) -> tuple[str, ...]:
+    return tuple(thing.words for thing in things.members) if things else ()
 
 
 def _number(task: Task, members: Sequence[Thing]) -> int:

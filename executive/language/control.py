@@ -11,6 +11,7 @@ from enum import StrEnum
 from itertools import groupby, takewhile
 from pathlib import Path
 
+from executive.language.phrases import ENGLISH
 from executive.text import LONGEST, one_line
 
 
@@ -56,6 +57,7 @@ def _plain(words: str) -> str:
     apart = unicodedata.normalize("NFD", compatible.casefold())
     letters = "".join(c for c in apart if unicodedata.category(c) != "Mn")
     said = _SIGNS.sub(". stop. ", re.sub("[’‘`´ʼ]", "'", letters))
+    said = _INSTEAD.sub("", said)
     return _EAGER.sub(" ", _NO_APOSTROPHE.sub(r"\1'\2", _DISGUISED.sub(_undisguised, said)))
 
 
@@ -117,6 +119,14 @@ _LETTERS = str.maketrans("01345@$", "oleasas")
 _WORD = re.compile(r"[^\W\d_]+(?:['_][^\W\d_]+)*")
 
 _FILE = tomllib.loads((Path(__file__).parent / "assets" / "control.toml").read_text("utf-8"))
+
+_INSTEAD = re.compile(
+    rf"\b(?:(?:i|have|i've|just) )*changed my mind[,.;:!]? "
+    rf"(?=(?:and |so |now |please )*(?:{'|'.join(ENGLISH['deeds'].split())})\b)"
+    r"|^\W*(?:(?:no|oh|ok|okay|please|just|and),? )*(?:forget|never mind) (?:about )?"
+    rf"(?=(?:the|my|our) (?!(?:{'|'.join(_FILE['all'].split())})\b))"
+)
+"""Who says so wants something else, or one thing no more: the rest says what."""
 
 
 def _phrases(name: str) -> frozenset[tuple[str, ...]]:

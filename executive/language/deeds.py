@@ -200,7 +200,8 @@ class Deeds(Nouns):
         """As in "if there is no apple, bring a pear", "bring the mug unless it is on the desk"."""
         sought = next(p.task for p in parts if isinstance(p, Absent))
         deed = _deed(next(p for p in parts if isinstance(p, Task | Left)))
-        if sought.things is None or is_it(sought.things):
+        says_first = isinstance(parts[0], Absent)  # "if it is not there, ...": what was spoken of
+        if sought.things is None or (is_it(sought.things) and not says_first):
             sought = replace(sought, things=deed.things)
         if (instead := _instead(deed, parts)) is None:
             return replace(sought, conditional=True, unless=deed)
@@ -218,6 +219,8 @@ class Deeds(Nouns):
         sought = next((p for p in rest if isinstance(p, Task)), None)
         if sought is not None and sought.things is None and sought.source is None:
             sought = None
+        elif sought is not None and is_it(sought.things) and deed.things:
+            sought = replace(sought, things=deed.things)
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
 
     def if_so(self, parts: list[Part]) -> Request:

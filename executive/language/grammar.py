@@ -5,7 +5,16 @@ from functools import cache, lru_cache
 from itertools import chain
 
 from executive.language.commands import NOT_KNOWN_WHAT, agrees, commands_in, talk
-from executive.language.meaning import Answer, Choice, Request, Said, Task, Unable, Unread
+from executive.language.meaning import (
+    Answer,
+    Choice,
+    Correction,
+    Request,
+    Said,
+    Task,
+    Unable,
+    Unread,
+)
 from executive.language.pronouns import resolved
 from executive.language.reader import AT_A_TIME, Reader, english
 from executive.language.slips import brought, without_slips
@@ -106,12 +115,18 @@ class EnglishInterpreter:
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
         said = self._reader.read(answer)
-        if isinstance(said, Answer) and said.choice in (Choice.ANY, Choice.ALL):
+        if isinstance(said, Answer) and said.choice in (Choice.ANY, Choice.NEAREST, Choice.ALL):
             return False  # "I do not mind"
+        if isinstance(said, Correction):
+            return False  # "none of them, the mug"
         if self._reader.declines(answer) or not self._reader.plain(answer).strip("?"):
             return True
         declining = (Answer(Choice.NO), Answer(Choice.UNKNOWN))
         return self._reader.knows(answer) and said in declining
+
+    def only(self, words: str) -> bool:
+        """Whether it says that nothing else is meant: "only the mug", "no, just the pear"."""
+        return self._reader.only(words)
 
     def agrees(self, answer: str) -> bool | None:
         """Whether an answer says yes or no; None if it says neither."""
@@ -123,6 +138,12 @@ class EnglishInterpreter:
         first, _, rest = self._reader.plain(answer).partition(" ")
         begun = agrees(self._reader.read(first))
         return None if begun and self._reader.denial(rest) else begun
+
+    def after_yes(self, answer: str) -> Said:
+        """What is said behind a yes: "yes, and the pear"; what does not begin so is not read."""
+        first, _, rest = self._reader.plain(answer).partition(" ")
+        agreed = agrees(self._reader.read(first)) is True
+        return self._reader.read(rest) if agreed and rest else Unread(answer)
 
 
 def _names_in(commands: Commands) -> list[str]:

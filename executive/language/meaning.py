@@ -253,6 +253,8 @@ class Choice(StrEnum):
     UNKNOWN = "unknown"
     """The person does not know, or will not say."""
     ANY = "any"
+    NEAREST = "nearest"
+    """Any, by what takes least time."""
     ALL = "all"
 
 

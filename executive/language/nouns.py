@@ -102,9 +102,10 @@ class Nouns(Transformer[Token, Said]):
         return Thing(said, pronoun=True, definite=True, place_in_list=number, said=said)
 
     def another(self, parts: list[Part]) -> Thing:
-        """As in "another apple", "the other one"."""
+        """As in "another apple", "the other one", "two more apples"."""
         noun = next((p for p in parts if isinstance(p, Thing)), Thing())
-        return replace(noun, number=1, pronoun=not noun.words, other=True, said=said_of(parts))
+        number = next((self.count_of(p) for p in parts if is_a(p, "NUMBER")), 1)
+        return replace(noun, number=number, pronoun=not noun.words, other=True, said=said_of(parts))
 
     def every(self, parts: list[Part]) -> Thing:
         """As in "all the fruit", "everything but the mug"."""
@@ -125,6 +126,8 @@ class Nouns(Transformer[Token, Said]):
         things = tuple(p for p in parts if isinstance(p, Thing))
         if one := next((t.said for t in things if t.words in ("one", "ones")), ""):
             raise Unfit(one)  # "all tools but one": which?
+        if every := next((t.said for t in things if t.number == ALL and not t.words), ""):
+            raise Unfit(every)  # "all but what is on the desk": where they are is said of these
         if things[0].definite and any(thing.number and not thing.definite for thing in things):
             raise Unfit(things[-1].said)  # "not the peach, and a mug": the mug may be wanted
         return things

@@ -20,6 +20,7 @@ from executive.language.meaning import (
     Things,
     Where,
 )
+from executive.language.phrases import is_plural
 from executive.language.spoken import QUESTIONS, Spoken, called
 from executive.types import CommandKind
 
@@ -75,23 +76,29 @@ def with_names(said: Correction, spoken: Spoken) -> Correction:
 
 
 def _tasks(
-    tasks: tuple[Task, ...], spoken: Spoken, holds: bool, things: Things | None = None
+    tasks: tuple[Task, ...],
+    spoken: Spoken,
+    holds: bool,
+    things: Things | None = None,
+    place: Where | None = None,
 ) -> tuple[Task, ...]:
     """With names for what was named before in the same breath, else for what was spoken of.
 
-    What a condition names is nearer than that: "if there is an apple, bring it". The `things` are
-    what was named before all of the tasks.
+    What a condition names is nearer than that: "if there is an apple, bring it". The `things` and
+    the `place` are what was named before all of the tasks.
     """
     done: list[Task] = []
     named: tuple[Thing, ...] = things.members if things else ()
-    place: Where | None = None
     for task in folded([_after_question(task, spoken) for task in tasks]):
+        if not (things or spoken.things):
+            task = _with_own_things(task)
         before = _named_in(task.sought) or (_all_of(task.things, named) or things)
         meant = _meant_by(task, before, spoken, holds)
         source, goal = (_where(where, things, place, spoken) for where in (task.source, task.goal))
         if _is_there(source) and (task.verb in _ANYWHERE or asks_for_things(task)):
             source = None  # "how many fruits are there"
-        sought = task.sought and _tasks((task.sought,), spoken, holds, meant)[0]
+        nearest = _before_condition(task, meant, things, spoken)
+        sought = task.sought and _tasks((task.sought,), spoken, holds, nearest, place)[0]
         done.append(replace(task, things=meant, source=source, goal=goal, sought=sought))
         things = meant if meant and not is_it(meant) else things
         named += things.members if things and things is meant else ()
@@ -99,12 +106,33 @@ def _tasks(
     return tuple(done)
 
 
+def _with_own_things(task: Task) -> Task:
+    """Where nothing was spoken of, "it" in "if it is not there, bring the pear" is the pear."""
+    of_nothing = task.verb == CommandKind.CHECK and task.sought is None and is_it(task.things)
+    if of_nothing and task.unless and task.unless.things:
+        return replace(task, things=task.unless.things)
+    return task
+
+
+def _before_condition(
+    task: Task, meant: Things | None, things: Things | None, spoken: Spoken
+) -> Things | None:
+    """What a condition may call "it".
+
+    In "if it is on the desk, bring the pear" that was spoken of before, if anything was; otherwise
+    it is what is to be done something with.
+    """
+    if task.sought and is_it(task.sought.things) and not is_it(task.things):
+        return things or (None if spoken.things else meant)
+    return meant
+
+
 def _after_question(task: Task, spoken: Spoken) -> Task:
     """The same with what was asked last as its condition: "is there a mug?", "if so, bring it"."""
     asked = spoken.request.tasks[-1] if spoken.request else None
     if task.sought != SO or asked is None or asked.verb != CommandKind.CHECK:
         return task
-    if task.unless:
+    if task.things is None and task.verb == CommandKind.CHECK:  # "if not, bring the pear"
         return replace(asked, conditional=True, unless=task.unless)
     return replace(task, sought=asked)
 
@@ -123,6 +151,8 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
     seen = not before and spoken.request and spoken.request.tasks[-1].verb in QUESTIONS
     if seen and (rest := _all_but(task.things, members)):
         return rest
+    if seen and len(members) > 1 and is_it(task.things) and not of_several(task.things):
+        return _which(task.things, spoken)
     if before and (other := _the_other(task.things, before, spoken)):
         return other
     if picked := _picked(task.things, members):
@@ -134,6 +164,14 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
         return before.without(task.things.exceptions) if named else task.things
     in_hand = holds and task.verb in _OF_THE_HAND
     return task.things if in_hand else _things(task.things, spoken)
+
+
+def _which(things: Things, spoken: Spoken) -> Things:
+    """As in "bring it", where several were seen: that has to be asked."""
+    if not spoken.called or is_plural(spoken.called):
+        return things
+    kind = Thing(spoken.called, definite=True, said=spoken.called)
+    return Things((kind,)).without(things.exceptions)
 
 
 def _all_of(things: Things | None, named: tuple[Thing, ...]) -> Things | None:
@@ -153,7 +191,7 @@ def _picked(things: Things, members: tuple[Thing, ...]) -> Things | None:
         at = which - (which > 0)
         return Things((members[at],)) if -len(members) <= at < len(members) and which else None
     if number == ALL or number == len(members) or (of_several(things) and not number):
-        return Things(members).without(thing.exceptions)
+        return _less(members, thing.exceptions)
     some = Things(members, one_of=True, number=number).without(thing.exceptions)
     return some if 0 < number < len(members) else None
 
@@ -165,9 +203,14 @@ def _all_but(things: Things, members: tuple[Thing, ...]) -> Things | None:
     [thing] = things.members
     if thing.words or thing.number != ALL or not thing.said.startswith("all"):
         return None
-    left_out = {but.words for but in thing.exceptions}
-    rest = tuple(one for one in members if one.words.replace("_", " ") not in left_out)
-    return Things(rest) if rest else None
+    return _less(members, thing.exceptions)
+
+
+def _less(members: tuple[Thing, ...], left_out: tuple[Thing, ...]) -> Things:
+    """Those that are not left out: "them but not the pear"."""
+    names = {but.words for but in left_out}
+    rest = tuple(one for one in members if one.words.replace("_", " ") not in names)
+    return Things(rest) if rest and len(rest) < len(members) else Things(members).without(left_out)
 
 
 def _the_other(things: Things, before: Things, spoken: Spoken) -> Things | None:
@@ -200,8 +243,8 @@ def _meant(thing: Thing, spoken: Spoken) -> tuple[Thing, ...]:
     """The things that a word stands for."""
     if thing.other:
         return (_another(thing, spoken),)
-    if not thing.pronoun or not spoken.things:
-        return (thing,)
+    if not thing.pronoun or not spoken.things or thing.place_in_list is not None:
+        return (thing,)  # of these, a number in the list is known already, or there is none
     if (thing.number or 0) > 1 and (kind := spoken.called or spoken.things[-1]):
         return (Thing(kind, thing.number, said=f"{thing.said.partition(' ')[0]} {kind}"),)
     every = thing.number == ALL or of_several(Things((thing,)))
@@ -215,7 +258,8 @@ def _another(thing: Thing, spoken: Spoken) -> Thing:
     if not kind:
         return thing
     others = tuple(Thing(name, said=name) for name in spoken.things)
-    return Thing(kind, 1, exceptions=(*thing.exceptions, *others), said=kind)
+    number = thing.number or 1
+    return Thing(kind, number, exceptions=(*thing.exceptions, *others), said=kind)
 
 
 def _where(

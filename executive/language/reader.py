@@ -76,6 +76,7 @@ class Reader:
         self._denials = re.compile(rf"\b(?:{_any_of(words['negations'] + words['denials'])})\b")
         self._perhaps = re.compile(rf"\b(?:{_any_of(words['perhaps_denials'])})\b")
         self._declines = re.compile(rf"\b(?:{_any_of(words['declines'])})\b")
+        self._only = re.compile(rf"^(?:no,? )?(?:please )?(?:{_any_of(words['only'])})(?= )")
         self._conditions = re.compile(rf"\b(?:{_any_of(words['conditions'])})\b")
         self._numbers: dict[str, int] = words["numbers"]
         self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
@@ -124,7 +125,9 @@ class Reader:
         if not isinstance(self.read(words), Unread):
             return None
         corrected = corrected_in_one_breath(plain, self._turn, self._read, likely=True)
-        return corrected or with_pauses(plain, self._deed, self._read, likely=True)
+        if corrected or (likely := with_pauses(plain, self._deed, self._read, likely=True)):
+            return corrected or likely
+        return beside_a_request(plain, self._asides, self._pause, self._read_loosely, likely=True)
 
     def _read(self, text: str) -> Said:
         """The same of words in plain form."""
@@ -195,6 +198,10 @@ class Reader:
         each = self.plain(words).replace(",", " ").split()
         said = ((w, int(w) if w.isdecimal() else self._numbers.get(w, 1)) for w in each)
         return [(word, number) for word, number in said if number != 1]
+
+    def only(self, words: str) -> bool:
+        """Whether they begin with a word that says that nothing else is meant."""
+        return self._only.search(plain_letters(words)) is not None
 
     def declines(self, words: str) -> bool:
         """Whether there is something among them that people say who do not know."""

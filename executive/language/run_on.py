@@ -11,8 +11,8 @@ MOST = 8
 _DETERMINED = r"(?:the|a|an|my|our|your|some|two|three|four|five|another|to)\b"
 _NEXT = re.compile(rf"{_DETERMINED}(?! (?:(?:\S+ )?ones?|little|bit|lot)\b)")
 """How another thing, or place, may begin; not "the red one", which may be the same."""
-_LAST = re.compile(rf"\b{_DETERMINED} [^,]+$")
-"""How the one before has begun."""
+_LAST = re.compile(rf"\b{_DETERMINED} (?:(?!\band\b)[^,])+$")
+"""How the one before has begun; in "and throw the apple" there is none before."""
 
 
 def with_pauses(

@@ -45,7 +45,7 @@ from executive.types import (
 
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
-FACING_S = 0.5
+FACING_S = 2.0
 MOVED_M = 0.3
 """A base that is so far from where it arrived is somewhere else."""
 TELLING_S = 1.0

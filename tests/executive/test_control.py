@@ -29,6 +29,9 @@ MORE = (
     *("why aren't you stopping?", "Why are you not stopping", "why didn't you stop"),
     *("canel", "cancl", "abrt", "st0p", "5T0P!", "c4ncel", "stoppe", "Stoppen!", "aborting"),
     *("I changed my mind", "Actually, I've changed my mind", "I don't want it anymore"),
+    *("I changed my mind about that", "I changed my mind, bring the mug, no, stop"),
+    *("Forget the whole thing", "forget about the mission", "Forget the rest", "Forget it"),
+    *("I changed my mind, leave it", "Forget the pear and stop", "never mind that"),
     *("I don't need the mug any more", "that will do", "That'll do.", "thatll do"),
     *("no no no", "No, no, no!", "nonono", "I can't wait, stop", "I can't, wait!"),
     *(
@@ -63,6 +66,8 @@ NEVER = (
     *("Don't bring me the apple", "Put that down", "the second", "any", "", "?", "..."),
     *("I can't wait, bring the apple", "I cannot wait to see the mug", "Bring the stop sign"),
     *("BRING ME THE DOOR STOP", "Bring the STOP sign", 'the "stop" sign'),
+    *("I changed my mind, bring the mug", "I've changed my mind. Put it on the desk, please"),
+    *("Forget the pear", "Oh, forget about my hammer", "Never mind the pear, bring the mug"),
     *("no no", "no no, the mug", "the t-shirt by the bus-stop", "topping", "shopping", "about"),
     *("shelf_4", "shelf 1a", "Bring the mug - the red one", "Find the stop-sign"),
 )

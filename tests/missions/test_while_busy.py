@@ -59,6 +59,115 @@ def test_a_correction_takes_the_place_of_the_task_at_any_moment(at: int) -> None
     assert mission.world.resting_place("hammer") == "shelf_lobby"
 
 
+def test_who_changed_their_mind_has_the_new_wish_done_and_no_other() -> None:
+    mission = run("Bring the hammer", "I changed my mind, bring the mug")
+    assert tasks(mission) == [("bring", "mug", DONE)]
+
+
+@pytest.mark.parametrize("words", ["Forget the mug", "Never mind the mug", "Forget about the mug"])
+def test_what_is_to_be_forgotten_is_not_done_and_the_rest_is(words: str) -> None:
+    mission = run("Bring the hammer, then the mug", words)
+    assert [(kind, status) for kind, _, status in tasks(mission)] == [
+        ("bring", NOT_DONE),
+        ("bring", DONE),
+    ]
+    assert mission.world.resting_place("hammer") == "delivery"
+    assert mission.world.resting_place("mug") != "delivery"
+
+
+def test_forgetting_what_nobody_knows_ends_all() -> None:
+    mission = run("Bring the hammer, then the mug", "Forget the coffee")
+    assert {status for _, _, status in tasks(mission)} == {NOT_DONE}
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+
+
+@pytest.mark.parametrize(
+    ("words", "brought"),
+    [
+        ("only the mug", {"mug"}),
+        ("just the hammer, please", {"hammer"}),
+        ("no, just the mug", {"mug"}),
+        ("only the pear", {"pear"}),
+    ],
+)
+def test_only_this_is_nothing_else(words: str, brought: set[str]) -> None:
+    mission = run("Bring the hammer, then the mug", words)
+    things = ("hammer", "mug", "pear")
+    assert {x for x in things if mission.world.resting_place(x) == "delivery"} == brought
+
+
+@pytest.mark.parametrize("words", ["only the pear", "just the pear, please", "no, only the pear"])
+@pytest.mark.parametrize("wanted", ["Bring two fruits", "Bring all the fruits"])
+def test_only_this_of_several_is_not_all_of_them(wanted: str, words: str) -> None:
+    mission = run(wanted, words)
+    brought = [x for x, at in mission.world.things.items() if at == "delivery"]
+    assert brought == ["pear"]
+
+
+@pytest.mark.parametrize("words", ["leave the mug", "not the mug", "leave the mug there"])
+@pytest.mark.parametrize("at", [1, 2, 3])
+def test_what_is_to_be_left_is_not_cleared_away(words: str, at: int) -> None:
+    during = saying(words, at)
+    place = {"mug": "desk", "apple": "desk"}
+    mission = run_mission("Clear the desk", llm=False, during=during, place=place)
+    assert mission.world.resting_place("mug") == "desk"
+    assert mission.world.resting_place("apple") != "desk"
+
+
+def test_of_all_but_one_the_others_are_brought() -> None:
+    mission = run("Bring all the tools", "not the hammer")
+    assert mission.world.resting_place("hammer") == "shelf_lobby"
+    assert mission.world.resting_place("power_drill") == "delivery"
+
+
+@pytest.mark.parametrize(
+    "words", ["to the desk", "No, to the desk", "Put them on the desk instead"]
+)
+def test_another_place_is_that_of_all_that_was_asked_for_in_one_breath(words: str) -> None:
+    mission = run("Bring the mug and the hammer", words)
+    assert mission.world.resting_place("mug") == "desk"
+    assert mission.world.resting_place("hammer") == "desk"
+
+
+def test_another_place_is_not_that_of_what_has_one_of_its_own() -> None:
+    mission = run("Put the mug on the sofa and the hammer on the bed", "no, to the desk")
+    places = {mission.world.resting_place("mug"), mission.world.resting_place("hammer")}
+    assert "desk" in places
+    assert len(places) == 2
+
+
+def test_both_are_those_of_one_breath() -> None:
+    mission = run("Bring the mug and the hammer", "Put both on the desk")
+    assert mission.world.resting_place("mug") == "desk"
+    assert mission.world.resting_place("hammer") == "desk"
+
+
+@pytest.mark.parametrize("words", ["not on the sofa", "anywhere but on the sofa"])
+def test_where_it_is_not_to_go_is_asked_about(words: str) -> None:
+    during = saying(words, 1)
+    mission = run_mission("Put the hammer on the sofa", llm=False, during=during, answers=["desk"])
+    assert mission.world.resting_place("hammer") == "desk"
+
+
+def test_what_is_to_be_done_first_is_not_done_twice() -> None:
+    mission = run("Bring the hammer, then the mug, then the pear", "Bring the pear first")
+    assert [name for _, name, _ in tasks(mission)].count("pear") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "brought"),
+    [
+        ("If you can't find it, bring the mug", "hammer"),
+        ("If it isn't on the shelf, bring the mug", "hammer"),
+        ("If it isn't on the desk, bring the mug", "mug"),
+    ],
+)
+def test_what_to_do_if_it_fails_is_no_further_wish(words: str, brought: str) -> None:
+    mission = run("Bring the hammer", words)
+    things = ("hammer", "mug")
+    assert [x for x in things if mission.world.resting_place(x) == "delivery"] == [brought]
+
+
 @pytest.mark.physics
 def test_what_was_half_taken_in_physics_is_put_away_first(tmp_path: Path) -> None:
     inbox, clocks = Inbox(), []

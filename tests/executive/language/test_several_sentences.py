@@ -40,6 +40,8 @@ def test_who_makes_no_pauses_is_understood(words: str, meant: list[str]) -> None
         "bring the teacher the apple",
         "is the hammer a tool",
         "move the mug a little to the left",
+        "bring the mug and the pear and throw the apple",
+        "give me the mug and him the pear",
     ],
 )
 def test_what_may_be_one_thing_or_none_is_not_taken_apart(words: str) -> None:
@@ -62,6 +64,11 @@ def test_what_may_be_one_thing_or_none_is_not_taken_apart(words: str) -> None:
         ("I left the hammer on the sofa. Put it on the desk", ("put", "hammer", "sofa", "desk")),
         ("It is on the desk. Bring the mug.", ("bring", "mug", "desk")),
         ("I need the hammer, it is on the shelf", ("bring", "hammer", "shelf")),
+        ("the mug is on the desk so bring it here", ("bring", "mug", "desk")),
+        ("bring the mug because I am thirsty", ("bring", "mug")),
+        ("Bring the mug, so that I can drink", ("bring", "mug")),
+        ("Bring the mug carefully", ("bring", "mug")),
+        ("Do not hesitate to bring the mug", ("bring", "mug")),
     ],
 )
 def test_what_asks_for_nothing_may_stand_beside_a_request(
@@ -79,6 +86,8 @@ def test_what_asks_for_nothing_may_stand_beside_a_request(
         "I told you to bring the mug, bring the pear",
         "I am allergic to apples, bring me all the fruit",
         "The apple is bad, do not bring it",
+        "I left my mug on the desk and my pear on the sofa, bring them",
+        "Bring the mug because I am not to have the pear",
     ],
 )
 def test_what_may_ask_for_something_else_is_not_passed_over(words: str) -> None:
@@ -116,3 +125,8 @@ def test_what_is_not_there_may_be_a_condition(
     assert (command.target, command.source) == checked
     assert command.unless
     assert (command.unless.kind.value, command.unless.target) == ("bring", instead)
+
+
+def test_several_things_that_are_told_of_are_them() -> None:
+    words = "I dropped the mug and the pear, can you bring them?"
+    assert asked(words) == [("bring", "mug"), ("bring", "pear")]

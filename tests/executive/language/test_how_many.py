@@ -1,0 +1,123 @@
+"""How many things are meant, and which of them."""
+
+import pytest
+
+from executive.language.grammar import EnglishInterpreter
+from executive.language.spoken import NOTHING, Spoken, after
+
+read = EnglishInterpreter()
+
+
+@pytest.mark.parametrize(
+    ("words", "number"),
+    [
+        ("Bring at least two fruits", 2),
+        ("Bring no more than two fruits", 2),
+        ("Bring up to three fruits", 3),
+        ("Bring one or two fruits", 2),
+        ("Bring me two to three fruits", 3),
+        ("Bring a dozen fruits", 12),
+        ("Bring half a dozen fruits", 6),
+        ("Bring exactly 2 fruits", 2),
+    ],
+)
+def test_a_bound_is_as_many_as_it_allows(words: str, number: int) -> None:
+    [[command]] = read.commands(words)
+    assert (command.target, command.number) == ("fruits", number)
+
+
+@pytest.mark.parametrize("words", ["Bring two more fruits", "Bring two more", "Bring another two"])
+def test_more_are_others_than_those_of_before(words: str) -> None:
+    before = after(read.read("Bring two fruits"), NOTHING, things=("apple", "pear"))
+    [[command]] = read.commands(words, before)
+    assert (command.target, command.number) == ("fruits", 2)
+    assert command.exceptions == ("apple", "pear")
+
+
+@pytest.mark.parametrize(
+    "words", ["Bring everything except what is on the desk", "Bring all but everything on the bed"]
+)
+def test_what_is_left_out_has_to_be_named(words: str) -> None:
+    assert read.commands(words) == ()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Don't just bring the mug, bring the apple too",
+        "Bring not only the mug but also the apple",
+        "Bring not just the mug, but the apple, too",
+    ],
+)
+def test_not_only_this_is_both(words: str) -> None:
+    commands = [command for group in read.commands(words) for command in group]
+    assert [command.target for command in commands] == ["mug", "apple"]
+
+
+def test_what_is_to_be_gone_from_a_place_is_not_put_there() -> None:
+    [[command]] = read.commands("Get rid of the mug on the desk")
+    assert (command.kind, command.target) == ("clear", "mug")
+    assert (command.source, command.goal) == ("desk", "")
+
+
+def seen(question: str, *things: str) -> Spoken:
+    """What is spoken of when these were told in answer to a question."""
+    return after(read.read(question), NOTHING, things=things, place="desk")
+
+
+def targets(words: str, spoken: Spoken) -> list[str]:
+    return [command.target for group in read.commands(words, spoken) for command in group]
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("Bring both", ["mug", "pear"]),
+        ("Put both on the sofa", ["mug", "pear"]),
+        ("Bring them but not the pear", ["mug"]),
+        ("Bring them except the mug", ["pear"]),
+        ("Bring the third one", ["third one"]),
+        ("Bring the second one", ["pear"]),
+    ],
+)
+def test_which_of_two_are_meant(words: str, meant: list[str]) -> None:
+    two = after(read.read("Find the mug and the pear"), NOTHING, things=("mug", "pear"))
+    assert targets(words, two) == meant
+
+
+def test_the_first_of_one_is_not_guessed() -> None:
+    one = after(read.read("Find the pear"), NOTHING, things=("pear",))
+    assert targets("Bring the first one", one) == ["first one"]
+
+
+@pytest.mark.parametrize(
+    ("question", "meant"),
+    [
+        ("Is there a fruit on the desk?", "fruit"),
+        ("How many fruits are on the desk?", "it"),
+        ("What is on the desk?", "it"),
+    ],
+)
+def test_which_of_several_that_were_seen_it_is_has_to_be_asked(question: str, meant: str) -> None:
+    assert targets("Bring it", seen(question, "apple", "pear")) == [meant]
+    assert targets("Bring it", seen(question, "apple")) == ["apple"]
+
+
+@pytest.mark.parametrize(
+    ("words", "goal"),
+    [
+        ("And the pear on the bed", "bed"),
+        ("Do the same with the pear", "sofa"),
+        ("What about the pear?", "sofa"),
+        ("Now the pear", "sofa"),
+    ],
+)
+def test_the_same_may_be_asked_for_with_another_thing(words: str, goal: str) -> None:
+    before = after(read.read("Put the mug on the sofa"), NOTHING, things=("mug",), place="sofa")
+    [[command]] = read.commands(words, before)
+    assert (command.kind, command.target, command.goal) == ("put", "pear", goal)
+
+
+def test_the_same_may_be_asked_about_another_place() -> None:
+    [[command]] = read.commands("And on the sofa?", seen("What is on the desk?", "mug"))
+    assert (command.kind, command.source) == ("tell", "sofa")
