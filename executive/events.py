@@ -128,6 +128,16 @@ class Listened:
     became: str
 
 
+@dataclass(frozen=True, slots=True)
+class BodyTold:
+    """The robot's body has something to tell the person, a sentence, and goes on with what it does.
+
+    So is told that a link is lost and waited for, and that it is back.
+    """
+
+    words: str
+
+
 Event = (
     Started
     | Ended
@@ -138,6 +148,7 @@ Event = (
     | Broke
     | Intervened
     | Listened
+    | BodyTold
 )
 
 
@@ -260,10 +271,11 @@ class Inbox:
     def await_computed(self, seconds: float) -> bool:
         """Sleep until all is computed or someone says stop; False if the real time is up first.
 
-        Other events wait: which of them would come before the end is the machine's chance.
+        Other events wait: which of them would come before the end is the machine's chance. But a
+        body has something to tell just when it takes long.
         """
         latest = time.monotonic() + seconds
-        while self.computes and not self.stop_waits:
+        while self.computes and not self._waits(StopRequested, BodyTold):
             left = latest - time.monotonic()
             if left <= 0:
                 return False
@@ -285,8 +297,12 @@ class Inbox:
     @property
     def stop_waits(self) -> bool:
         """Whether someone said stop, and nobody has heard it yet."""
+        return self._waits(StopRequested)
+
+    def _waits(self, *kinds: type) -> bool:
+        """Whether there is such an event, and nobody has taken it yet."""
         self._collect()
-        return any(isinstance(event, StopRequested) for event in self._taken)
+        return any(isinstance(event, kinds) for event in self._taken)
 
     def take_all(self) -> tuple[Event, ...]:
         """Empty the box, oldest first.

@@ -1,4 +1,4 @@
-"""Hears what the person says unasked, at each tick before anything else."""
+"""Hears the person, and passes on what the body tells, at each tick before anything else."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -17,16 +17,18 @@ def hear_first(context: MissionContext) -> Behaviour:
 
 
 class Attend(Step):
-    """Answers what was said; always succeeds.
+    """Answers what was said, and tells what the body has to tell; always succeeds.
 
-    Reads dialogue.heard; writes agenda.
+    Reads dialogue.heard and dialogue.news; writes agenda.
     """
 
     source = "person"
 
     def update(self) -> Status:
         """One after the other."""
-        heard = self.situation.dialogue.heard
+        heard, news = self.situation.dialogue.heard, self.situation.dialogue.news
+        while news:
+            tell(self.context, news.pop(0))
         while heard:
             words = heard.pop(0)
             self.context.recorder.record(Utterance("person", words))

@@ -4,11 +4,10 @@ import logging
 import sys
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from datetime import UTC, datetime
-from itertools import chain
 from pathlib import Path
 from typing import Self, TextIO
 
@@ -18,6 +17,7 @@ from executive.app.recording import Recording, body_used, files_used
 from executive.app.run_folder import new_folder, to_json, write
 from executive.app.sources import checked
 from executive.app.speaking import speak_aloud
+from executive.app.talking import answer, remember
 from executive.config import Settings
 from executive.errors import ExecutiveError
 from executive.events import (
@@ -34,15 +34,11 @@ from executive.events import (
 from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
 from executive.language.control import control
-from executive.language.phrases import spoken
-from executive.language.pronouns import resolved
-from executive.language.spoken import NOTHING, after
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
-from executive.replies import Standing, about, reply
-from executive.situation import Ending, Situation
+from executive.situation import FIRST, Ending, Situation
 from executive.text import one_line, too_long, writable
-from executive.types import PERSON, Answered, Halt, MissionStatus, Outcome, TaskOutcome
+from executive.types import Answered, Halt, MissionStatus, Outcome
 from executive.user import NOTHING_TO_STOP, Console
 from logs.recorder import FanOut, Sink
 
@@ -117,11 +113,8 @@ class Session:
             self._opened = opened.pop_all()
         self._sinks = tuple(sinks)
         self._build = build
-        self._in_hand: str | None = None
-        self._at = self._stands = PERSON
-        self._spoken = NOTHING
-        self._last: Outcome | None = None
-        self._restless = False
+        self._before = FIRST
+        """What the missions so far have left for the next."""
         self._listened: list[Listened] = []
         """What ears have understood since the last mission, for the recording of the next."""
         self._closed = False
@@ -188,42 +181,39 @@ class Session:
             self.stopped_by = next(stops, "")  # there is nothing to stop
             return refused(why)
         words = one_line(writable(words))
-        if not control(words) and (answer := self.talk(words)):
-            return answered(answer)
+        if not control(words) and (said := self.talk(words)):
+            return answered(said)
         if self.parts.experience:
             GuardedExperience(self.parts.experience, self.recorder).learn()
         started = datetime.now(UTC)
-        folder = new_folder(self.settings.runs, started, words) if self._recording else None
-        self.folder = folder
-        situation = Situation.at_start(
-            words,
-            in_hand=self._in_hand,
-            restless=self._restless,
-            spoken=self._spoken,
-            at=self._at,
-        )
+        if self._recording:
+            self.folder = new_folder(self.settings.runs, started, words)
+        situation = Situation.at_start(words, self._before)
         try:
-            self._carry_out_safely(situation, folder, started)
+            self._carry_out_safely(situation, started)
         finally:
-            self._in_hand, self._restless = situation.hand.in_hand, situation.ending.restless
-            self._at = situation.dialogue.at
-            if situation.dialogue.stands is not None:
-                self._stands = situation.dialogue.stands
-            self._leave()
-            self._last = outcome = situation.outcome(
-                mission_time_s=self._mission_time(),
-                wall_time_s=time.monotonic() - began,
-                run_dir=str(folder) if folder else None,
-            )
-            if outcome.status != MissionStatus.STOPPED:
-                self.heard.extend(situation.dialogue.heard)
-            try:
-                GuardedRecorder(self.recorder).record(Finished(outcome))
-                if folder:
-                    write(folder / "outcome.json", to_json(outcome) + "\n")
-            finally:
-                self._close_logs()
-        self._remember(words, outcome)
+            outcome = self._end(situation, began)
+        self._before = remember(words, outcome, self.parts, self._before)
+        return outcome
+
+    def _end(self, situation: Situation, began: float) -> Outcome:
+        """What came of the mission, recorded; and how things stand now, for the next one."""
+        self._before = situation.at_end(self._before)
+        self._leave()
+        outcome = situation.outcome(
+            mission_time_s=self._mission_time(),
+            wall_time_s=time.monotonic() - began,
+            run_dir=str(self.folder) if self.folder else None,
+        )
+        self._before = replace(self._before, last=outcome)
+        if outcome.status != MissionStatus.STOPPED:
+            self.heard.extend(situation.dialogue.heard)
+        try:
+            GuardedRecorder(self.recorder).record(Finished(outcome))
+            if self.folder:
+                write(self.folder / "outcome.json", to_json(outcome) + "\n")
+        finally:
+            self._close_logs()
         return outcome
 
     def _leave(self) -> None:
@@ -241,12 +231,10 @@ class Session:
             self.recorder.close()
             raise
 
-    def _carry_out_safely(
-        self, situation: Situation, folder: Path | None, started: datetime
-    ) -> None:
+    def _carry_out_safely(self, situation: Situation, started: datetime) -> None:
         """What fails before the tree is there to hear of it ends the mission, too."""
         try:
-            self._begin(folder, started)
+            self._begin(started)
             self._carry_out(situation)
         except BaseException as error:
             if not situation.ending.is_over:
@@ -274,20 +262,15 @@ class Session:
         except Exception:
             return 0.0
 
-    def _begin(self, folder: Path | None, started: datetime) -> None:
+    def _begin(self, started: datetime) -> None:
         """Open the logs, and tell them what is where."""
         self.inbox.drop_all()
         self.parts.clock.restart()
         logs: list[Sink] = []
         try:
-            if folder and self._recording:
-                before = {
-                    "in_hand": self._in_hand or "",
-                    "restless": str(self._restless),
-                    "spoken": self._spoken.to_json(),
-                    "at": self._at,
-                }
-                logs = self._recording.sinks(folder, started, before)
+            if self.folder and self._recording:
+                before = self._before.to_metadata()
+                logs = self._recording.sinks(self.folder, started, before)
         except Exception as error:
             log.warning("the mission goes on without logs: %s", in_words(error))
         self.recorder.open([*logs, *self._sinks], started)
@@ -320,34 +303,10 @@ class Session:
         That is small talk, a question to the robot about itself or about what it knows, and where
         something is, which it remembers.
         """
-        said = self._reply(words)
+        said, self._before = answer(words, self.parts, self._before)
         if said:
             self.parts.user.tell(said)
         return said
-
-    def _reply(self, words: str) -> str:
-        parts = self.parts
-        things = [spoken(name) for name in parts.knowledge.objects()]
-        if courtesy := parts.interpreter.talk(words, things):
-            return courtesy
-        said = resolved(parts.interpreter.read(words), self._spoken)
-        last = self._last
-        visits = [one for one in last.candidates if one.place in last.visited] if last else ()
-        reason, asked = (last.reason, last.command) if last else ("", "")
-        standing = Standing(
-            self._in_hand, visits=visits, reason=reason, stands=self._stands, asked=asked
-        )
-        answer = reply(said, standing, parts.knowledge, parts.facts)
-        if answer:
-            self._spoken = after(said, self._spoken, things=about(said, parts.knowledge))
-        return answer
-
-    def _remember(self, words: str, outcome: Outcome) -> None:
-        """Of what was spoken, for what is said next."""
-        said = resolved(self.parts.interpreter.read(words), self._spoken)
-        things = tuple(dict.fromkeys(chain.from_iterable(map(_things_of, outcome.tasks))))
-        place = outcome.goals[0] if outcome.goals else outcome.location or ""
-        self._spoken = after(said, self._spoken, things=things, place=place)
 
     def next_command(self, console: Console, prompt: str = "") -> str | None:
         """Prompt, and wait for the person to type a command; None if the input or session ends.
@@ -383,15 +342,6 @@ class Session:
                 return self.heard.popleft()
             if not self.inbox.is_open(request):
                 request = console.listen(prompt)
-
-
-def _things_of(task: TaskOutcome) -> Iterator[str]:
-    """The things that a task turned out to be about; of a question, those that were seen."""
-    yield from task.things
-    for part in task.parts:
-        yield from _things_of(part)
-    if task.object:
-        yield task.object
 
 
 def answered(answer: str) -> Outcome:

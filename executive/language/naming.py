@@ -53,7 +53,7 @@ def _says_yes_or_no(words: str) -> bool:
 def _is_pronoun(words: str) -> bool:
     """As "it" and "that one" are."""
     match _english().read(f"bring {words}"):
-        case Request(tasks=(Task(things=Things(members=(Thing(pronoun=True),))),)):
+        case Request(tasks=(Task(things=Things(members=(Thing(pronoun=True),)), goal=None),)):
             return True
     return False
 

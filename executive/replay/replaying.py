@@ -15,13 +15,11 @@ from time import perf_counter
 from executive.app.parts import Build, Change, build_mission, mission_tree
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.language.spoken import Spoken
 from executive.records import Record, Tick, TreeShape
 from executive.replay.recorded import kept, recorded_parts
 from executive.replay.stand_ins import Absent, RecordedTime
-from executive.situation import Situation
+from executive.situation import Before, Situation
 from executive.text import counted, printable
-from executive.types import PERSON
 from logs.questions.difference import (
     ENDED,
     Aspect,
@@ -77,7 +75,7 @@ def replay(folder: Path, build: Build = mission_tree, change: Change | None = No
     """
     began = perf_counter()
     run = Run(folder)
-    inbox, situation = Inbox(), _situation(run)
+    inbox, situation = Inbox(), Situation.at_start(before=_before(run))
     clock = RecordedTime(tuple(run.turns()), inbox, _requests_before(run))
     judge = Judge(clock, ends_early=run.outcome() is None, exact=_is_worded(run))
     absent = Absent(inbox, situation)
@@ -153,19 +151,13 @@ def _is_worded(run: Run) -> bool:
     return "speaks" in run.metadata
 
 
-def _situation(run: Run) -> Situation:
-    """What was known of the robot before the recorded mission."""
+def _before(run: Run) -> Before:
+    """How things stood when the recorded mission began."""
     try:
-        spoken = Spoken.from_json(run.metadata.get("spoken", "{}"))
+        return Before.from_metadata(run.metadata)
     except ValueError as error:
         what = "its metadata do not say of what was spoken before it"
         raise InputError(str(run.path), what) from error
-    return Situation.at_start(
-        in_hand=run.metadata.get("in_hand") or None,
-        restless=run.metadata.get("restless") == str(True),
-        spoken=spoken,
-        at=run.metadata.get("at", PERSON),
-    )
 
 
 def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]:

@@ -77,7 +77,7 @@ def _profiles() -> int:
     """The profiles that come along."""
     for name in packaged_profiles():
         profile = load_profile(name)
-        print(f"{name}  {profile.about} (tried {profile.tried})")
+        print(f"{name}  {profile.about} (tried: {profile.tried})")
     return DONE
 
 

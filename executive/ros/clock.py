@@ -83,9 +83,12 @@ class GoalTime:
         return self.passed()
 
     def passed(self) -> float:
-        """How much of it has passed since this was asked last (s)."""
+        """How much of it has passed since this was asked last (s).
+
+        None of it where its clock goes back: it was begun anew, while there was no link to it.
+        """
         before, self._counted = self._counted, self._robot.acted_s()
-        return self._counted - before
+        return max(0.0, self._counted - before)
 
     def close(self) -> None:
         """Nothing to free."""

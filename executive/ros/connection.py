@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from executive.clock import RealClock
 from executive.errors import InputError
-from executive.events import Inbox
+from executive.events import BodyTold, Inbox
 from executive.guards import in_words
 from executive.interfaces import Clock
 from executive.ros.address import ROS2, Address
@@ -77,7 +77,7 @@ def dial(address: Address, within_s: float = CONNECTING_S) -> Line:
         return Line(wire, wire.run(link()))
     except LinkError as error:
         wire.close()
-        raise InputError(f"--robot {address}", in_words(error), RIGHT) from None
+        raise InputError(f"--robot {address}".rstrip(":"), in_words(error), RIGHT) from None
 
 
 def connect(
@@ -96,7 +96,7 @@ def connect(
         address: where the robot is.
         profile: what it has.
         places: the home.
-        inbox: where the ends of its goals go.
+        inbox: where the ends of its goals go, and what it has to tell.
         where: what the profile is called in messages.
         ways: how long it takes from one place to another one (s).
         told: is given where the base is in the map, now and then, on the thread that ticks.
@@ -124,7 +124,10 @@ def connect(
         if (pose := senses.base) is not None:
             told(pose)
 
-    losses = Losses(line.link, profile.link_wait_s, brake.settled)
+    def tell_the_person(words: str) -> None:
+        inbox.post(BodyTold(words))
+
+    losses = Losses(line.link, profile.link_wait_s, brake.settled, tell_the_person)
     camera = WireCamera(line.wire, line.link, profile, senses, losses)
     robot = WireRobot(
         line.wire,

@@ -1,9 +1,9 @@
 """A link that is lost during a goal: it is waited for, and the goal is done again from its begin.
 
 What handles things is not done again; but that there is no link any more, is known of it, too.
+The person is told when it is waited for, and when it is back.
 """
 
-import logging
 from collections.abc import Awaitable, Callable
 from typing import TypeVar
 
@@ -13,20 +13,26 @@ from executive.types import Failed
 
 T = TypeVar("T")
 
-log = logging.getLogger(__name__)
-
 
 class Losses:
     """Belongs to the thread of the wire."""
 
-    def __init__(self, link: Link, wait_s: float, settled: Callable[[], Awaitable[None]]) -> None:
+    def __init__(
+        self,
+        link: Link,
+        wait_s: float,
+        settled: Callable[[], Awaitable[None]],
+        tell: Callable[[str], None],
+    ) -> None:
         """A link that is lost is waited for so long (s); 0: not at all.
 
-        `settled` waits until nothing is being cancelled: that would hit what is begun next.
+        `settled` waits until nothing is being cancelled: that would hit what is begun next; `tell`
+        is given sentences for the person.
         """
         self._link = link
         self._wait_s = wait_s
         self._settled = settled
+        self._tell = tell
         self._in_vain: int | None = None
         """How often it had been lost when it was last waited for in vain."""
 
@@ -73,11 +79,11 @@ class Losses:
             raise NoLinkError(without)
         if not self._wait_s:
             return
-        log.warning("I lost the link to my robot: I wait for it, %g s at most", self._wait_s)
+        self._tell(f"I lost the link to my robot: I wait for it, {self._wait_s:g} s at most.")
         try:
             await self._link.ready(self._wait_s)
         except LinkError as error:
             self._in_vain = self._link.losses
             raise NoLinkError(f"I waited {self._wait_s:g} s, and {in_words(error)}") from None
-        log.warning("there is a link to my robot again: I go on")
+        self._tell("There is a link to my robot again: I go on.")
         await self._settled()

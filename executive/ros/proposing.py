@@ -22,6 +22,8 @@ ARM = {
     ),
 }
 """The same, for a robot without actions of its own for picking up."""
+MOST_FRAMES = 12
+"""So many are listed where one is missing."""
 UNKNOWN = {
     "arm": ("group", "tip", "carry"),
     "gripper": ("open", "closed", "effort", "opens_m"),
@@ -67,12 +69,19 @@ def printable_lines(lines: Iterable[str]) -> str:
 
 
 def _frames(names: tuple[str, ...]) -> list[str]:
+    """Where nobody tells a usual one, which there are: a robot may not be localised yet."""
     base = next((n for n in ("base_link", "base_footprint") if n in names), "base_link")
     optical = [n for n in names if n.endswith("optical_frame") or n.endswith("optical")]
-    within = "map" if "map" in names or not names else names[0]
-    told = {"map": within, "base": base}
     color = next((n for n in optical if "depth" not in n), None)
-    return _section("frames", {**told, **({"camera": color} if color else {})})
+    there = ", ".join((*names[:MOST_FRAMES], *(["..."] if names[MOST_FRAMES:] else [])))
+    untold = f"  # not told; there are {printable(there) or 'none'}"
+    return [
+        "[frames]",
+        'map = "map"' + untold * ("map" not in names),
+        f'base = "{base}"' + untold * (base not in names),
+        *([f"camera = {_quoted(color)}"] if color else []),
+        "",
+    ]
 
 
 def _action(offers: Offers, section: str, kinds: Iterable[str]) -> list[str]:

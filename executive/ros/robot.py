@@ -45,7 +45,7 @@ from executive.types import (
 
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
-FACING_S = 0.5
+FACING_S = 2.0
 MOVED_M = 0.3
 """A base that is so far from where it arrived is somewhere else."""
 TELLING_S = 1.0
@@ -139,7 +139,8 @@ class WireRobot:
         now = self._senses.clock if self._ended is None else self._ended
         if self._began is None or now is None:
             return self._spent
-        return self._spent + max(0.0, now - self._began)
+        self._began = min(self._began, now)  # its clock may begin anew, with no link to it
+        return self._spent + now - self._began
 
     def views(self, place: str) -> int:
         """How many looks it takes to see all of a place."""

@@ -1,6 +1,7 @@
 """What a mission knows so far, in parts: what behaviours read and write, and the log keeps."""
 
 from executive.situation.agenda import Agenda, Task, Whole
+from executive.situation.before import FIRST, Before
 from executive.situation.belief import Leg
 from executive.situation.ending import TAKEN_BACK, Ending
 from executive.situation.hand import Hand
@@ -9,8 +10,10 @@ from executive.situation.situation import Situation
 from executive.situation.steering import Choice, For, Steering
 
 __all__ = [
+    "FIRST",
     "TAKEN_BACK",
     "Agenda",
+    "Before",
     "Choice",
     "Consultation",
     "Ending",

@@ -30,3 +30,5 @@ class Dialogue:
     """What was spoken of before this mission: what "it" and "there" stand for."""
     heard: list[str] = field(default_factory=list)
     """What the person has said unasked, and nobody has attended to yet, oldest first."""
+    news: list[str] = field(default_factory=list, metadata=NOT_LOGGED)
+    """What the robot's body has told, and nobody has told the person yet, oldest first."""

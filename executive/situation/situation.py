@@ -7,6 +7,7 @@ from typing import Any, Self
 
 from executive.events import (
     ON,
+    BodyTold,
     Broke,
     DeadlinePassed,
     Deed,
@@ -19,8 +20,8 @@ from executive.events import (
     Started,
     StopRequested,
 )
-from executive.language.spoken import NOTHING, Spoken
 from executive.situation.agenda import Agenda
+from executive.situation.before import FIRST, Before
 from executive.situation.dialogue import Dialogue
 from executive.situation.ending import Ending
 from executive.situation.hand import Hand
@@ -31,7 +32,6 @@ from executive.situation.snapshot import PART, snapshot
 from executive.situation.steering import Steering
 from executive.situation.survey import Survey
 from executive.types import (
-    PERSON,
     Command,
     CommandKind,
     Failed,
@@ -65,21 +65,24 @@ class Situation:
     steering: Steering = field(default_factory=Steering, metadata=PART)
 
     @classmethod
-    def at_start(
-        cls,
-        words: str = "",
-        *,
-        in_hand: str | None = None,
-        restless: bool = False,
-        spoken: Spoken = NOTHING,
-        at: str = PERSON,
-    ) -> Self:
+    def at_start(cls, words: str = "", before: Before = FIRST) -> Self:
         """What is known before the first tick: the words, and how things stood before them."""
         return cls(
             request=Request(words),
-            hand=Hand(in_hand=in_hand),
-            dialogue=Dialogue(at=at, spoken=spoken),
-            ending=Ending(restless=restless),
+            hand=Hand(in_hand=before.in_hand),
+            dialogue=Dialogue(at=before.at, spoken=before.spoken),
+            ending=Ending(restless=before.restless),
+        )
+
+    def at_end(self, before: Before) -> Before:
+        """How the robot stands after the mission; `before` is how things stood at its start."""
+        stands = self.dialogue.stands
+        return replace(
+            before,
+            in_hand=self.hand.in_hand,
+            restless=self.ending.restless,
+            at=self.dialogue.at,
+            stands=before.stands if stands is None else stands,
         )
 
     def fold(self, event: Event) -> None:
@@ -97,6 +100,8 @@ class Situation:
                 self.ending.break_off(reason)
             case Heard(words):
                 self.dialogue.heard.append(words)
+            case BodyTold(words):
+                self.dialogue.news.append(words)
             case HandFelt(holding):
                 self.hand.feel(holding)
             case Intervened(deed=Deed.HOLD_PLACE, became=on):

@@ -27,7 +27,7 @@ from kb.llm.first_load import mark_of, tried
 from kb.llm.gguf_header import check_file
 from kb.llm.kept import Kept
 from kb.llm.machine import machine
-from kb.llm.sampling import Sampling
+from kb.llm.options import USUAL, ModelOptions
 from kb.llm.scoring import Scorer
 from kb.llm.thinking import answer_of, used_up
 from kb.llm.threads import Worker
@@ -90,29 +90,19 @@ class LlamaCpp:
         self,
         path: Path,
         inbox: Inbox,
+        options: ModelOptions = USUAL,
         *,
-        n_ctx: int = 4096,
-        temperature: float = 0.6,
-        top_p: float = 0.9,
-        max_tokens: int = 512,
-        seed: int = 0,
         threads: int | None = None,
         gpu_layers: int = 0,
-        grammar: bool = False,
     ) -> None:
-        """See whether the file is a model; the sampling defaults are the paper's.
+        """See whether the file is a model.
 
         Args:
             path: the GGUF file of an instruction-tuned model.
             inbox: where requests end.
-            n_ctx: size of the context window (tokens).
-            temperature: 0 always takes the likeliest token.
-            top_p: share of the probability that is sampled from.
-            max_tokens: longest reply (tokens).
-            seed: the same seed and prompt give the same reply, whatever was asked before.
+            options: how the model is to write.
             threads: None: half of the cores to write, all of them to read and to score.
             gpu_layers: layers that go to the GPU, if llama.cpp was built for one; -1: all.
-            grammar: hold replies to the request's JSON schema.
 
         Raises:
             ModelError: if the file cannot be read, or, as far as a trial told (`first_load`), not
@@ -123,12 +113,9 @@ class LlamaCpp:
         self.can_rank = _is_packaged(path) or tried(path, lambda: inbox.stop_waits)
         self._path = path
         self._inbox = inbox
-        self._n_ctx = n_ctx
-        self._sampling = Sampling(temperature, top_p, seed)
-        self._max_tokens = max_tokens
+        self._options = options
         self._threads = threads
         self._gpu_layers = gpu_layers
-        self._grammar = grammar
         self._stops: dict[int, threading.Event] = {}
         self._prepared_enough = threading.Event()
         self._prepared = (0, 0.0)
@@ -146,7 +133,7 @@ class LlamaCpp:
     @property
     def context_tokens(self) -> int:
         """Size of the context window (tokens)."""
-        return self._n_ctx
+        return self._options.context_tokens
 
     def chat(self, request: ChatRequest) -> int:
         """Write a reply; ends Replied, or Failed."""
@@ -242,7 +229,7 @@ class LlamaCpp:
 
             self._loaded = Loaded(
                 self._path,
-                self._n_ctx,
+                self._options.context_tokens,
                 threads=self._threads,
                 gpu_layers=self._gpu_layers,
                 kept=self._opening.result()[0],
@@ -252,14 +239,14 @@ class LlamaCpp:
 
     def _settings(self) -> tuple[object, ...]:
         """All that what the model makes of a text may depend on, beside file and processor."""
-        return self._n_ctx, self._threads or os.cpu_count(), self._gpu_layers
+        return self._options.context_tokens, self._threads or os.cpu_count(), self._gpu_layers
 
     def _write(self, request: ChatRequest, checkpoint: "Checkpoint") -> Result:
         began, before = time.monotonic(), self._evaluated
         loaded = self._load()
         model, context = loaded.model, loaded.writing
         prompt, head = self._prompt(request)
-        room = min(self._max_tokens, self._n_ctx - len(prompt))
+        room = min(self._options.max_tokens, self._options.context_tokens - len(prompt))
         context.read(prompt, head, checkpoint, more=room)
         evaluated = self._evaluated - before
         reply: Tokens = []
@@ -294,8 +281,8 @@ class LlamaCpp:
         return self._load().model.prompt(request.messages, system_only)
 
     def _sampler(self, loaded: "Loaded", request: ChatRequest) -> "Sampler":
-        held = request.schema if self._grammar else None
-        return loaded.sampler(self._sampling, held)
+        held = request.schema if self._options.grammar else None
+        return loaded.sampler(self._options.sampling, held)
 
     def _usage(
         self, read: int, evaluated: int, written: int, first_token_s: float, began: float
@@ -311,8 +298,8 @@ class LlamaCpp:
             first_token_s=first_token_s,
             total_s=time.monotonic() - began,
             parameters={
-                **asdict(self._sampling),
-                "max_tokens": self._max_tokens,
-                "n_ctx": self._n_ctx,
+                **asdict(self._options.sampling),
+                "max_tokens": self._options.max_tokens,
+                "n_ctx": self._options.context_tokens,
             },
         )

@@ -10,6 +10,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.interfaces import LanguageModel
 from executive.servers.key import Key
+from kb.llm.options import ModelOptions
 
 
 def model_for_missions(settings: Settings, inbox: Inbox) -> LanguageModel | None:
@@ -43,28 +44,30 @@ def open_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
         return Server(
             settings.llm,
             inbox,
+            _options_of(settings),
             model=settings.llm_model,
             api_key=Key.from_environment(),
-            n_ctx=settings.context_tokens,
             timeout_s=settings.llm_timeout_s,
-            temperature=settings.temperature,
-            top_p=settings.top_p,
-            max_tokens=settings.max_tokens,
-            seed=settings.seed,
-            grammar=settings.grammar,
         )
     from kb.llm.llama import LlamaCpp, embedded_model
 
     return LlamaCpp(
         embedded_model() if settings.llm == "embedded" else Path(settings.llm),
         inbox,
-        n_ctx=settings.context_tokens,
+        _options_of(settings),
+        threads=settings.threads,
+        gpu_layers=settings.gpu_layers,
+    )
+
+
+def _options_of(settings: Settings) -> ModelOptions:
+    """How the model is to write."""
+    return ModelOptions(
+        context_tokens=settings.context_tokens,
         temperature=settings.temperature,
         top_p=settings.top_p,
         max_tokens=settings.max_tokens,
         seed=settings.seed,
-        threads=settings.threads,
-        gpu_layers=settings.gpu_layers,
         grammar=settings.grammar,
     )
 

@@ -7,6 +7,7 @@ from typing import Any, TypeVar, assert_never, get_args
 import numpy as np
 
 from executive.events import (
+    BodyTold,
     Broke,
     DeadlinePassed,
     Ended,
@@ -57,7 +58,7 @@ def _beside_its_gist(event: Event) -> dict[str, Any]:
             return {"by": by, "deed": deed, "was": was}
         case Listened(by, _, confidence, became):
             return {"by": by, "deed": became, "confidence": confidence}
-        case Started() | StopRequested() | Heard() | Broke():
+        case Started() | StopRequested() | Heard() | Broke() | BodyTold():
             return {}
         case _:
             assert_never(event)
@@ -87,6 +88,7 @@ _EVENTS: dict[type, Callable[[Any], Event]] = {
     Broke: lambda message: Broke(message.text),
     Intervened: lambda m: Intervened(m.by, m.deed, m.was, m.text),
     Listened: lambda m: Listened(m.by, m.text, finite(m.confidence), m.deed),
+    BodyTold: lambda message: BodyTold(message.text),
 }
 _RESULTS: dict[type, Callable[[Any], Result]] = {
     Succeeded: lambda _: Succeeded(),
@@ -166,7 +168,7 @@ def in_words(event: Event) -> str:
 def gist(event: Event) -> str:
     """What is worth reading of an event, beside its name."""
     match event:
-        case Started(words) | Heard(words):
+        case Started(words) | Heard(words) | BodyTold(words):
             return words
         case Ended(_, result):
             return _gist_of_result(result)

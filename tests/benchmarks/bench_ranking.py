@@ -23,6 +23,7 @@ from executive.types import ChatRequest, Failed, RankRequest, Usage
 from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker
 from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.options import ModelOptions
 from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
 
@@ -98,7 +99,9 @@ def main() -> None:
     print(f"{'':48}" + "".join(f"{head:>7}" for head in (*heads, "ratio", *heads, *heads)))
     for writes, recorded, cold in product((False, True), repeat=3):
         inbox, knowledge = Inbox(), Ontology(places, defaults=recorded)
-        with closing(LlamaCpp(path, inbox, threads=given.threads, max_tokens=256)) as model:
+        with closing(
+            LlamaCpp(path, inbox, ModelOptions(max_tokens=256), threads=given.threads)
+        ) as model:
             model.count_tokens("wait until it is loaded")
             ranker, lister = Ranker(knowledge), Lister(knowledge, model, remembers=False)
 

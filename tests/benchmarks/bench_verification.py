@@ -26,6 +26,7 @@ from executive.types import ChatRequest, Replied
 from kb.advice.lister import Lister
 from kb.advice.verification import Reply
 from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.options import ModelOptions
 from kb.llm.scripted import Scripted
 from kb.ontology.ontology import Ontology
 from sim.home.home import load_home
@@ -128,10 +129,10 @@ def sample(cache: Path, objects: int, threads: int | None) -> None:
                 model = LlamaCpp(
                     embedded_model(),
                     inbox,
-                    temperature=temperature,
-                    max_tokens=MAX_TOKENS,
+                    ModelOptions(
+                        temperature=temperature, max_tokens=MAX_TOKENS, grammar=way != "freely"
+                    ),
                     threads=threads,
-                    grammar=way != "freely",
                 )
             if way == "in the format":
                 request = replace(request, schema=Reply.model_json_schema())

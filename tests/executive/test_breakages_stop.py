@@ -124,7 +124,7 @@ def test_what_a_second_interrupt_ends_has_an_outcome_and_replays(
     assert written(house)["reason"] == "stopped by Ctrl-C; I may not be at rest"
     monkeypatch.setattr(house.session, "run", lambda words: Outcome(**written(house)))
     house.run()  # nothing but the checks
-    assert house.session._restless
+    assert house.session._before.restless
 
 
 def test_an_interrupt_while_the_logs_are_closed_leaves_them_whole(
@@ -189,7 +189,7 @@ def stands_in(house: House, kind: type[Goal], *, grips: bool = False, ends: Any 
 
 
 def hand_is_known(house: House) -> bool:
-    return house.session._in_hand == house.world.held
+    return house.session._before.in_hand == house.world.held
 
 
 def test_a_pick_that_takes_too_long_with_the_thing_in_the_hand_got_hold_of_it(

@@ -275,7 +275,7 @@ def test_whatever_goes_wrong_there_is_an_outcome_and_it_replays(
         for words in commands:
             outcome = house.run(words)
             assert outcome.reason
-            believed, held = house.session._in_hand, house.world.held
+            believed, held = house.session._before.in_hand, house.world.held
             assert believed == held
     house.goals.clear()
     house.run("Find the mug")

@@ -13,7 +13,7 @@ from patience import PATIENCE_S
 from executive import clock as clocks
 from executive.clock import SimulatedClock
 from executive.computing import Computation, GivenUpError, Worker, afterwards, still_wanted
-from executive.events import Inbox, StopRequested
+from executive.events import BodyTold, Inbox, StopRequested
 from executive.records import Mishap, Record, Seen
 from executive.testing.bench import Notebook, Run, run_mission
 from executive.types import Detection, Failed, Frame, Goal, LookAt, MissionStatus, Succeeded
@@ -203,7 +203,7 @@ HANGING = """
 import io, threading
 from executive.app.session import Session
 from executive.config import load_settings
-from executive.events import Inbox, StopRequested
+from executive.events import BodyTold, Inbox, StopRequested
 
 begun = threading.Event()
 inbox = Inbox()
@@ -229,3 +229,17 @@ def test_a_process_ends_though_its_detector_hangs() -> None:
         check=True,
     )
     assert ended.stdout.strip() == "stopped"
+
+
+def test_what_the_body_tells_does_not_wait_until_all_is_computed(
+    inbox: Inbox, gate: threading.Event
+) -> None:
+    done: list[str] = []
+    inbox.compute(Worker("test"), gate.wait, lambda computed: done.append("sequel"))
+    inbox.post(BodyTold("I lost the link."))
+    SimulatedClock(inbox, Stillness()).wait(None)
+    assert inbox.take_all() == (BodyTold("I lost the link."),)
+    assert inbox.computes
+    gate.set()
+    inbox.await_computed(PATIENCE_S)
+    assert done == ["sequel"]

@@ -20,6 +20,7 @@ from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker
 from kb.llm.kept import Kept
 from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.options import ModelOptions
 
 
 @pytest.fixture
@@ -149,7 +150,12 @@ def test_of_too_many_bytes_those_go_that_were_not_asked_for_the_longest(
 
 def asked(ask: Callable[[LlamaCpp], int]) -> object:
     """What a model that was just loaded answers."""
-    model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024, threads=1, max_tokens=8)
+    model = LlamaCpp(
+        embedded_model(),
+        inbox := Inbox(),
+        ModelOptions(context_tokens=1024, max_tokens=8),
+        threads=1,
+    )
     ask(model)
     assert inbox.wait(PATIENCE_S)
     model.close()

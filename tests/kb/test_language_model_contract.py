@@ -10,6 +10,7 @@ from executive.events import Inbox
 from executive.testing.contracts.language_model import LanguageModelContract, ModelBench
 from executive.types import ChatRequest, RankRequest
 from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.options import ModelOptions
 from kb.llm.scripted import Scripted
 from kb.llm.server.server import Server
 
@@ -55,7 +56,7 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 class TestRealServer(LanguageModelContract):
     @pytest.fixture
     def model_bench(self, url: str) -> Iterator[ModelBench]:
-        model = Server(url, inbox := Inbox(), max_tokens=8)
+        model = Server(url, inbox := Inbox(), ModelOptions(max_tokens=8))
         yield ModelBench(model, inbox)
         model.close()
 
@@ -64,6 +65,6 @@ class TestRealServer(LanguageModelContract):
 class TestLlamaCpp(LanguageModelContract):
     @pytest.fixture
     def model_bench(self) -> Iterator[ModelBench]:
-        model = LlamaCpp(embedded_model(), inbox := Inbox(), max_tokens=8)
+        model = LlamaCpp(embedded_model(), inbox := Inbox(), ModelOptions(max_tokens=8))
         yield ModelBench(model, inbox)
         model.close()

@@ -25,6 +25,7 @@ from kb.advice.verification import Reply
 from kb.llm.context import Context
 from kb.llm.gguf import Gguf
 from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.options import ModelOptions
 from kb.llm.precedents import LIKELIHOOD_WEIGHT
 from kb.llm.sampler import Sampler
 from kb.llm.scripted import Scripted
@@ -116,7 +117,11 @@ def real(tmp_path_factory) -> Iterator[tuple[LlamaCpp, Inbox]]:
     inbox = Inbox()
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-        model = LlamaCpp(embedded_model(), inbox, n_ctx=1024, max_tokens=24, temperature=0.0)
+        model = LlamaCpp(
+            embedded_model(),
+            inbox,
+            ModelOptions(context_tokens=1024, max_tokens=24, temperature=0.0),
+        )
         yield model, inbox
         model.close()
 
@@ -266,7 +271,9 @@ def test_a_prompt_longer_than_the_window_fails_with_the_reason(real):
 @pytest.mark.llm
 def test_a_grammar_holds_the_reply_to_the_schema():
     inbox = Inbox()
-    model = LlamaCpp(embedded_model(), inbox, n_ctx=512, max_tokens=100, grammar=True)
+    model = LlamaCpp(
+        embedded_model(), inbox, ModelOptions(context_tokens=512, max_tokens=100, grammar=True)
+    )
     reply = end_of(inbox, model.chat(HELLO))
     model.close()
     assert reply.finish_reason == "length" or Reply.model_validate_json(reply.text)
@@ -278,7 +285,9 @@ def test_the_same_seed_and_prompt_give_the_same_reply_whatever_was_asked_before(
     replies = []
     for seed, before in ((1, []), (1, [other, HELLO]), (2, [])):
         inbox = Inbox()
-        model = LlamaCpp(embedded_model(), inbox, n_ctx=512, max_tokens=12, seed=seed)
+        model = LlamaCpp(
+            embedded_model(), inbox, ModelOptions(context_tokens=512, max_tokens=12, seed=seed)
+        )
         for request in before:
             end_of(inbox, model.chat(request))
         replies.append(end_of(inbox, model.chat(HELLO)).text)
@@ -293,7 +302,7 @@ def test_scores_do_not_depend_on_what_was_asked_before(real):
     for name in ("mug", "hammer"):
         asked_late = end_of(inbox, model.rank(ranker.ranking(name, ())))
     fresh_inbox = Inbox()
-    fresh = LlamaCpp(embedded_model(), fresh_inbox, n_ctx=1024)
+    fresh = LlamaCpp(embedded_model(), fresh_inbox, ModelOptions(context_tokens=1024))
     assert end_of(fresh_inbox, fresh.rank(ranker.ranking("hammer", ()))).scores == asked_late.scores
     fresh.close()
 
@@ -315,7 +324,7 @@ def written(monkeypatch) -> list[int]:
 @pytest.mark.llm
 def test_a_cancelled_reply_stops_at_once_and_is_not_delivered(written):
     inbox = Inbox()
-    model = LlamaCpp(embedded_model(), inbox, n_ctx=2048, max_tokens=1500)
+    model = LlamaCpp(embedded_model(), inbox, ModelOptions(context_tokens=2048, max_tokens=1500))
     story = ChatRequest("story", (Message("user", "Tell me a very long story."),))
     end_of(inbox, model.rank(RANK))
     request = model.chat(story)
@@ -332,7 +341,9 @@ def test_a_cancelled_reply_stops_at_once_and_is_not_delivered(written):
 @pytest.mark.llm
 def test_a_cancelled_reply_is_written_not_one_token_further(monkeypatch):
     written = []
-    model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=512, max_tokens=100)
+    model = LlamaCpp(
+        embedded_model(), inbox := Inbox(), ModelOptions(context_tokens=512, max_tokens=100)
+    )
 
     def sample_and_cancel(sampler: Sampler, context: Context) -> int:
         written.append(sample(sampler, context))
@@ -351,7 +362,7 @@ def test_a_cancelled_reply_is_written_not_one_token_further(monkeypatch):
 @pytest.mark.llm
 def test_closing_in_the_middle_of_a_reply_ends_the_models_thread(written):
     before = set(threading.enumerate())
-    model = LlamaCpp(embedded_model(), Inbox(), n_ctx=2048, max_tokens=1500)
+    model = LlamaCpp(embedded_model(), Inbox(), ModelOptions(context_tokens=2048, max_tokens=1500))
     model.chat(ChatRequest("story", (Message("user", "Tell me a very long story."),)))
     until(lambda: len(written) > 3, "the story")
     by_then = len(written)

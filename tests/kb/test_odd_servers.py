@@ -37,6 +37,7 @@ from executive.servers.address import bases_of
 from executive.servers.key import Key
 from executive.servers.refusal import Refused, refusal
 from executive.types import ChatRequest, Failed, Message, RankRequest
+from kb.llm.options import ModelOptions
 from kb.llm.server import asking, lines, wire
 from kb.llm.server.dialect import Dialect
 from kb.llm.server.server import Server
@@ -54,7 +55,7 @@ def no_pauses(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_servers_streamed_words_become_the_reply() -> None:
-    with talking(says("on ", "the ", "desk"), seed=7) as talk:
+    with talking(says("on ", "the ", "desk"), options=ModelOptions(seed=7)) as talk:
         reply = talk.reply()
     assert (reply.text, reply.finish_reason) == ("on the desk", "stop")
     assert (reply.usage.input_tokens, reply.usage.output_tokens) == (40, 7)
@@ -139,7 +140,9 @@ def test_thoughts_in_a_field_of_their_own_are_left_out(key: str) -> None:
 )
 def test_tokens_that_were_used_up_while_thinking_are_told(thought: dict[str, Any]) -> None:
     usage = {"choices": [], "usage": {"completion_tokens": 30}}
-    with talking(streams(thought, word("", "length"), usage, "[DONE]"), max_tokens=30) as talk:
+    with talking(
+        streams(thought, word("", "length"), usage, "[DONE]"), options=ModelOptions(max_tokens=30)
+    ) as talk:
         assert talk.reason() == "it used up its 30 tokens while thinking; raise max_tokens"
 
 
@@ -228,7 +231,7 @@ PYDANTIC = {"type": "extra_forbidden", "loc": ["body", "seed"], "msg": "not perm
 def test_what_is_refused_is_left_out_or_said_otherwise_from_then_on(
     key: str, status: int, words: object
 ) -> None:
-    with talking(dislikes(key, status, words), grammar=True) as talk:
+    with talking(dislikes(key, status, words), options=ModelOptions(grammar=True)) as talk:
         assert talk.reply().text == "desk"
         tries = len(talk.bodies)
         assert talk.reply().text == "desk"
@@ -241,7 +244,7 @@ def test_what_is_refused_is_left_out_or_said_otherwise_from_then_on(
 
 
 def test_only_what_is_refused_is_left_out() -> None:
-    with talking(dislikes("seed", 400, "seed: unknown"), seed=3) as talk:
+    with talking(dislikes("seed", 400, "seed: unknown"), options=ModelOptions(seed=3)) as talk:
         talk.reply()
     first, second = talk.bodies
     assert {*first} - {*second} == {"seed"}
@@ -274,14 +277,14 @@ def test_a_server_that_cannot_stream_answers_at_once() -> None:
 
 
 def test_a_server_is_asked_to_keep_to_the_schema_if_so_set() -> None:
-    with talking(says("{}"), grammar=True) as talk:
+    with talking(says("{}"), options=ModelOptions(grammar=True)) as talk:
         talk.reply()
     assert talk.bodies[0]["response_format"]["json_schema"]["schema"] == SCHEMA
 
 
 @pytest.mark.parametrize("status", [400, 422, 500])
 def test_a_server_that_dislikes_the_schema_is_given_it_in_the_other_way(status: int) -> None:
-    with talking(refuses(status), THE_DESK, grammar=True) as talk:
+    with talking(refuses(status), THE_DESK, options=ModelOptions(grammar=True)) as talk:
         talk.reply()
         talk.reply()
     ways = [body["response_format"]["type"] for body in talk.bodies]
@@ -290,7 +293,9 @@ def test_a_server_that_dislikes_the_schema_is_given_it_in_the_other_way(status: 
 
 
 def test_a_server_that_refuses_everything_has_refused() -> None:
-    with talking(refuses(400, {"error": {"message": "no"}}), grammar=True) as talk:
+    with talking(
+        refuses(400, {"error": {"message": "no"}}), options=ModelOptions(grammar=True)
+    ) as talk:
         assert talk.reason() == "HTTP 400: no"
         assert talk.bodies[-1].keys() == {"model", "messages", "stream"}
 

@@ -16,6 +16,7 @@ from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.types import ChatRequest, Failed, Message, MissionStatus, Replied, Result
 from kb.advice.lister import Lister
+from kb.llm.options import ModelOptions
 from kb.llm.server import asking
 from kb.llm.server.server import Server
 from kb.ontology.ontology import Ontology
@@ -45,7 +46,7 @@ def answer(model: Server, inbox: Inbox, *among: str) -> Result:
 
 def test_a_real_server_replies_and_says_who_it_is(url: str) -> None:
     inbox = Inbox()
-    model = Server(url, inbox, max_tokens=24)
+    model = Server(url, inbox, ModelOptions(max_tokens=24))
     result = answer(model, inbox)
     model.close()
     assert isinstance(result, Replied)
@@ -57,7 +58,7 @@ def test_a_real_server_replies_and_says_who_it_is(url: str) -> None:
 
 def test_a_real_server_is_held_to_the_schema(url: str) -> None:
     inbox = Inbox()
-    model = Server(url, inbox, max_tokens=100, grammar=True)
+    model = Server(url, inbox, ModelOptions(max_tokens=100, grammar=True))
     result = answer(model, inbox, "desk", "sofa")
     asks = lister(model)
     model.close()
@@ -69,7 +70,7 @@ def test_a_real_server_is_held_to_the_schema(url: str) -> None:
 
 def test_a_real_server_that_is_hung_up_on_answers_the_next(url: str) -> None:
     inbox = Inbox()
-    model = Server(url, inbox, max_tokens=8)
+    model = Server(url, inbox, ModelOptions(max_tokens=8))
     model.cancel(model.chat(lister(model).inquiry("apple", ())))
     result = answer(model, inbox)
     model.close()
@@ -113,7 +114,7 @@ def test_a_real_server_that_dies_in_the_middle_of_its_reply_fails_in_words(
     monkeypatch.setattr(asking, "objects", noted)
     inbox = Inbox()
     with llama_server(tmp_path / "log") as dying:
-        model = Server(dying.url, inbox, max_tokens=2000, temperature=0)
+        model = Server(dying.url, inbox, ModelOptions(max_tokens=2000, temperature=0))
         model.chat(ChatRequest("count", (Message("user", "Count to 500, as 1, 2, 3, ..."),)))
         assert begun.wait(PATIENCE_S)
         assert not inbox.has_events, "the reply was too short for this test"

@@ -52,7 +52,7 @@ class House:
     def run(self, words: str) -> Outcome:
         """Run a mission; afterwards the robot knows what it holds, and the recording replays."""
         outcome = self.session.run(words)
-        assert self.session._in_hand == self.world.held
+        assert self.session._before.in_hand == self.world.held
         assert self.session.folder
         assert replay(self.session.folder).parting is None
         return outcome
@@ -87,7 +87,7 @@ def test_a_thing_that_was_gripped_as_the_mission_was_stopped_is_in_the_hand(hous
 
     house.changes[Pick] = stop
     assert house.run("Take the apple").status == MissionStatus.STOPPED
-    assert house.session._in_hand == "apple"
+    assert house.session._before.in_hand == "apple"
     assert house.run("Bring the apple").visited == ()
     assert house.world.resting_place("apple") == "delivery"
 
@@ -129,7 +129,7 @@ def test_what_someone_put_into_the_hand_is_something(house: House) -> None:
     del house.world.things["hammer"]
     house.world.held = "hammer"
     house.session.run("Find the mug")
-    assert house.session._in_hand == SOMETHING
+    assert house.session._before.in_hand == SOMETHING
     assert house.session.folder
     assert replay(house.session.folder).parting is None
     assert house.run("Put it down").status == MissionStatus.DONE
@@ -186,7 +186,7 @@ def test_in_physics_what_is_believed_is_true(fault: tuple[str, ...], tmp_path: P
     )
     for words in ("Bring a mustard_bottle", "Take a pitcher_base"):
         session.run(words)
-        assert session._in_hand == session.world.held
+        assert session._before.in_hand == session.world.held
         assert session.folder
         assert replay(session.folder).parting is None
     session.close()

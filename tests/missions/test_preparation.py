@@ -17,6 +17,7 @@ from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker
 from kb.llm.context import Context
 from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.options import ModelOptions
 from kb.llm.scripted import Scripted
 
 
@@ -62,7 +63,9 @@ def no_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def fresh(no_cache: None) -> Iterator[tuple[LlamaCpp, Inbox]]:
-    model = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024, max_tokens=8)
+    model = LlamaCpp(
+        embedded_model(), inbox := Inbox(), ModelOptions(context_tokens=1024, max_tokens=8)
+    )
     yield model, inbox
     model.close()
 
@@ -99,7 +102,7 @@ def test_what_was_prepared_is_not_evaluated_again_and_changes_no_score(fresh, ca
     assert first.usage.evaluated_tokens < 70 < 300 < first.usage.prepared_tokens
     assert first.usage.prepared_s > 0
     assert (later.usage.prepared_tokens, later.usage.prepared_s) == (0, 0.0)
-    unprepared = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024)
+    unprepared = LlamaCpp(embedded_model(), inbox := Inbox(), ModelOptions(context_tokens=1024))
     cold = end_of(inbox, unprepared.rank(ranker.ranking("hammer", ())))
     unprepared.close()
     assert cold.scores == first.scores
@@ -134,7 +137,7 @@ def test_a_request_takes_over_after_one_batch_what_was_prepared(fresh, monkeypat
     usage = end_of(inbox, requests[0]).usage
     assert 0 < usage.prepared_tokens <= 128
     monkeypatch.setattr(Context, "_decode", read)
-    unprepared = LlamaCpp(embedded_model(), inbox := Inbox(), n_ctx=1024)
+    unprepared = LlamaCpp(embedded_model(), inbox := Inbox(), ModelOptions(context_tokens=1024))
     cold = end_of(inbox, unprepared.rank(ranker.ranking("hammer", ()))).usage
     unprepared.close()
     assert whole(usage) == cold.evaluated_tokens
@@ -157,7 +160,7 @@ def test_closing_while_it_prepares_ends_the_models_thread(no_cache, monkeypatch)
     batches, read = [], Context._decode
     monkeypatch.setattr(Context, "_decode", lambda *given: batches.append(read(*given)) or None)
     before = set(threading.enumerate())
-    model = LlamaCpp(embedded_model(), Inbox(), n_ctx=1024)
+    model = LlamaCpp(embedded_model(), Inbox(), ModelOptions(context_tokens=1024))
     model.prepare(Ranker(ontology(True)).ranking("thing", ()))
     until(lambda: batches, "the preparation")
     by_then = len(batches)

@@ -12,7 +12,7 @@ from served import served
 from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.config import load_settings
-from executive.events import Inbox
+from executive.events import BodyTold, Inbox
 from executive.interfaces import Robot
 from executive.replay import replay
 from executive.ros.profile import profile_text
@@ -102,3 +102,31 @@ def test_the_next_mission_has_a_robot_that_came_back(
             assert len([text for text in listener.said if "no link" in text]) == 1
             anew.enter_context(served(port=int(url.rpartition(":")[2])))
             until(lambda: session.run("Find a mug").status == MissionStatus.DONE, "a robot")
+
+
+def test_that_the_link_is_lost_and_back_is_told_and_replays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("executive.ros.actions.LINK_S", 0.1)
+    inbox, profile = Inbox(), tmp_path / "patient.toml"
+    listener = Listener(inbox)
+    profile.write_text("link_wait_s = 300\n" + profile_text("served_instant")[0].decode())
+    with ExitStack() as gone, ExitStack() as anew:
+        url = gone.enter_context(served(speed=1.0)).server.address
+        port = int(url.rpartition(":")[2])
+
+        def hear(text: str) -> None:
+            if "lost the link" in text:
+                anew.enter_context(served(port=port))
+            gone.close()  # as soon as it has said where it looks
+
+        listener.when_it_is_said = hear
+        settings = load_settings(robot=url, profile=str(profile), llm="none", runs=tmp_path)
+        with Session(settings, inbox=inbox, user=listener) as session:
+            assert session.run("Find a mug").status == MissionStatus.DONE
+            assert session.folder
+    _, lost, back, *_ = listener.said
+    assert lost == "I lost the link to my robot: I wait for it, 300 s at most."
+    assert back == "There is a link to my robot again: I go on."
+    assert replay(session.folder).parting is None
+    assert [event for event in Run(session.folder).events() if isinstance(event.value, BodyTold)]

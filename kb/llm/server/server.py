@@ -3,12 +3,14 @@
 import asyncio
 import logging
 import threading
+from dataclasses import asdict
 
 from executive.events import Inbox
 from executive.servers.address import refuse_secrets
 from executive.servers.key import LLM_KEY, Key
 from executive.text import printable
 from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, Usage
+from kb.llm.options import USUAL, ModelOptions
 from kb.llm.server.asking import Asked, Asking
 from kb.llm.server.dialect import Dialect
 from kb.llm.server.wire import Written
@@ -37,42 +39,31 @@ class Server:
         self,
         url: str,
         inbox: Inbox,
+        options: ModelOptions = USUAL,
         *,
         model: str | None = None,
         api_key: Key | None = None,
-        n_ctx: int = 4096,
-        temperature: float = 0.6,
-        top_p: float = 0.9,
-        max_tokens: int = 512,
-        seed: int = 0,
         timeout_s: float = 60.0,
-        grammar: bool = False,
     ) -> None:
         """Prepare to talk to the server; nothing is sent yet.
 
         Args:
             url: such as `http://127.0.0.1:8000/v1`; `/v1` may be left out.
             inbox: where requests end.
+            options: how the model is to write.
             model: name of the model there; None: the first that the server lists and that chats.
             api_key: sent as a bearer token, to this server only.
-            n_ctx: size of the model's context window (tokens), as the server was started with.
-            temperature: 0 always takes the likeliest token.
-            top_p: share of the probability that is sampled from.
-            max_tokens: longest reply (tokens).
-            seed: for servers that heed it.
             timeout_s: how long a reply may take, all tries together (seconds).
-            grammar: ask the server to hold replies to the request's JSON schema.
 
         Raises:
             InputError: if the address has a user or a password in it.
         """
         refuse_secrets(url, LLM_KEY)
         self._inbox = inbox
-        self._n_ctx = n_ctx
-        self._max_tokens = max_tokens
+        self._options = options
+        self._sampling = asdict(options.sampling)
         self._timeout_s = timeout_s
-        self._sampling = {"temperature": temperature, "top_p": top_p, "seed": seed}
-        dialect = Dialect(self._sampling, max_tokens, grammar=grammar)
+        dialect = Dialect(self._sampling, options.max_tokens, grammar=options.grammar)
         self._asking = Asking(url, dialect, model, api_key or Key(), timeout_s)
         self._tasks: dict[int, asyncio.Task[None]] = {}
         self._looking: asyncio.Task[None] | None = None
@@ -91,7 +82,7 @@ class Server:
     @property
     def context_tokens(self) -> int:
         """Size of the context window (tokens)."""
-        return self._n_ctx
+        return self._options.context_tokens
 
     def chat(self, request: ChatRequest) -> int:
         """Write a reply; ends Replied, or Failed."""
@@ -171,7 +162,7 @@ class Server:
         got = asked.got
         written = got.chunks if got.written is None else got.written
         if not text and got.finish_reason == "length":
-            return Failed(used_up(written or self._max_tokens))
+            return Failed(used_up(written or self._options.max_tokens))
         if not text.strip():
             return Failed(_no_answer(got, thought=thought))
         read = got.read
@@ -184,7 +175,7 @@ class Server:
             output_tokens=written,
             first_token_s=got.first_token_s,
             total_s=asked.total_s,
-            parameters={**self._sampling, "max_tokens": self._max_tokens},
+            parameters={**self._sampling, "max_tokens": self._options.max_tokens},
         )
         return Replied(request, text, usage, got.finish_reason or "stop")
 

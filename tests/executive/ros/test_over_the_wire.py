@@ -152,6 +152,7 @@ def test_look_lists_what_the_robot_offers_and_proposes_a_profile(
     assert look(["look", there.url]) == 0
     said = capsys.readouterr().out
     assert "/acme/go  acme_msgs/action/Go" in said
+    assert 'map = "map"  # not told; there are body, ' in said
     assert '\ntopic = "/acme/odom"' in said
     assert "# [joints]  # if velocities are told there" in said
     assert '# topic = "/acme/fingers"' in said

@@ -279,7 +279,7 @@ class Soak:
             yield f"not at rest, {self._robot.halts} halts"
 
     def _of_the_hand(self) -> Iterator[str]:
-        believed, held = self._session._in_hand, self._world.held
+        believed, held = self._session._before.in_hand, self._world.held
         if "holding" in self._chaos.struck:
             return
         if bool(believed) != bool(held) or (believed not in (held, SOMETHING) and held):

@@ -1,0 +1,57 @@
+"""What is said between missions: answers that need none, and what was spoken of last."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import chain
+
+from executive.app.parts import Parts
+from executive.language.phrases import spoken
+from executive.language.pronouns import resolved
+from executive.language.spoken import after
+from executive.replies import Standing, about, reply
+from executive.situation import Before
+from executive.types import Outcome, TaskOutcome
+
+
+def answer(words: str, parts: Parts, before: Before) -> tuple[str, Before]:
+    """The answer to what needs no mission, empty if it does; and how things stand then."""
+    things = [spoken(name) for name in parts.knowledge.objects()]
+    if courtesy := parts.interpreter.talk(words, things):
+        return courtesy, before
+    said = resolved(parts.interpreter.read(words), before.spoken)
+    replied = reply(said, _standing(before), parts.knowledge, parts.facts)
+    if not replied:
+        return "", before
+    now = after(said, before.spoken, things=about(said, parts.knowledge))
+    return replied, replace(before, spoken=now)
+
+
+def remember(words: str, outcome: Outcome, parts: Parts, before: Before) -> Before:
+    """How things stand after a mission, with what was spoken of in it."""
+    said = resolved(parts.interpreter.read(words), before.spoken)
+    things = tuple(dict.fromkeys(chain.from_iterable(map(_things_of, outcome.tasks))))
+    place = outcome.goals[0] if outcome.goals else outcome.location or ""
+    return replace(before, spoken=after(said, before.spoken, things=things, place=place))
+
+
+def _standing(before: Before) -> Standing:
+    """What the robot can tell of itself, and of the last mission."""
+    last = before.last
+    if last is None:
+        return Standing(before.in_hand, stands=before.stands)
+    return Standing(
+        before.in_hand,
+        visits=[one for one in last.candidates if one.place in last.visited],
+        reason=last.reason,
+        stands=before.stands,
+        asked=last.command,
+    )
+
+
+def _things_of(task: TaskOutcome) -> Iterator[str]:
+    """The things that a task turned out to be about; of a question, those that were seen."""
+    yield from task.things
+    for part in task.parts:
+        yield from _things_of(part)
+    if task.object:
+        yield task.object
