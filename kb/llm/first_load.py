@@ -76,6 +76,7 @@ def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
             said = _until_ended(child, min(patience_s, MOST_PATIENCE_S), called_off)
         finally:
             child.kill()
+            child.wait()  # a `with` that Ctrl-C leaves does so for a quarter of a second only
     lines = writable(said.decode(errors="replace")).splitlines()
     if WRITES in lines:
         return lines

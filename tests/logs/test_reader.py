@@ -36,7 +36,6 @@ WRITE_UNTIL_KILLED = """
 import itertools, sys, time
 from pathlib import Path
 from rerun.chunk import RrdReader
-from rerun.error_utils import RerunWarning
 from sample_mission import STARTED, TREE, tick
 from executive.errors import InputError
 from logs import recorder
@@ -50,6 +49,13 @@ def ticks_on_the_disk():
     except InputError:
         return 0
 
+def beliefs_on_the_disk():
+    try:
+        chunks = RrdReader(path.with_suffix(".rrd")).stream()
+        return sum(c.to_record_batch().num_rows for c in chunks if c.entity_path == "/belief")
+    except (OSError, RuntimeError, ValueError):
+        return 0
+
 recorder.FLUSH_S = 0.05
 path = Path(sys.argv[1])
 sinks = [McapSink(path, STARTED, {"a.toml": b"x = 1"}, {"seed": "7"})]
@@ -61,7 +67,7 @@ fan_out.record(TREE)
 for number in itertools.count():
     fan_out.record(tick(number, "mission/drive", *["RUNNING"] * len(TREE.nodes)))
     if number == 200:
-        while ticks_on_the_disk() <= 200:
+        while min(ticks_on_the_disk(), beliefs_on_the_disk()) <= 200:
             time.sleep(0.05)
         print("ready", flush=True)
 """
