@@ -60,7 +60,7 @@ def run_wire(trial: Row) -> Row:
                 why = f"{seed}: it does not begin: {error}"
             else:
                 return {
-                    "violations": came.faults,
+                    "violations": came.faults + came.late,
                     "stops": came.stops,
                     "reconnections": came.reconnections,
                 }

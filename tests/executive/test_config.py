@@ -12,6 +12,7 @@ from executive.events import Inbox
 from executive.ros.address import HEADERS
 from executive.servers.key import EARS_KEY, LLM_KEY
 from kb.llm import open as opening
+from kb.llm.options import ModelOptions
 
 
 def file_with(tmp_path: Path, text: str) -> Path:
@@ -61,8 +62,12 @@ def test_a_fault_is_named_with_what_would_be_right(
 @pytest.mark.parametrize("maker", ["LlamaCpp", "Server"])
 def test_the_settings_reach_the_model(maker: str, monkeypatch: pytest.MonkeyPatch) -> None:
     given: dict[str, Any] = {}
+
+    def made(_: object, __: object, options: ModelOptions, **others: Any) -> None:
+        given.update(others, grammar=options.grammar, temperature=options.temperature)
+
     home = {"LlamaCpp": "kb.llm.llama", "Server": "kb.llm.server.server"}[maker]
-    monkeypatch.setattr(f"{home}.{maker}", lambda *_, **settings: given.update(settings))
+    monkeypatch.setattr(f"{home}.{maker}", made)
     llm = {"LlamaCpp": "my.gguf", "Server": "http://127.0.0.1:1/v1"}[maker]
     opening.model_for_missions(
         load_settings(llm=llm, grammar=True, threads=3, gpu_layers=-1, temperature=0.5), Inbox()
