@@ -18,7 +18,6 @@ LIMITS = {
     "executive.ros.actions": ("LINK_S", "PATH_S"),
     "executive.ros.camera": ("FRAME_S", "LINK_S"),
     "executive.ros.rclpy_link": ("SERVER_S",),
-    "executive.ros.robot": ("FACING_S",),
     "kb.llm.llama": ("CLOSING_S",),
     "kb.llm.server.asking": ("LOOKING_S",),
     "kb.llm.server.server": ("CLOSING_S",),
