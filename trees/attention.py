@@ -7,6 +7,7 @@ correction takes the place of the task at hand; what is taken back is not done.
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 
 from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
@@ -32,7 +33,7 @@ from executive.text import too_long
 from executive.types import Command, CommandKind, Commands
 from trees.context import MissionContext
 from trees.taken_back import is_about, refused
-from trees.telling import in_one_sentence
+from trees.telling import in_one_breath
 from trees.wishes import added, done_first, named_in, objects_of, replaced
 
 _FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
@@ -72,7 +73,7 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         return _only(context, named, words, at_hand)
     if denial := not correction and context.interpreter.denial(words):
         if at_hand and _denies_goal(context, words, at_hand):
-            context.situation.agenda.replace(replace(at_hand, goal=""))
+            agenda.replace(replace(at_hand, goal=""))
             return "Then not there."
         answer = "" if _TELLS.search(words) else refused(context, words, at_hand)
         return answer or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
@@ -137,7 +138,7 @@ def _of_all_spoken(situation: Situation, said: object) -> Spoken:
     tasks = said.tasks if isinstance(said, Request) else ()
     if at_hand is None or not any(of_several(task.things) for task in tasks):
         return spoken
-    waiting = (task.command for task in situation.agenda.tasks if not task.depth)
+    waiting = (task.command for task in situation.agenda.whole_tasks)
     others = [one.target for one in waiting if one.words == at_hand.words]
     return replace(spoken, things=(*spoken.things, *others))
 
@@ -187,10 +188,10 @@ def _likewise(
     Tasks that wait, of which that takes the place, are struck out; so are those that are asked for
     anew.
     """
-    agenda, asked_anew = context.situation.agenda, [one for group in commands for one in group]
+    agenda, asked_anew = context.situation.agenda, [*chain.from_iterable(commands)]
     things = {name for one in asked_anew for name in objects_of(context, one)}
     changed: list[tuple[Command, ...]] = []
-    whole = [task for task in agenda.tasks if not task.depth]
+    whole = agenda.whole_tasks
     breath = [at_hand, *(t.command for t in whole if t.command.words == at_hand.words)]
     wanted = {name for one in breath for name in objects_of(context, one)}
     only_these = len(asked_anew) > 1 and things <= wanted  # "no, the mug and the pear", of three
@@ -217,8 +218,8 @@ def is_about_the_same(context: MissionContext, said: Request, words: str) -> boo
     commands = commands_in(resolved(said, spoken_now(context.situation)), words)
     if request.object is None or not isinstance(commands, tuple):
         return False
-    each = [objects_of(context, one) for group in commands for one in group]
-    return all(things == {request.object} for things in each)
+    each = chain.from_iterable(commands)
+    return all(objects_of(context, one) == {request.object} for one in each)
 
 
 def differs(context: MissionContext, said: Request, words: str) -> bool:
@@ -227,7 +228,7 @@ def differs(context: MissionContext, said: Request, words: str) -> bool:
     commands = commands_in(resolved(said, spoken_now(context.situation)), words)
     if at_hand is None or not isinstance(commands, tuple):
         return False
-    [command, *others] = [one for group in commands for one in group]
+    command, *others = chain.from_iterable(commands)
     same = objects_of(context, command) == objects_of(context, at_hand)
     where = (command.kind, command.source, command.goal)
     return bool(others) or not same or where != (at_hand.kind, at_hand.source, at_hand.goal)
@@ -246,8 +247,7 @@ def _correct_later(context: MissionContext, said: Correction, at_hand: Command, 
     [[command], *others] = commands
     agenda.change(task, command)
     agenda.add(others)
-    wishes = [in_one_sentence(context, one) for group in commands for one in group]
-    return f"All right: I {' and '.join(wishes)} instead."
+    return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} instead."
 
 
 def all_of(
@@ -291,7 +291,7 @@ def _only(context: MissionContext, things: Things, words: str, at_hand: Command)
     named = named_in(context, " or ".join(thing.words for thing in things.members))
     if not named:
         return f"{context.interpreter.not_understood(words)}."
-    whole = [task for task in agenda.tasks if not task.depth]
+    whole = agenda.whole_tasks
     waiting = [task for task in whole if named & objects_of(context, task.command)]
     wishes = [task.command for task in waiting]
     if not all(objects_of(context, one) <= named for one in wishes):
@@ -304,8 +304,7 @@ def _only(context: MissionContext, things: Things, words: str, at_hand: Command)
         agenda.take_back()
     else:
         wishes.insert(0, at_hand)
-    wanted = " and ".join(in_one_sentence(context, one) for one in wishes)
-    return f"All right: I {wanted}, and nothing else."
+    return f"All right: I {in_one_breath(context, wishes)}, and nothing else."
 
 
 def _instead_of(

@@ -1,5 +1,6 @@
 """How the person is told things: on one line, and in words."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from executive.language.commands import THING
@@ -37,6 +38,11 @@ def in_one_sentence(context: MissionContext, command: Command) -> str:
     return f"{_deed(context, command)}{_condition(context, command)}" + (
         f", or else {instead}" * bool(instead)
     )
+
+
+def in_one_breath(context: MissionContext, commands: Iterable[Command]) -> str:
+    """All that several commands ask for: "bring the mug and take the pear"."""
+    return " and ".join(in_one_sentence(context, command) for command in commands)
 
 
 def _condition(context: MissionContext, command: Command) -> str:

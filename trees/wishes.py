@@ -2,31 +2,30 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 
 from executive.language.phrases import NEGATION
 from executive.types import Command, Commands
 from trees.context import MissionContext
-from trees.telling import in_one_sentence
+from trees.telling import in_one_breath
 
 
 def replaced(context: MissionContext, commands: Commands, instead: str = " instead") -> str:
     """Do these at once in place of the task at hand."""
-    first, *others = [command for group in commands for command in group]
+    first, *others = chain.from_iterable(commands)
     context.situation.agenda.replace(first, others)
-    then = " and ".join(in_one_sentence(context, one) for one in (first, *others))
-    return f"All right: I {then}{instead}."
+    return f"All right: I {in_one_breath(context, (first, *others))}{instead}."
 
 
 def done_first(context: MissionContext, commands: Commands, at_hand: Command) -> str:
     """Do these at once, and the task at hand after them."""
-    first, *others = [command for group in commands for command in group]
+    first, *others = chain.from_iterable(commands)
     agenda = context.situation.agenda
     agenda.tasks[:] = [t for t in agenda.tasks if not _same(t.command, (first, *others))]
     if not _same(at_hand, (first, *others)):
         others.append(at_hand)
     agenda.replace(first, others)
-    wishes = [in_one_sentence(context, one) for group in commands for one in group]
-    return f"All right: I {' and '.join(wishes)} first."
+    return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} first."
 
 
 def _same(command: Command, others: Sequence[Command]) -> bool:
@@ -39,8 +38,7 @@ def added(context: MissionContext, commands: Commands | str | None, now: str) ->
     if not isinstance(commands, tuple):
         return commands or f"I do not understand that. {now}"
     context.situation.agenda.add(commands)
-    wishes = [in_one_sentence(context, one) for group in commands for one in group]
-    return f"All right: I {' and '.join(wishes)} afterwards."
+    return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} afterwards."
 
 
 def named_in(context: MissionContext, words: str) -> set[str]:

@@ -71,6 +71,11 @@ class Agenda:
     """Whether the robot was handling something when the task was given up."""
     _groups: int = field(default=0, metadata=NOT_LOGGED)
 
+    @property
+    def whole_tasks(self) -> list[Task]:
+        """Those to be done yet that are no part of another, the next first."""
+        return [task for task in self.tasks if not task.depth]
+
     def add(self, commands: Iterable[tuple[Command, ...]]) -> None:
         """Do these, too, after all others."""
         self.tasks += self._in_groups(commands, 0)
@@ -159,7 +164,7 @@ class Agenda:
             yield from task.visited
 
     def _leave_parts(self) -> None:
-        self.tasks = [task for task in self.tasks if not task.depth]
+        self.tasks = self.whole_tasks
         self.wholes.clear()
 
     def _in_groups(self, commands: Iterable[tuple[Command, ...]], depth: int) -> list[Task]:
