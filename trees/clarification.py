@@ -18,7 +18,8 @@ from executive.language.meaning import (
     Things,
     Where,
 )
-from executive.types import CommandKind, Question, QuestionKind
+from executive.types.commands import CommandKind
+from executive.types.dialogue import Question, QuestionKind
 from trees.asking import Ask, AskYesNo
 from trees.attention import all_of, correct
 from trees.meant import without_exceptions

@@ -6,8 +6,8 @@
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
-from executive.types import ALL as ALL  # as a number of things
-from executive.types import CommandKind
+from executive.types.commands import ALL as ALL
+from executive.types.commands import CommandKind
 
 
 class Relation(StrEnum):

@@ -22,7 +22,7 @@ from executive.language.meaning import (
 )
 from executive.language.phrases import is_plural
 from executive.language.spoken import QUESTIONS, Spoken, called
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 _OF_THE_HAND = (CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN)
 """What is put somewhere is first of all what the hand holds."""

@@ -13,10 +13,12 @@ from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import BodyTold, Inbox
-from executive.interfaces import Robot
+from executive.interfaces.robot import Robot
 from executive.replay import replay
 from executive.ros.profile import profile_text
-from executive.types import DriveTo, Failed, Goal, LookAt, MissionStatus, Pick
+from executive.types.goals import DriveTo, Goal, LookAt, Pick
+from executive.types.outcome import MissionStatus
+from executive.types.results import Failed
 from executive.user import Nobody
 from logs.questions.why import why
 from logs.recording.reader import Run

@@ -26,7 +26,7 @@ from executive.language.meaning import (
     Where,
 )
 from executive.language.reader import Reader, english
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 read = english().read
 
