@@ -37,49 +37,22 @@ if TYPE_CHECKING:
     from executive.config import KnowledgeSystem, Settings, load_settings
     from executive.errors import ExecutiveError, InputError, ModelError
     from executive.events import Inbox, StopRequested
-    from executive.interfaces import (
-        Camera,
-        Clock,
-        Detector,
-        LanguageModel,
-        Perception,
-        PlaceSource,
-        Recorder,
-        Robot,
-        User,
-    )
+    from executive.interfaces.dialogue import User
+    from executive.interfaces.knowledge import PlaceSource
+    from executive.interfaces.llm import LanguageModel
+    from executive.interfaces.perception import Camera, Detector, Perception
+    from executive.interfaces.robot import Robot
+    from executive.interfaces.runtime import Clock, Recorder
     from executive.perception.pipeline import CameraPerception
-    from executive.types import (
-        DELIVERY,
-        FLOOR,
-        Answered,
-        Box,
-        ChatRequest,
-        Detection,
-        DriveTo,
-        Failed,
-        Frame,
-        Goal,
-        Halt,
-        Intrinsics,
-        LookAt,
-        Message,
-        MissionStatus,
-        Outcome,
-        Pick,
-        Pose,
-        PutDown,
-        Question,
-        QuestionKind,
-        RankRequest,
-        Replied,
-        Result,
-        Saw,
-        Scored,
-        Source,
-        Succeeded,
-        Usage,
-    )
+    from executive.types.dialogue import Question, QuestionKind
+    from executive.types.geometry import Pose
+    from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
+    from executive.types.home import DELIVERY, FLOOR
+    from executive.types.knowledge import Source
+    from executive.types.llm import ChatRequest, Message, RankRequest, Usage
+    from executive.types.outcome import MissionStatus, Outcome
+    from executive.types.perception import Box, Detection, Frame, Intrinsics
+    from executive.types.results import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
     from logs.recorder import Sink
 
 __all__ = [
@@ -136,45 +109,48 @@ __all__ = [
     "load_settings",
 ]
 
-_ELSEWHERE = {
-    "CameraPerception": "executive.perception.pipeline",
-    "Embodiment": "executive.app.embodiment",
-    "ExecutiveError": "executive.errors",
-    "Inbox": "executive.events",
-    "InputError": "executive.errors",
-    "KnowledgeSystem": "executive.config",
-    "ModelError": "executive.errors",
-    "Session": "executive.app.session",
-    "Settings": "executive.config",
-    "Setup": "executive.app.embodiment",
-    "Sink": "logs.recorder",
-    "StopRequested": "executive.events",
-    "load_settings": "executive.config",
-    **dict.fromkeys(
-        (
-            "Camera",
-            "Clock",
-            "Detector",
-            "LanguageModel",
-            "Perception",
-            "PlaceSource",
-            "Recorder",
-            "Robot",
-            "User",
-        ),
-        "executive.interfaces",
+_MODULES = {
+    "executive.app.embodiment": ("Embodiment", "Setup"),
+    "executive.app.session": ("Session",),
+    "executive.config": ("KnowledgeSystem", "Settings", "load_settings"),
+    "executive.errors": ("ExecutiveError", "InputError", "ModelError"),
+    "executive.events": ("Inbox", "StopRequested"),
+    "executive.interfaces.dialogue": ("User",),
+    "executive.interfaces.knowledge": ("PlaceSource",),
+    "executive.interfaces.llm": ("LanguageModel",),
+    "executive.interfaces.perception": ("Camera", "Detector", "Perception"),
+    "executive.interfaces.robot": ("Robot",),
+    "executive.interfaces.runtime": ("Clock", "Recorder"),
+    "executive.perception.pipeline": ("CameraPerception",),
+    "executive.types.dialogue": ("Question", "QuestionKind"),
+    "executive.types.geometry": ("Pose",),
+    "executive.types.goals": ("DriveTo", "Goal", "Halt", "LookAt", "Pick", "PutDown"),
+    "executive.types.home": ("DELIVERY", "FLOOR"),
+    "executive.types.knowledge": ("Source",),
+    "executive.types.llm": ("ChatRequest", "Message", "RankRequest", "Usage"),
+    "executive.types.outcome": ("MissionStatus", "Outcome"),
+    "executive.types.perception": ("Box", "Detection", "Frame", "Intrinsics"),
+    "executive.types.results": (
+        "Answered",
+        "Failed",
+        "Replied",
+        "Result",
+        "Saw",
+        "Scored",
+        "Succeeded",
     ),
+    "logs.recorder": ("Sink",),
 }
-"""The module of each name that is not in `executive.types`."""
+"""The names of each module."""
 
 
 def __getattr__(name: str) -> object:
     """Import what is asked for (PEP 562)."""
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(_ELSEWHERE.get(name, "executive.types")), name)
-    globals()[name] = value
-    return value
+    for module, names in _MODULES.items():
+        if name in names:
+            value = globals()[name] = getattr(import_module(module), name)
+            return value
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

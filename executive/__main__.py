@@ -41,7 +41,7 @@ if TYPE_CHECKING:  # what takes long to import is not for --help or a wrong opti
     from executive.app.session import Session
     from executive.events import Inbox
     from executive.page.page import Page
-    from executive.types import Outcome
+    from executive.types.outcome import Outcome
     from executive.user import Console
 
 EXIT = {"done": DONE, "not_done": NOT_DONE, "not_understood": BAD_INPUT, "stopped": STOPPED}

@@ -4,7 +4,7 @@ import time
 
 from executive.errors import ExecutiveError
 from executive.events import Inbox
-from executive.interfaces import World
+from executive.interfaces.simulation import World
 
 PACE_S = 0.02
 """While a person or a model thinks and the robot still moves, the world catches up this often."""

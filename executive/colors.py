@@ -1,6 +1,9 @@
-"""What colours are called."""
+"""Colours, and what they are called."""
 
 from colorsys import rgb_to_hsv
+
+Color = tuple[float, float, float, float]
+"""Red, green, blue, opacity in [0, 1]."""
 
 _HUES = (
     (15, "red"),

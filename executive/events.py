@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from executive.computing import Computation, Worker
 from executive.language.control import control
 from executive.text import writable
-from executive.types import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
+from executive.types.results import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
 
 T = TypeVar("T")
 

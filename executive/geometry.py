@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from executive.types import Frame, Intrinsics, Pose, Quaternion
+from executive.types.geometry import Pose, Quaternion
+from executive.types.perception import Frame, Intrinsics
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation

@@ -14,18 +14,17 @@ from typing import Any, TypeVar
 from executive.belief import Statement
 from executive.errors import ExecutiveError
 from executive.events import Inbox
-from executive.interfaces import (
-    Experience,
-    LanguageModel,
-    Perception,
-    PlaceSource,
-    Recorder,
-    Robot,
-    User,
-)
+from executive.interfaces.dialogue import User
+from executive.interfaces.knowledge import Experience, PlaceSource
+from executive.interfaces.llm import LanguageModel
+from executive.interfaces.perception import Perception
+from executive.interfaces.robot import Robot
+from executive.interfaces.runtime import Recorder
 from executive.records import Note, Recalled, Record, SourceAnswer
 from executive.text import printable, writable
-from executive.types import ChatRequest, DriveTo, Goal, Halt, LookAt, Question, RankRequest
+from executive.types.dialogue import Question
+from executive.types.goals import DriveTo, Goal, Halt, LookAt
+from executive.types.llm import ChatRequest, RankRequest
 
 T = TypeVar("T")
 

@@ -15,12 +15,14 @@ from executive.events import (
     StopRequested,
 )
 from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
-from executive.interfaces import Clock, Recorder, Robot, Tree
+from executive.interfaces.robot import Robot
+from executive.interfaces.runtime import Clock, Recorder, Tree
 from executive.pending import Pending
 from executive.records import EventTaken, Intervention, LlmCall, Note, Record, Tick
 from executive.situation import Situation
 from executive.text import printable
-from executive.types import Failed, Halt, Replied, Result, Scored, Succeeded
+from executive.types.goals import Halt
+from executive.types.results import Failed, Replied, Result, Scored, Succeeded
 
 log = logging.getLogger(__name__)
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from executive.types import Result
+from executive.types.results import Result
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,17 +8,12 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
+from executive.colors import Color
 from executive.events import Event
-from executive.types import (
-    Color,
-    Detection,
-    Frame,
-    Outcome,
-    Pose,
-    Replied,
-    Scored,
-    Vector3,
-)
+from executive.types.geometry import Pose, Vector3
+from executive.types.outcome import Outcome
+from executive.types.perception import Detection, Frame
+from executive.types.results import Replied, Scored
 
 # --- the tree ---
 

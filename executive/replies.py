@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from executive.interfaces import Facts, Knowledge
+from executive.interfaces.knowledge import Facts, Knowledge
 from executive.language.commands import in_words
 from executive.language.meaning import (
     About,
@@ -17,7 +17,9 @@ from executive.language.meaning import (
 )
 from executive.language.phrases import spoken
 from executive.language.wording import Wording, beginning, either, listed
-from executive.types import PERSON, Candidate, CommandKind, Source
+from executive.types.commands import CommandKind
+from executive.types.home import PERSON
+from executive.types.knowledge import Candidate, Source
 
 SAYS: Mapping[str, str] = {
     Source.ONTOLOGY: "that is its place",

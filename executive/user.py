@@ -15,7 +15,8 @@ from executive.keyboard import keyboard_of
 from executive.language.control import Control, control
 from executive.terminal import Terminal
 from executive.text import LONGEST, one_line, printable, too_long, writable
-from executive.types import Answered, Failed, Question, QuestionKind
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.results import Answered, Failed
 
 STOPPING = "Stopping."
 INPUT_ENDED = "the input has ended"

@@ -12,7 +12,7 @@ import numpy as np
 
 from executive.belief import MISSED, Belief, Statement, believe
 from executive.geometry import Floats
-from executive.types import Source
+from executive.types.knowledge import Source
 from kb.between import HARDLY, HOUR_S, LONGEST_S, goes, slots
 from kb.facts import FactStore
 from kb.rates import Rates, learned

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from executive.types import Frame
+from executive.types.perception import Frame
 
 JPEG_QUALITY = 90
 

@@ -129,7 +129,8 @@ def draw(home: "Home", models: "Mapping[str, ObjectModel]") -> "NDArray[np.uint8
     import numpy as np
     from scipy.spatial.transform import Rotation
 
-    from executive.types import Intrinsics, Pose
+    from executive.types.geometry import Pose
+    from executive.types.perception import Intrinsics
     from sim.bullet.bodies import VIEWED_WALL_HEIGHT_M, build_home, place_objects
     from sim.bullet.camera import render
     from sim.bullet.client import connect

@@ -14,27 +14,14 @@ import numpy as np
 
 from executive.events import Inbox
 from executive.geometry import heading
-from executive.interfaces import Recorder
+from executive.interfaces.runtime import Recorder
 from executive.perception.tags import spot, spots, tag, whole
 from executive.records import Transform, Transforms
-from executive.types import (
-    DELIVERY,
-    FLOOR,
-    PERSON,
-    Detection,
-    DriveTo,
-    Failed,
-    Frame,
-    Goal,
-    Halt,
-    Intrinsics,
-    LookAt,
-    Pick,
-    Pose,
-    PutDown,
-    Result,
-    Succeeded,
-)
+from executive.types.geometry import Pose
+from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
+from executive.types.home import DELIVERY, FLOOR, PERSON
+from executive.types.perception import Detection, Frame, Intrinsics
+from executive.types.results import Failed, Result, Succeeded
 from sim.goals import GoTo
 from sim.home.arrangement import Spot
 from sim.home.home import Home, PlanarPose

@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from executive.records import Shape
-from executive.types import Goal, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
+from executive.types.goals import Goal
 
 NO_MOTION = "there is no free way for my arm"
 UNREACHABLE = "my arm does not reach there"

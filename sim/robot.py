@@ -7,17 +7,10 @@ from collections.abc import Sequence
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.text import printable
-from executive.types import (
-    FLOOR,
-    DriveTo,
-    Failed,
-    Halt,
-    LookAt,
-    Pick,
-    PutDown,
-    Succeeded,
-    Vector3,
-)
+from executive.types.geometry import Vector3
+from executive.types.goals import DriveTo, Halt, LookAt, Pick, PutDown
+from executive.types.home import FLOOR
+from executive.types.results import Failed, Succeeded
 from sim.body.arm import hold
 from sim.body.base import CARRYING, FREE, brake
 from sim.body.hardware import Hardware

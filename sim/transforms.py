@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from executive.records import Transform
-from executive.types import Pose, Quaternion, Vector3
+from executive.types.geometry import Pose, Quaternion, Vector3
 from sim.body.hardware import Hardware
 from sim.bullet.bodies import MAP, frame_pose
 from sim.engine import BulletClient

@@ -8,9 +8,10 @@ from scipy.spatial.transform import Rotation
 
 from executive.events import Inbox
 from executive.geometry import Floats
-from executive.interfaces import Camera, Recorder
+from executive.interfaces.perception import Camera
+from executive.interfaces.runtime import Recorder
 from executive.records import Picture, Scene, Transform, Transforms
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.body.description import describe_robot, robot_entities
 from sim.body.hardware import Hardware
 from sim.body.laser import Laser

@@ -8,7 +8,9 @@ from py_trees.common import Status
 from executive.language.meaning import Answer, Refusal, Said, Unread
 from executive.records import Activity, Utterance
 from executive.text import printable, too_long
-from executive.types import Answered, Question, Result, Source
+from executive.types.dialogue import Question
+from executive.types.knowledge import Source
+from executive.types.results import Answered, Result
 from trees.attention import attend_to
 from trees.context import MissionContext
 from trees.nodes import Action, why_of

@@ -30,7 +30,7 @@ from executive.language.spoken import Spoken
 from executive.replies import Standing, about, reply
 from executive.situation import Situation
 from executive.text import too_long
-from executive.types import Command, CommandKind, Commands
+from executive.types.commands import Command, CommandKind, Commands
 from trees.context import MissionContext
 from trees.taken_back import is_about, refused
 from trees.telling import in_one_breath

@@ -7,18 +7,9 @@ from abc import abstractmethod
 
 from py_trees.common import Status
 
-from executive.types import (
-    SOMETHING,
-    DriveTo,
-    Failed,
-    Goal,
-    Halt,
-    LookAt,
-    Pick,
-    PutDown,
-    Result,
-    Succeeded,
-)
+from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
+from executive.types.home import SOMETHING
+from executive.types.results import Failed, Result, Succeeded
 from trees.context import MissionContext
 from trees.nodes import UNSAID, Action, why_of
 from trees.telling import tell

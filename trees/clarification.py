@@ -5,7 +5,6 @@ from dataclasses import replace
 from executive.language.answers import how_many_of, named, picked
 from executive.language.commands import in_words
 from executive.language.meaning import (
-    ALL,
     ME,
     Answer,
     Choice,
@@ -18,7 +17,8 @@ from executive.language.meaning import (
     Things,
     Where,
 )
-from executive.types import CommandKind, Question, QuestionKind
+from executive.types.commands import ALL, CommandKind
+from executive.types.dialogue import Question, QuestionKind
 from trees.asking import Ask, AskYesNo
 from trees.attention import all_of, correct
 from trees.meant import without_exceptions

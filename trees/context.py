@@ -3,25 +3,17 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
-from executive.interfaces import (
-    Advice,
-    Clock,
-    Experience,
-    Facts,
-    Interpreter,
-    Knowledge,
-    LanguageModel,
-    Perception,
-    PlaceSource,
-    Recorder,
-    Robot,
-    User,
-)
+from executive.interfaces.dialogue import Interpreter, User
+from executive.interfaces.knowledge import Experience, Facts, Knowledge, PlaceSource
+from executive.interfaces.llm import Advice, LanguageModel
+from executive.interfaces.perception import Perception
+from executive.interfaces.robot import Robot
+from executive.interfaces.runtime import Clock, Recorder
 from executive.language.wording import Wording, as_said
 from executive.pending import Pending
 from executive.situation import Situation
 from executive.standby import Standby
-from executive.types import Vector3
+from executive.types.geometry import Vector3
 
 
 @dataclass(frozen=True, slots=True)

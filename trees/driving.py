@@ -3,7 +3,10 @@
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.types import PERSON, Candidate, DriveTo, Goal, Result, Succeeded
+from executive.types.goals import DriveTo, Goal
+from executive.types.home import PERSON
+from executive.types.knowledge import Candidate
+from executive.types.results import Result, Succeeded
 from trees.body import RobotAction
 from trees.context import MissionContext
 from trees.progress import on_the_way, on_to_the_next

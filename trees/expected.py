@@ -5,7 +5,8 @@ from math import inf
 
 from executive.belief import Belief, Likely, Statement, believe, in_order
 from executive.plan import FAR_S, Chance, Plan, Prices, best_plan
-from executive.types import HELD, Command, CommandKind, Source
+from executive.types.commands import HELD, Command, CommandKind
+from executive.types.knowledge import Source
 from trees.context import MissionContext
 from trees.hearing import MEMORY_TRUST, ONTOLOGY_TRUST, PERSON_TRUST
 from trees.meant import things_meant

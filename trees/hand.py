@@ -3,7 +3,7 @@
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import DELIVERY
+from executive.types.home import DELIVERY
 from trees.context import MissionContext
 from trees.deeds.deed import meaning
 from trees.deeds.put_down import go_and_put, put_down_somewhere

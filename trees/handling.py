@@ -5,7 +5,9 @@ from abc import abstractmethod
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.types import FLOOR, SOMETHING, Failed, Goal, Halt, Pick, PutDown, Result, Succeeded
+from executive.types.goals import Goal, Halt, Pick, PutDown
+from executive.types.home import FLOOR, SOMETHING
+from executive.types.results import Failed, Result, Succeeded
 from trees.body import RobotAction
 from trees.context import MissionContext
 

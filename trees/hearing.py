@@ -12,8 +12,9 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.belief import MISSED, Belief, Statement, believe, in_order
-from executive.interfaces import PlaceSource
-from executive.types import Result, Scored, Source
+from executive.interfaces.knowledge import PlaceSource
+from executive.types.knowledge import Source
+from executive.types.results import Result, Scored
 from trees.context import MissionContext
 from trees.location import generate_places
 from trees.model import RankPlaces

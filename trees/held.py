@@ -11,7 +11,8 @@ from py_trees.common import Status
 
 from executive.records import Activity
 from executive.situation import Choice, For
-from executive.types import Candidate, Result
+from executive.types.knowledge import Candidate
+from executive.types.results import Result
 from trees.context import MissionContext
 from trees.driving import EXPERIMENTER
 from trees.nodes import Action

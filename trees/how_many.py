@@ -4,7 +4,9 @@ from collections.abc import Iterable, Iterator
 
 from executive.language.wording import listed
 from executive.situation import Whole
-from executive.types import DELIVERY, CommandKind, MissionStatus, TaskOutcome
+from executive.types.commands import CommandKind
+from executive.types.home import DELIVERY
+from executive.types.outcome import MissionStatus, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds import deed_of
 from trees.survey import found_where

@@ -9,7 +9,7 @@ from py_trees.common import Status
 
 from executive.records import Verified
 from executive.situation import Consultation, candidates_from
-from executive.types import Source
+from executive.types.knowledge import Source
 from trees.context import MissionContext
 from trees.model import Again, AskFurniture, Inquire, RankPlaces, Summarize
 from trees.nodes import Check, EachOf, Optionally, Step, fallback, sequence

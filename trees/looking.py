@@ -6,7 +6,11 @@ from dataclasses import replace
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.types import SOMETHING, Candidate, Detection, Goal, LookAt, Result, Saw
+from executive.types.goals import Goal, LookAt
+from executive.types.home import SOMETHING
+from executive.types.knowledge import Candidate
+from executive.types.perception import Detection
+from executive.types.results import Result, Saw
 from trees.body import BodyAction, RobotAction
 from trees.context import MissionContext
 

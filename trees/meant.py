@@ -1,7 +1,7 @@
 """Which things words mean, as far as nobody has to be asked."""
 
-from executive.interfaces import Knowledge
-from executive.types import Command
+from executive.interfaces.knowledge import Knowledge
+from executive.types.commands import Command
 from trees.context import MissionContext
 
 

@@ -15,7 +15,7 @@ Of several tasks each goes through all of it (`trees/tasks.py`): none is lost by
 
 from py_trees.behaviour import Behaviour
 
-from executive.types import PERSON
+from executive.types.home import PERSON
 from trees.act import act, without_a_search
 from trees.by_plan import search
 from trees.context import MissionContext

@@ -5,10 +5,13 @@ from dataclasses import replace
 
 from py_trees.common import Status
 
-from executive.interfaces import Advice, LanguageModel
+from executive.interfaces.llm import Advice, LanguageModel
 from executive.language.placed import placed
 from executive.records import Activity
-from executive.types import ChatRequest, Command, CommandKind, Replied, Result, Scored, Source
+from executive.types.commands import Command, CommandKind
+from executive.types.knowledge import Source
+from executive.types.llm import ChatRequest
+from executive.types.results import Replied, Result, Scored
 from trees.context import MissionContext
 from trees.nodes import Action, why_of
 from trees.telling import sentence, tell

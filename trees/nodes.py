@@ -16,7 +16,7 @@ from py_trees.decorators import Decorator, FailureIsSuccess
 
 from executive.situation import Situation
 from executive.text import printable
-from executive.types import Failed, Result
+from executive.types.results import Failed, Result
 from trees.context import MissionContext
 
 LONGEST = 400

@@ -7,7 +7,8 @@ knowledge (paper, section "Integrated use of ontological knowledge base and LLM"
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import HELD, Source
+from executive.types.commands import HELD
+from executive.types.knowledge import Source
 from trees.clarification import AskDoYouMean, AskWhichObject
 from trees.context import MissionContext
 from trees.meant import meant, without_exceptions

@@ -3,9 +3,9 @@
 from dataclasses import replace
 from itertools import chain, permutations
 
-from executive.interfaces import Knowledge
+from executive.interfaces.knowledge import Knowledge
 from executive.situation import Task
-from executive.types import ALL, Command, CommandKind
+from executive.types.commands import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.expected import Expected, is_in_hand
 from trees.meant import things_meant

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from executive.colors import COLORS, OTHER_SPELLINGS
 from executive.language.phrases import words_of
 from executive.language.placed import placed
-from executive.types import Command, CommandKind
+from executive.types.commands import Command, CommandKind
 from trees.context import MissionContext
 from trees.place_words import places_in
 

@@ -6,7 +6,8 @@ from executive.language.wording import beginning
 from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.situation import candidates_from
 from executive.text import printable
-from executive.types import Question, QuestionKind, Source
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.knowledge import Source
 from trees.asking import Ask
 from trees.context import MissionContext
 from trees.nodes import Step

@@ -4,7 +4,8 @@ import re
 from collections.abc import Sequence
 
 from executive.language.answers import picked
-from executive.types import DELIVERY, FLOOR, CommandKind
+from executive.types.commands import CommandKind
+from executive.types.home import DELIVERY, FLOOR
 from trees.context import MissionContext
 from trees.recall import is_here
 from trees.telling import BETWEEN, NEXT_TO

@@ -9,15 +9,10 @@ from py_trees.common import Status
 from executive.language.commands import in_words
 from executive.language.meaning import Answer, Correction, Request, Said
 from executive.language.wording import either
-from executive.types import (
-    PERSON,
-    SOMETHING,
-    Command,
-    CommandKind,
-    Question,
-    QuestionKind,
-    Source,
-)
+from executive.types.commands import Command, CommandKind
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.home import PERSON, SOMETHING
+from executive.types.knowledge import Source
 from trees.attention import correct, is_about_the_same
 from trees.context import MissionContext
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence

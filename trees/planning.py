@@ -11,7 +11,7 @@ from executive.belief import ANYWHERE, PLAN, Belief, Likely, Statement, in_order
 from executive.plan import Chance, Plan, Prices, best_plan
 from executive.records import Planned, WaysTold
 from executive.situation import Leg
-from executive.types import Candidate, Source
+from executive.types.knowledge import Candidate, Source
 from trees.context import MissionContext
 from trees.driving import EXPERIMENTER, Visit
 from trees.hearing import PERSON_TRUST, believed

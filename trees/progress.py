@@ -1,7 +1,8 @@
 """What the robot says while it acts: where it drives, with what, and why it goes on."""
 
 from executive.language.wording import beginning
-from executive.types import DELIVERY, PERSON, CommandKind
+from executive.types.commands import CommandKind
+from executive.types.home import DELIVERY, PERSON
 from trees.context import MissionContext
 
 

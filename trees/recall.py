@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 from py_trees.common import Status
 
-from executive.interfaces import Facts, PlaceSource
+from executive.interfaces.knowledge import Facts, PlaceSource
 from executive.replies import SAYS
 from executive.situation import candidates_from
-from executive.types import DELIVERY, Candidate, Source
+from executive.types.home import DELIVERY
+from executive.types.knowledge import Candidate, Source
 from trees.context import MissionContext
 from trees.nodes import Step
 

@@ -6,7 +6,7 @@ from py_trees.common import Status
 from executive.language.wording import beginning, either
 from executive.records import Activity
 from executive.situation import candidates_from
-from executive.types import Candidate, Source
+from executive.types.knowledge import Candidate, Source
 from trees.context import MissionContext
 from trees.driving import Visit
 from trees.held import HoldWhereToLook

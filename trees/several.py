@@ -6,7 +6,7 @@ from dataclasses import replace
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import ALL, Command, CommandKind
+from executive.types.commands import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.meant import things_meant
 from trees.nodes import Check, EachOf, Step, fallback, sequence

@@ -10,7 +10,9 @@ from py_trees.common import Status
 from executive.language.wording import Wording, listed
 from executive.records import Activity
 from executive.situation import candidates_from
-from executive.types import Candidate, Detection, Result, Saw, Source
+from executive.types.knowledge import Candidate, Source
+from executive.types.perception import Detection
+from executive.types.results import Result, Saw
 from trees.context import MissionContext
 from trees.driving import Visit
 from trees.expected import seen_soonest, whereabouts

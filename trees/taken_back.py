@@ -5,7 +5,7 @@ from dataclasses import replace
 from executive.language.commands import THING
 from executive.language.wording import either
 from executive.situation import Task
-from executive.types import ALL, Command, CommandKind
+from executive.types.commands import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.telling import in_one_sentence
 from trees.wishes import named_in, objects_of, replaced

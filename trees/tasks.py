@@ -7,7 +7,7 @@ from py_trees.common import Status
 
 from executive.records import Activity
 from executive.situation import TAKEN_BACK
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 from trees.attend import hear_first
 from trees.body import BodyAction
 from trees.context import MissionContext

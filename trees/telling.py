@@ -8,7 +8,8 @@ from executive.language.phrases import is_plural
 from executive.language.wording import as_said, either
 from executive.records import Utterance
 from executive.text import printable
-from executive.types import ALL, HELD, PERSON, Command, CommandKind
+from executive.types.commands import ALL, HELD, Command, CommandKind
+from executive.types.home import PERSON
 from trees.context import MissionContext
 
 TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))

@@ -15,7 +15,7 @@ _INVALID = Status.INVALID
 
 
 class MissionTree:
-    """Implements `executive.interfaces.Tree`.
+    """Implements `executive.interfaces.runtime.Tree`.
 
     Nodes are named by their path, because py_trees' own ids are random: the names from the root,
     joined by slashes; of siblings with one name the later ones get a number.

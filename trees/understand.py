@@ -8,7 +8,9 @@ from py_trees.common import Status
 
 from executive.language.meaning import Answer, Correction, Request, Said, Unread
 from executive.records import Utterance
-from executive.types import HELD, Command, MissionStatus, Question, QuestionKind
+from executive.types.commands import HELD, Command
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.outcome import MissionStatus
 from trees.asking import AskYesNo
 from trees.attention import attend_to, correct, differs
 from trees.context import MissionContext

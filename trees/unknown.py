@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from executive.language.wording import beginning, either
-from executive.types import OtherColor
+from executive.types.home import OtherColor
 from trees.context import MissionContext
 
 

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from executive.situation import Task, Whole
-from executive.types import Command, CommandKind, MissionStatus, TaskOutcome
+from executive.types.commands import Command, CommandKind
+from executive.types.outcome import MissionStatus, TaskOutcome
 from trees.context import MissionContext
 from trees.how_many import how_many, sentences
 from trees.telling import tell

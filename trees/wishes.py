@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import chain
 
 from executive.language.phrases import NEGATION
-from executive.types import Command, Commands
+from executive.types.commands import Command, Commands
 from trees.context import MissionContext
 from trees.telling import in_one_breath
 

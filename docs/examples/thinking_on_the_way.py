@@ -11,7 +11,8 @@ from pathlib import Path
 from threading import Timer
 
 from executive import Inbox, MissionStatus, Session, load_settings
-from executive.types import ChatRequest, Replied, Usage
+from executive.types.llm import ChatRequest, Usage
+from executive.types.results import Replied
 from kb.llm.scripted import Scripted
 
 THINKING_S = 9.0

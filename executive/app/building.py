@@ -19,16 +19,14 @@ from executive.config import Settings
 from executive.errors import InputError, ModelError
 from executive.events import Inbox
 from executive.guards import GuardedModel, in_words
-from executive.interfaces import (
-    Advice,
-    Experience,
-    LanguageModel,
-    Recorder,
-    SimulatedHome,
-    User,
-)
+from executive.interfaces.dialogue import User
+from executive.interfaces.knowledge import Experience
+from executive.interfaces.llm import Advice, LanguageModel
+from executive.interfaces.runtime import Recorder
+from executive.interfaces.simulation import SimulatedHome
 from executive.language.grammar import EnglishInterpreter
-from executive.types import ChatRequest, Place, RankRequest, Thing
+from executive.types.home import Place, Thing
+from executive.types.llm import ChatRequest, RankRequest
 from executive.user import Console, Nobody, Oracle
 from kb.advice.prompts import Prompts
 from kb.facts import FactStore

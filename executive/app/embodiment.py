@@ -12,15 +12,11 @@ from typing import Protocol
 from executive.config import Settings
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import (
-    Clock,
-    Detector,
-    Knowledge,
-    Perception,
-    Recorder,
-    Robot,
-    SimulatedHome,
-)
+from executive.interfaces.knowledge import Knowledge
+from executive.interfaces.perception import Detector, Perception
+from executive.interfaces.robot import Robot
+from executive.interfaces.runtime import Clock, Recorder
+from executive.interfaces.simulation import SimulatedHome
 from sim.home.arrangement import Spot
 from sim.home.home import Home
 

@@ -16,7 +16,8 @@ from executive.geometry import Floats, carried_by, pose_from
 from executive.records import Shape
 from executive.ros.arm import Hold, Planar
 from executive.ros.moveit import Obstacle
-from executive.types import Detection, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
+from executive.types.perception import Detection
 from sim.home.furniture import Furniture
 from sim.home.home import Home
 from sim.objects.objects import ObjectModel

@@ -8,7 +8,7 @@ from pathlib import Path
 from executive.app.embodiment import Embodiment, Furnished
 from executive.config import Settings
 from executive.errors import InputError
-from executive.interfaces import Clock
+from executive.interfaces.runtime import Clock
 from executive.text import printable
 from sim.home.arrangement import Spot
 from sim.home.habits import load_habits, moves

@@ -15,25 +15,18 @@ from executive.guards import (
     GuardedSource,
     GuardedUser,
 )
-from executive.interfaces import (
-    Advice,
-    Clock,
-    Experience,
-    Facts,
-    Interpreter,
-    LanguageModel,
-    Perception,
-    PlaceSource,
-    Recorder,
-    Robot,
-    Tree,
-    User,
-)
+from executive.interfaces.dialogue import Interpreter, User
+from executive.interfaces.knowledge import Experience, Facts, PlaceSource
+from executive.interfaces.llm import Advice, LanguageModel
+from executive.interfaces.perception import Perception
+from executive.interfaces.robot import Robot
+from executive.interfaces.runtime import Clock, Recorder, Tree
 from executive.language.grammar import EnglishInterpreter
 from executive.loop import Executive
 from executive.situation import Situation
 from executive.standby import Standby
-from executive.types import DELIVERY, Vector3
+from executive.types.geometry import Vector3
+from executive.types.home import DELIVERY
 from kb.advice.advisor import advise
 from kb.advice.prompts import Prompts
 from kb.ontology.ontology import Ontology

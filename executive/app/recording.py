@@ -15,7 +15,7 @@ from executive.config import Settings
 from executive.files import read_bytes
 from executive.guards import GuardedRobot, in_words
 from executive.toml_file import MOST_BYTES
-from executive.types import DELIVERY, FLOOR
+from executive.types.home import DELIVERY, FLOOR
 from logs.recorder import Sink
 from logs.recording.sink import McapSink
 from sim.home.home import Home, home_text

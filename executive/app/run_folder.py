@@ -11,7 +11,7 @@ from pathlib import Path
 
 from executive.errors import InputError
 from executive.text import printable
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 
 log = logging.getLogger(__name__)
 

@@ -32,13 +32,19 @@ from executive.events import (
     StopRequested,
 )
 from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, GuardedUser, in_words
-from executive.interfaces import LanguageModel, PlaceSource, Robot, SimulatedHome, User
+from executive.interfaces.dialogue import User
+from executive.interfaces.knowledge import PlaceSource
+from executive.interfaces.llm import LanguageModel
+from executive.interfaces.robot import Robot
+from executive.interfaces.simulation import SimulatedHome
 from executive.language.control import control
 from executive.loop import who_interrupts
 from executive.records import EventTaken, Finished
 from executive.situation import FIRST, Ending, Situation
 from executive.text import one_line, too_long, writable
-from executive.types import Answered, Halt, MissionStatus, Outcome
+from executive.types.goals import Halt
+from executive.types.outcome import MissionStatus, Outcome
+from executive.types.results import Answered
 from executive.user import NOTHING_TO_STOP, Console
 from logs.recorder import FanOut, Sink
 

@@ -5,7 +5,9 @@ from collections.abc import Callable
 
 from executive.app.embodiment import Embodiment, Setup
 from executive.clock import SimulatedClock
-from executive.interfaces import Camera, Detector, Robot, SimulatedHome
+from executive.interfaces.perception import Camera, Detector
+from executive.interfaces.robot import Robot
+from executive.interfaces.simulation import SimulatedHome
 from executive.perception.pipeline import CameraPerception
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.faults.fake import FaultyFakeRobot

@@ -9,10 +9,10 @@ from pydantic import TypeAdapter, ValidationError
 from executive.belief import ANYWHERE, PLAN, Statement
 from executive.errors import InputError
 from executive.guards import in_words
-from executive.interfaces import PlaceSource
+from executive.interfaces.knowledge import PlaceSource
 from executive.records import Recalled, SourceAnswer
 from executive.text import printable
-from executive.types import Source
+from executive.types.knowledge import Source
 
 T = TypeVar("T")
 

@@ -10,7 +10,7 @@ from executive.language.pronouns import resolved
 from executive.language.spoken import after
 from executive.replies import Standing, about, reply
 from executive.situation import Before
-from executive.types import Outcome, TaskOutcome
+from executive.types.outcome import Outcome, TaskOutcome
 
 
 def answer(words: str, parts: Parts, before: Before) -> tuple[str, Before]:

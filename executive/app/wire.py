@@ -14,7 +14,7 @@ from executive.ros.address import read_address
 from executive.ros.checking import refuse_unknown_rooms
 from executive.ros.connection import connect
 from executive.ros.profile import Profile, load_profile, packaged_profiles, profile_text
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.body.base import FREE
 from sim.fake import straight_s
 from sim.home.home import Home

@@ -28,8 +28,9 @@ from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import SimulatedHome
-from executive.types import ChatRequest, Message, Outcome
+from executive.interfaces.simulation import SimulatedHome
+from executive.types.llm import ChatRequest, Message
+from executive.types.outcome import Outcome
 from kb.llm.open import model_for_missions
 from sim.home.home import Home, load_home
 

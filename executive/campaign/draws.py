@@ -4,7 +4,7 @@ import random
 from functools import cache
 
 from executive.errors import InputError
-from executive.types import Place
+from executive.types.home import Place
 from kb.ontology.ontology import Ontology
 from sim.home.home import Home, load_home
 from sim.objects.objects import load_objects

@@ -15,7 +15,7 @@ from executive.records import (
     TreeShape,
     Verified,
 )
-from executive.types import Replied, Scored
+from executive.types.results import Replied, Scored
 from logs.recorder import Stamp
 from sim.navigation.grid import Point
 

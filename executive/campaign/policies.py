@@ -19,18 +19,11 @@ from executive.campaign.names import DESCRIPTIONS
 from executive.campaign.routes import routes_of
 from executive.config import KnowledgeSystem
 from executive.events import Inbox
-from executive.interfaces import Advice, LanguageModel
+from executive.interfaces.llm import Advice, LanguageModel
 from executive.plan import EXACT
-from executive.types import (
-    Candidate,
-    ChatRequest,
-    Failed,
-    Message,
-    RankRequest,
-    Scored,
-    Usage,
-    Verdict,
-)
+from executive.types.knowledge import Candidate, Verdict
+from executive.types.llm import ChatRequest, Message, RankRequest, Usage
+from executive.types.results import Failed, Scored
 from kb.advice.advisor import advise
 from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker

@@ -2,8 +2,9 @@
 
 from executive.computing import Computation, GivenUpError, Worker, still_wanted
 from executive.events import Ended, Inbox
-from executive.interfaces import LanguageModel
-from executive.types import ChatRequest, RankRequest, Result, Scored
+from executive.interfaces.llm import LanguageModel
+from executive.types.llm import ChatRequest, RankRequest
+from executive.types.results import Result, Scored
 
 POLL_S = 0.2
 """How often it is looked whether anybody still wants to know (real seconds)."""

@@ -3,8 +3,9 @@
 from collections.abc import Callable, Iterable, Iterator
 
 from executive.campaign.routes import Routes
-from executive.interfaces import SimulatedHome
-from executive.types import HAND, MissionStatus, Outcome, TaskOutcome
+from executive.interfaces.simulation import SimulatedHome
+from executive.types.home import HAND
+from executive.types.outcome import MissionStatus, Outcome, TaskOutcome
 from sim.home.home import Home
 from trees.deeds import deed_of
 

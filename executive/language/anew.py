@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from executive.language.meaning import ME, Correction, Request, Said, Task, Things
 from executive.language.spoken import Spoken
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 
 def asked_anew(said: Correction, spoken: Spoken, *, in_one_breath: bool = False) -> Said:

@@ -42,7 +42,6 @@ class Builder(Deeds):
         return Request(
             tasks,
             in_order,
-            too=any(is_a(p, "TOO", "LATER") for p in parts),
             first=is_a(parts[-1], "AT_FIRST"),
             agrees=any(is_a(p, "YES") for p in parts),
             later=any(is_a(p, "TOO") and p.endswith("later") for p in parts),

@@ -24,7 +24,7 @@ from executive.language.meaning import (
     Where,
 )
 from executive.language.phrases import is_plural
-from executive.types import HELD, Command, CommandKind, Commands
+from executive.types.commands import HELD, Command, CommandKind, Commands
 
 _QUESTIONS = {
     CommandKind.COUNT: "count things",

@@ -15,7 +15,7 @@ from executive.language.meaning import (
     Things,
     Where,
 )
-from executive.types import Command, CommandKind, Commands
+from executive.types.commands import Command, CommandKind, Commands
 
 _CARRIED = (CommandKind.BRING, CommandKind.TAKE, CommandKind.PUT)
 """What of these is done, depends on where the thing is to go."""

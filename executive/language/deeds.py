@@ -22,7 +22,7 @@ from executive.language.parts import (
     is_a,
     purpose_of,
 )
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 _ELSEWHERE = (
     CommandKind.GO,

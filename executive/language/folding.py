@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from executive.language.meaning import ME, Task, Things
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 _ALONE = (CommandKind.FIND, CommandKind.TAKE, CommandKind.BRING)
 """Deeds that another one with "it" may follow, which has them in it."""

@@ -19,7 +19,7 @@ from executive.language.pronouns import resolved
 from executive.language.reader import AT_A_TIME, Reader, english
 from executive.language.slips import brought, without_slips
 from executive.language.spoken import NOTHING, Spoken
-from executive.types import Command, CommandKind, Commands
+from executive.types.commands import Command, CommandKind, Commands
 
 
 class EnglishInterpreter:

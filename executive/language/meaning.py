@@ -6,8 +6,7 @@
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
-from executive.types import ALL as ALL  # as a number of things
-from executive.types import CommandKind
+from executive.types.commands import ALL, CommandKind
 
 
 class Relation(StrEnum):
@@ -148,8 +147,6 @@ class Request:
     tasks: tuple[Task, ...]
     in_order: bool = False
     """Whether the words say that this is the order: "first ..., then ..."."""
-    too: bool = False
-    """Whether it comes on top of what was asked for before: "..., too"."""
     first: bool = False
     """Whether it is to be done before what is under way: "bring it first"."""
     agrees: bool = False

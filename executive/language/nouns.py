@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from lark import Token, Transformer
 
-from executive.language.meaning import ALL, ME, Relation, Said, Thing, Things, Where
+from executive.language.meaning import ME, Relation, Said, Thing, Things, Where
 from executive.language.parts import (
     From,
     Part,
@@ -16,6 +16,7 @@ from executive.language.parts import (
     purpose_of,
     said_of,
 )
+from executive.types.commands import ALL
 
 
 class Nouns(Transformer[Token, Said]):

@@ -5,7 +5,6 @@ from dataclasses import replace
 from executive.language.anew import asked_anew
 from executive.language.folding import asks_for_things, folded, is_it, of_several
 from executive.language.meaning import (
-    ALL,
     ME,
     SO,
     Again,
@@ -22,7 +21,7 @@ from executive.language.meaning import (
 )
 from executive.language.phrases import is_plural
 from executive.language.spoken import QUESTIONS, Spoken, called
-from executive.types import CommandKind
+from executive.types.commands import ALL, CommandKind
 
 _OF_THE_HAND = (CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN)
 """What is put somewhere is first of all what the hand holds."""

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 
 from executive.language.meaning import Request, Said, Unread
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 MOST = 8
 """Pauses that are put in, one after the other; nobody says more in one breath."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pydantic import TypeAdapter
 
 from executive.language.meaning import Question, Request, Said, Statement, Task, Thing, Things
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 QUESTIONS = (CommandKind.CHECK, CommandKind.COUNT, CommandKind.TELL)
 

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Iterable, Sequence
 
-from executive.types import DELIVERY, FLOOR, PERSON, SOMETHING, Called
+from executive.types.home import DELIVERY, FLOOR, PERSON, SOMETHING, Called
 
 _OURS = {
     DELIVERY: Called("delivery table"),

@@ -14,7 +14,7 @@ from executive.page.lines import Lines, Said
 from executive.speech.doubt import Doubt
 from executive.speech.interfaces import Reading
 from executive.text import LONGEST, one_line, writable
-from executive.types import Question
+from executive.types.dialogue import Question
 from executive.user import Console
 
 if TYPE_CHECKING:

@@ -23,7 +23,10 @@ from executive.records import (
     Transforms,
     TreeShape,
 )
-from executive.types import Answered, Frame, Outcome, Pose
+from executive.types.geometry import Pose
+from executive.types.outcome import Outcome
+from executive.types.perception import Frame
+from executive.types.results import Answered
 from logs.images import jpeg
 from logs.recorder import Stamp
 

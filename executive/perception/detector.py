@@ -17,7 +17,7 @@ from executive.perception.onnx_trial import network, pictures, run, try_out
 from executive.perception.segmentation import segment
 from executive.perception.yolo import Boxes, Floats32, check_probabilities, layout_of, read
 from executive.text import printable
-from executive.types import Box, Detection, Frame
+from executive.types.perception import Box, Detection, Frame
 
 log = logging.getLogger(__name__)
 

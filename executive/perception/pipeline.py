@@ -12,10 +12,12 @@ from executive.computing import Computation, Worker
 from executive.errors import UnreachableError
 from executive.events import Inbox
 from executive.geometry import back_project
-from executive.interfaces import Camera, Detector, Recorder
+from executive.interfaces.perception import Camera, Detector
+from executive.interfaces.runtime import Recorder
 from executive.records import Note, Picture, Seen
 from executive.text import printable
-from executive.types import Box, Detection, Failed, Frame, Saw
+from executive.types.perception import Box, Detection, Frame
+from executive.types.results import Failed, Saw
 
 log = logging.getLogger(__name__)
 

@@ -12,7 +12,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from executive.geometry import Floats, back_project_grid
-from executive.types import Box, Frame
+from executive.types.perception import Box, Frame
 
 Mask = NDArray[np.bool_]
 

@@ -12,7 +12,7 @@ from itertools import count, takewhile
 import numpy as np
 from numpy.typing import NDArray
 
-from executive.types import Box, Detection, Frame
+from executive.types.perception import Box, Detection, Frame
 
 SIDE = 16
 """Of a tag (pixels)."""

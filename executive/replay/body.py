@@ -7,7 +7,7 @@ from pydantic import BaseModel, ValidationError
 from executive.app.recording import places_viewed
 from executive.config import Settings
 from executive.errors import InputError
-from executive.types import FLOOR
+from executive.types.home import FLOOR
 from logs.recording.reader import Run
 from sim.home.home import FLOOR_VIEWS, Home
 

@@ -15,12 +15,12 @@ from executive.app.sources import RecordedExperience, RecordedSource, read
 from executive.config import Settings, in_words
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import Clock, Recorder
+from executive.interfaces.runtime import Clock, Recorder
 from executive.language.grammar import EnglishInterpreter
 from executive.records import Recalled, SourceAnswer, WaysTold
 from executive.replay.body import recorded_body
 from executive.replay.stand_ins import Absent
-from executive.types import Place, Thing
+from executive.types.home import Place, Thing
 from kb.advice.prompts import Prompts
 from kb.facts import FactStore
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology

@@ -6,7 +6,10 @@ from math import inf
 from executive.events import Ended, Event, Inbox, StopRequested
 from executive.records import Tick
 from executive.situation import Situation
-from executive.types import ChatRequest, Goal, Halt, Question, RankRequest, Succeeded
+from executive.types.dialogue import Question
+from executive.types.goals import Goal, Halt
+from executive.types.llm import ChatRequest, RankRequest
+from executive.types.results import Succeeded
 from logs.recording.reader import Turn
 
 

@@ -12,7 +12,7 @@ from executive.ros.protocol import GoalStatus, Message
 from executive.ros.stopping import PARTS
 from executive.ros.templates import filled
 from executive.text import one_line
-from executive.types import Failed
+from executive.types.results import Failed
 
 LINK_S = 5.0
 """So long a goal waits for a link that was lost."""

@@ -19,7 +19,9 @@ from executive.ros.moveit import Load, Obstacle, failure, scene, to_joints, to_p
 from executive.ros.profile import ArmAction, GripperAction, Profile
 from executive.ros.protocol import GoalStatus, Message
 from executive.ros.senses import Senses
-from executive.types import Detection, Failed, Pose, Succeeded, Vector3
+from executive.types.geometry import Pose, Vector3
+from executive.types.perception import Detection
+from executive.types.results import Failed, Succeeded
 
 BACK_M, UP_M = 0.10, 0.10
 """So far before a grasp the straight last part begins; so high a thing is lifted."""

@@ -17,7 +17,8 @@ from executive.ros.profile import Profile
 from executive.ros.protocol import Message
 from executive.ros.senses import Senses
 from executive.ros.thread import WireThread
-from executive.types import Frame, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Frame
 
 TOGETHER_S = 0.02
 """Colour and depth that are no further apart are of one moment."""

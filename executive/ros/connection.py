@@ -8,7 +8,7 @@ from executive.clock import RealClock
 from executive.errors import InputError
 from executive.events import BodyTold, Inbox
 from executive.guards import in_words
-from executive.interfaces import Clock
+from executive.interfaces.runtime import Clock
 from executive.ros.address import ROS2, Address
 from executive.ros.arm import Hands, NoHands
 from executive.ros.camera import WireCamera
@@ -23,7 +23,7 @@ from executive.ros.rosbridge import RosbridgeLink
 from executive.ros.senses import Senses
 from executive.ros.stopping import Brake
 from executive.ros.thread import WireThread
-from executive.types import Pose
+from executive.types.geometry import Pose
 
 CONNECTING_S = 6.0
 CLOSING_S = 1.5

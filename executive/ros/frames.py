@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation, Slerp
 from executive.geometry import pose_from, seen_from
 from executive.ros.messages import pose_of, stamp_of
 from executive.ros.protocol import Message
-from executive.types import Pose
+from executive.types.geometry import Pose
 
 KEPT = 500
 """Poses of a frame that are remembered."""

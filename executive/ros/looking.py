@@ -11,7 +11,8 @@ from executive.ros.link import LinkError
 from executive.ros.messages import point_stamped
 from executive.ros.profile import Profile
 from executive.ros.senses import Senses
-from executive.types import FLOOR, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
+from executive.types.home import FLOOR
 
 FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
 """Where the robot looks for what fell: to the left of where it faces (radians)."""

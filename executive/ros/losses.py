@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from executive.guards import in_words
 from executive.ros.link import Link, LinkError, NoLinkError
-from executive.types import Failed
+from executive.types.results import Failed
 
 T = TypeVar("T")
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from executive.geometry import heading
 from executive.ros.packets import PacketError
 from executive.ros.protocol import Message
-from executive.types import Pose, Quaternion, Vector3
+from executive.types.geometry import Pose, Quaternion, Vector3
 
 NONE: Message = {"sec": 0, "nanosec": 0}
 """No time: whatever is newest."""

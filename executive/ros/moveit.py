@@ -7,7 +7,7 @@ from executive.geometry import seen_from
 from executive.records import Shape
 from executive.ros.messages import UPRIGHT, header, pose_stamped
 from executive.ros.protocol import Message
-from executive.types import Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 
 DONE, NO_PLAN, NOT_FOLLOWED, NO_IK = 1, -1, -4, -31
 """`moveit_msgs/msg/MoveItErrorCodes`."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from executive.ros.packets import PacketError, numbers, octets
 from executive.ros.protocol import Message
-from executive.types import Intrinsics
+from executive.types.perception import Intrinsics
 
 COLORS = {
     "rgb8": (3, (0, 1, 2)),

@@ -26,22 +26,11 @@ from executive.ros.profile import Profile
 from executive.ros.senses import Senses
 from executive.ros.stopping import PARTS, Brake
 from executive.ros.thread import WireThread
-from executive.types import (
-    FLOOR,
-    PERSON,
-    Detection,
-    DriveTo,
-    Failed,
-    Goal,
-    Halt,
-    LookAt,
-    Pick,
-    Place,
-    Pose,
-    PutDown,
-    Succeeded,
-    Vector3,
-)
+from executive.types.geometry import Pose, Vector3
+from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
+from executive.types.home import FLOOR, PERSON, Place
+from executive.types.perception import Detection
+from executive.types.results import Failed, Succeeded
 
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""

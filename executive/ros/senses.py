@@ -12,7 +12,7 @@ from executive.ros.messages import seconds, stamp_of, vector
 from executive.ros.packets import PacketError, numbers
 from executive.ros.profile import Profile
 from executive.ros.protocol import Message
-from executive.types import Pose
+from executive.types.geometry import Pose
 
 RESTING_M_S, RESTING_RAD_S = 0.01, 0.02
 """What is slower is at rest."""

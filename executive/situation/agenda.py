@@ -7,7 +7,8 @@ from typing import Any
 from executive.situation.ending import TAKEN_BACK
 from executive.situation.request import command_as_logged
 from executive.situation.snapshot import NOT_LOGGED, logged_as
-from executive.types import Command, Commands, MissionStatus, TaskOutcome
+from executive.types.commands import Command, Commands
+from executive.types.outcome import MissionStatus, TaskOutcome
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import Self
 
 from executive.language.spoken import NOTHING, Spoken
-from executive.types import PERSON, Outcome
+from executive.types.home import PERSON
+from executive.types.outcome import Outcome
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from typing import Any
 
 from executive.language.spoken import NOTHING, Spoken
 from executive.situation.snapshot import NOT_LOGGED, logged_as
-from executive.types import PERSON
+from executive.types.home import PERSON
 
 
 def _spoken(spoken: Spoken) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from executive.situation.snapshot import NOT_LOGGED, logged_as
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 
 TAKEN_BACK = "you took it back"
 """Why a task was not done that the person does not want any more."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from executive.language.wording import Wording, either
-from executive.types import SOMETHING
+from executive.types.home import SOMETHING
 
 
 @dataclass

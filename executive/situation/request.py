@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from executive.situation.snapshot import logged_as
-from executive.types import Command, CommandKind
+from executive.types.commands import Command, CommandKind
 
 
 def command_as_logged(command: Command | None) -> dict[str, Any] | None:

@@ -8,7 +8,9 @@ from executive.language.wording import Wording
 from executive.situation.belief import Whereabouts
 from executive.situation.looks import Looks
 from executive.situation.snapshot import PART, logged_as
-from executive.types import DELIVERY, Candidate, Detection
+from executive.types.home import DELIVERY
+from executive.types.knowledge import Candidate
+from executive.types.perception import Detection
 
 
 @dataclass

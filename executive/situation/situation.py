@@ -31,16 +31,9 @@ from executive.situation.search import Search
 from executive.situation.snapshot import PART, snapshot
 from executive.situation.steering import Steering
 from executive.situation.survey import Survey
-from executive.types import (
-    Command,
-    CommandKind,
-    Failed,
-    MissionStatus,
-    Outcome,
-    Replied,
-    Scored,
-    TaskOutcome,
-)
+from executive.types.commands import Command, CommandKind
+from executive.types.outcome import MissionStatus, Outcome, TaskOutcome
+from executive.types.results import Failed, Replied, Scored
 
 NOT_BEGUN = "I did not get to it"
 ONE_AT_A_TIME = "I took it, and put it away again: I hold one thing at a time"

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from executive.events import Inbox, Listened
-from executive.interfaces import Interpreter
+from executive.interfaces.dialogue import Interpreter
 from executive.language.control import Control, control
 from executive.speech.interfaces import Reading
 from executive.speech.jsgf import LITTLE

@@ -19,12 +19,16 @@ from executive.app.parts import (
 from executive.app.simulation import fake
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, Started
-from executive.interfaces import Detector, Facts, PlaceSource, Robot, User
+from executive.interfaces.dialogue import User
+from executive.interfaces.knowledge import Facts, PlaceSource
+from executive.interfaces.perception import Detector
+from executive.interfaces.robot import Robot
 from executive.language.grammar import EnglishInterpreter
 from executive.perception.pipeline import CameraPerception
 from executive.records import Record, Tick, Verified
 from executive.situation import Situation
-from executive.types import Goal, Outcome
+from executive.types.goals import Goal
+from executive.types.outcome import Outcome
 from executive.user import Oracle, Scripted
 from kb.llm.scripted import Scripted as ScriptedModel
 from kb.ontology.ontology import Ontology

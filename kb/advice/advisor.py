@@ -1,6 +1,7 @@
 """Who puts questions to the language model, in all three ways: what a mission takes along."""
 
-from executive.interfaces import Advice, Facts, LanguageModel
+from executive.interfaces.knowledge import Facts
+from executive.interfaces.llm import Advice, LanguageModel
 from kb.advice.lister import Lister
 from kb.advice.prompts import Prompts
 from kb.advice.ranker import Ranker

@@ -11,7 +11,9 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, StrictInt, ValidationError, field_validator
 
 from executive.language.phrases import spoken
-from executive.types import SEARCHING, ChatRequest, CommandKind, RankRequest, Scored
+from executive.types.commands import SEARCHING, CommandKind
+from executive.types.llm import ChatRequest, RankRequest
+from executive.types.results import Scored
 from kb.advice.prompts import Understanding
 from kb.advice.verification import last_first
 

@@ -3,7 +3,7 @@
 from collections import deque
 from collections.abc import Callable
 
-from executive.types import Message
+from executive.types.llm import Message
 
 _SHARE_OF_CONTEXT = 0.5
 _SHARE_OF_DIALOGUE = 0.8

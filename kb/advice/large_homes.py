@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate, chain, zip_longest
 
-from executive.types import Place, Scored
+from executive.types.home import Place
+from executive.types.results import Scored
 
 BYTES_PER_TOKEN = 3
 """A careful estimate; counting would wait for the model to be loaded."""

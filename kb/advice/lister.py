@@ -6,8 +6,10 @@ is a subtree.
 
 from collections.abc import Sequence
 
-from executive.interfaces import LanguageModel
-from executive.types import ChatRequest, Message, Place, Verdict
+from executive.interfaces.llm import LanguageModel
+from executive.types.home import Place
+from executive.types.knowledge import Verdict
+from executive.types.llm import ChatRequest, Message
 from kb.advice import verification
 from kb.advice.history import DialogueHistory, history_budget
 from kb.advice.large_homes import as_many_as_fit, fits, of_all_kinds

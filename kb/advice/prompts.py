@@ -11,7 +11,9 @@ from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, fie
 
 from executive.errors import InputError
 from executive.toml_file import read_toml
-from executive.types import SEARCHING, CommandKind, Message, Place
+from executive.types.commands import SEARCHING, CommandKind
+from executive.types.home import Place
+from executive.types.llm import Message
 from kb.advice.verification import Reply
 from kb.ontology.names import unique
 

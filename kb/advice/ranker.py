@@ -4,8 +4,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 
-from executive.interfaces import Facts
-from executive.types import Candidate, RankRequest, Scored
+from executive.interfaces.knowledge import Facts
+from executive.types.knowledge import Candidate
+from executive.types.llm import RankRequest
+from executive.types.results import Scored
 from kb.advice import ranking
 from kb.advice.large_homes import Alike
 from kb.advice.prompts import Prompts

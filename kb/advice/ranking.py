@@ -11,7 +11,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from executive.language.phrases import spoken
-from executive.types import Candidate, Place, Precedent, RankRequest, Scored, Source
+from executive.types.home import Place
+from executive.types.knowledge import Candidate, Source
+from executive.types.llm import Precedent, RankRequest
+from executive.types.results import Scored
 from kb.advice.prompts import Ranking
 from kb.ontology.names import base_name
 

@@ -1,6 +1,8 @@
 """The language model as one who reads commands that the grammar cannot."""
 
-from executive.types import ChatRequest, CommandKind, RankRequest, Scored
+from executive.types.commands import CommandKind
+from executive.types.llm import ChatRequest, RankRequest
+from executive.types.results import Scored
 from kb.advice import commands
 from kb.advice.commands import ME, Asked
 from kb.advice.prompts import Prompts

@@ -12,7 +12,8 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from executive.text import writable
-from executive.types import Place, Verdict
+from executive.types.home import Place
+from executive.types.knowledge import Verdict
 from kb.advice.lenient import Bare, values
 from kb.ontology.names import PlaceNames, unique
 

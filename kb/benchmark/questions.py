@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from executive.language.phrases import spoken, words_of
-from executive.types import Place
+from executive.types.home import Place
 from kb.advice.ranking import Known, answer
 from kb.benchmark.placements import Placements, preposition
 from kb.ontology.ontology import Ontology

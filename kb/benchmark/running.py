@@ -14,7 +14,7 @@ from executive.config import load_settings
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.geometry import Floats
-from executive.interfaces import LanguageModel
+from executive.interfaces.llm import LanguageModel
 from executive.language.phrases import words_of
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import Known

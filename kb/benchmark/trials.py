@@ -11,9 +11,10 @@ import numpy as np
 from executive.errors import InputError, ModelError
 from executive.events import Ended, Inbox
 from executive.geometry import Floats
-from executive.interfaces import LanguageModel
+from executive.interfaces.llm import LanguageModel
 from executive.terminal import show_over
-from executive.types import RankRequest, Replied, Scored, Usage
+from executive.types.llm import RankRequest, Usage
+from executive.types.results import Replied, Scored
 from kb.advice.lister import Lister
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import rank_request, softmax

@@ -17,7 +17,7 @@ import llama_cpp
 
 from executive.errors import ModelError
 from executive.text import printable
-from executive.types import Message
+from executive.types.llm import Message
 from kb.llm.gguf_header import LONGEST_TEMPLATE, TEMPLATE, check_file
 from kb.llm.template import Template
 

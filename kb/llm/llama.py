@@ -13,16 +13,8 @@ from typing import TYPE_CHECKING
 
 from executive.errors import ModelError
 from executive.events import Inbox
-from executive.types import (
-    ChatRequest,
-    Failed,
-    Message,
-    RankRequest,
-    Replied,
-    Result,
-    Scored,
-    Usage,
-)
+from executive.types.llm import ChatRequest, Message, RankRequest, Usage
+from executive.types.results import Failed, Replied, Result, Scored
 from kb.llm.first_load import mark_of, tried
 from kb.llm.gguf_header import check_file
 from kb.llm.kept import Kept

@@ -8,7 +8,7 @@ from pathlib import Path
 from executive.config import Settings
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import LanguageModel
+from executive.interfaces.llm import LanguageModel
 from executive.servers.key import Key
 from kb.llm.options import ModelOptions
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from executive.geometry import Floats
-from executive.types import Message, RankRequest
+from executive.types.llm import Message, RankRequest
 from kb.llm.kept import Kept
 from kb.llm.precedents import likelihood_weight, log_expected, shares
 

@@ -4,7 +4,8 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 
 from executive.events import Inbox
-from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, Scored, Usage
+from executive.types.llm import ChatRequest, RankRequest, Usage
+from executive.types.results import Failed, Replied, Result, Scored
 
 Reply = str | Sequence[float] | None
 

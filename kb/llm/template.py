@@ -7,7 +7,7 @@ from llama_cpp.llama_chat_format import Jinja2ChatFormatter
 
 from executive.errors import ModelError
 from executive.text import printable
-from executive.types import Message
+from executive.types.llm import Message
 from kb.llm.turns import without_system
 
 LONGEST_FAULT = 200

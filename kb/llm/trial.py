@@ -8,7 +8,7 @@ from pathlib import Path
 
 from executive.errors import ModelError
 from executive.text import printable
-from executive.types import Message
+from executive.types.llm import Message
 from kb.llm.context import Context
 from kb.llm.gguf import Gguf
 from kb.llm.gguf_header import RANKS, TEMPLATE, WRITES, read_header, refuse_what_does_not_chat

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from executive.types import Message
+from executive.types.llm import Message
 
 
 def without_system(chat: Sequence[Message]) -> tuple[Message, ...]:

@@ -7,7 +7,7 @@ from rdflib.term import Identifier
 
 from executive.errors import InputError
 from executive.text import printable
-from executive.types import Place, Thing
+from executive.types.home import Place, Thing
 from kb.ontology.graph import Graph
 from kb.ontology.home_file import home_file
 from kb.ontology.owl import ending

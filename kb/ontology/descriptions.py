@@ -7,7 +7,7 @@ from itertools import chain
 
 from executive.colors import COLORS, OTHER_SPELLINGS
 from executive.language.phrases import MOST_WORDS, words_of
-from executive.types import OtherColor
+from executive.types.home import OtherColor
 
 LONGEST = 20
 """Words of a description; more of them are none."""

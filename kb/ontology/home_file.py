@@ -7,7 +7,7 @@ from rdflib import OWL, RDF, RDFS
 from rdflib.term import Identifier
 
 from executive.text import printable
-from executive.types import Place
+from executive.types.home import Place
 
 
 def home_file(

@@ -17,7 +17,7 @@ from executive.language.phrases import (
     stem,
     words_of,
 )
-from executive.types import Place
+from executive.types.home import Place
 
 SHORTEST_WITH_A_SLIP = 4
 SLIP_LIKENESS = 0.75

@@ -10,7 +10,7 @@ from rdflib.term import Identifier
 from executive.errors import InputError
 from executive.language.phrases import MOST_WORDS, spoken, words_of
 from executive.text import printable
-from executive.types import Called, OtherColor, Place, Thing
+from executive.types.home import Called, OtherColor, Place, Thing
 from kb.ontology.additions import INDIVIDUALS, HomeAdditions
 from kb.ontology.descriptions import Descriptions, Look
 from kb.ontology.graph import Graph

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from executive.language.phrases import spoken, stem, words_of
-from executive.types import Called, Place
+from executive.types.home import Called, Place
 
 
 def places_called(

@@ -12,7 +12,7 @@ from typing import TypeAlias
 from rdflib import OWL, RDF
 from rdflib.term import Identifier
 
-from executive.types import Place
+from executive.types.home import Place
 from kb.ontology.graph import Graph
 from kb.ontology.owl import OwlFile, ending
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from executive.records import NodeState, Tick
 from executive.text import printable
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 from logs.recording.reader import At, Run
 
 OF_THE_RUN = ("mission_time_s", "thinking_time_s", "wall_time_s", "run_dir")

@@ -8,7 +8,7 @@ from typing import Any
 
 from executive.records import LlmCall, NodeState, Tick, Verified
 from executive.text import counted, printable
-from executive.types import Replied, Scored
+from executive.types.results import Replied, Scored
 from logs.recording.events import in_words
 from logs.recording.reader import At, Run
 

@@ -20,17 +20,8 @@ from executive.events import (
     StopRequested,
 )
 from executive.records import EventTaken, LlmCall
-from executive.types import (
-    Answered,
-    Box,
-    Detection,
-    Failed,
-    Replied,
-    Result,
-    Saw,
-    Scored,
-    Succeeded,
-)
+from executive.types.perception import Box, Detection
+from executive.types.results import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
 from logs.recording.messages import llm_call_from_message, llm_call_to_fields
 from logs.recording.sound import finite, whole
 

@@ -21,6 +21,7 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from foxglove_schemas_protobuf.Vector3_pb2 import Vector3 as Vector3Message
 from google.protobuf.timestamp_pb2 import Timestamp
 
+from executive.colors import Color
 from executive.records import (
     Entity,
     Note,
@@ -32,7 +33,8 @@ from executive.records import (
     Transform,
     Transforms,
 )
-from executive.types import Box, Color, Pose, Quaternion, Vector3
+from executive.types.geometry import Pose, Quaternion, Vector3
+from executive.types.perception import Box
 from logs.images import jpeg
 
 CAMERA_FRAME = "camera_optical"

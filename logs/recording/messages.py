@@ -8,20 +8,11 @@ from math import isfinite
 from typing import Any
 
 from executive.records import Finished, LlmCall, NodeShape, NodeState, Tick, TreeShape
-from executive.types import (
-    Candidate,
-    ChatRequest,
-    CommandKind,
-    Message,
-    MissionStatus,
-    Outcome,
-    Precedent,
-    RankRequest,
-    Replied,
-    Scored,
-    TaskOutcome,
-    Usage,
-)
+from executive.types.commands import CommandKind
+from executive.types.knowledge import Candidate
+from executive.types.llm import ChatRequest, Message, Precedent, RankRequest, Usage
+from executive.types.outcome import MissionStatus, Outcome, TaskOutcome
+from executive.types.results import Replied, Scored
 from logs.recording.schema import STATUS
 from logs.recording.sound import MOST, MOST_DEEP, check_situation, finite, json_value, whole
 from logs.recording.undeclared import told_from_names

@@ -23,7 +23,7 @@ from executive.records import (
 )
 from executive.text import printable
 from executive.toml_file import parse_toml
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 from logs.recording.channels import decoder
 from logs.recording.context import nanoseconds
 from logs.recording.events import event_from_message

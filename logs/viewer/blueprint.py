@@ -8,7 +8,7 @@ import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
 from executive.records import Entity
-from executive.types import Vector3
+from executive.types.geometry import Vector3
 from logs.viewer import candidates, scene, tree
 from logs.viewer.timelines import MISSION_TIME
 

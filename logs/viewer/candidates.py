@@ -9,7 +9,7 @@ import rerun as rr
 
 from executive.geometry import matrix_of
 from executive.records import Entity, Planned, Shape
-from executive.types import Vector3
+from executive.types.geometry import Vector3
 from logs.viewer.states import State, states
 
 CANDIDATES = "candidates"

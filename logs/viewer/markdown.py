@@ -7,7 +7,10 @@ from typing import Any
 
 from executive.records import LlmCall, Verified
 from executive.text import counted, printable
-from executive.types import Candidate, Message, Outcome, Replied, Scored
+from executive.types.knowledge import Candidate
+from executive.types.llm import Message
+from executive.types.outcome import Outcome
+from executive.types.results import Replied, Scored
 from logs.viewer.states import State, states
 
 _ACTIVE = re.compile(r"[\\`*<|~]|(?<=[!\]])[\[(:]")

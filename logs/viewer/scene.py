@@ -12,8 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import rerun as rr
 
+from executive.colors import Color
 from executive.records import Entity, PlannedPath, Seen, Shape, Transform
-from executive.types import Color, Intrinsics, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Intrinsics
 from logs.viewer.timelines import At, time_columns
 
 FRAMES = "frames"

@@ -31,7 +31,7 @@ from executive.records import (
     Verified,
     WaysTold,
 )
-from executive.types import Frame, Intrinsics
+from executive.types.perception import Frame, Intrinsics
 from logs.images import jpeg_scaled
 from logs.recorder import Stamp
 from logs.recording.events import in_words

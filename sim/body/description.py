@@ -11,8 +11,9 @@ from xml.etree import ElementTree
 import pybullet_data
 from scipy.spatial.transform import Rotation
 
+from executive.colors import Color
 from executive.records import Entity, Shape
-from executive.types import Color, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 
 _PADS = {"lateral_friction": "1.0", "spinning_friction": "0.006", "rolling_friction": "0.002"}
 """Rubber on the finger tips: a pad 18 mm wide also resists turning (metres, as PyBullet has it)."""

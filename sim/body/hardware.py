@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from executive.geometry import Floats
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.body.description import write_description
 from sim.engine import BulletClient
 from sim.engine import pybullet as p

@@ -2,7 +2,7 @@
 
 import math
 
-from executive.types import Vector3
+from executive.types.geometry import Vector3
 from sim.body.hardware import Hardware
 from sim.body.skill import CannotError, Skill, wait_until
 

@@ -6,9 +6,10 @@ from typing import Any, Literal
 
 from scipy.spatial.transform import Rotation
 
+from executive.colors import Color
 from executive.geometry import carried_by
 from executive.records import Entity, Shape
-from executive.types import Color, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 from sim.engine import BulletClient
 from sim.engine import pybullet as p
 from sim.home.furniture import box

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from executive.types import Box, Detection, Frame, Intrinsics, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Box, Detection, Frame, Intrinsics
 from sim.bullet.rendering import DAYLIGHT, NEAR_M, Light, Rendering, View, draw
 from sim.engine import BulletClient
 

@@ -8,7 +8,7 @@ the wrong way round: the fingers cannot open any more. So contacts are found ane
 import math
 from collections.abc import Collection
 
-from executive.types import Quaternion
+from executive.types.geometry import Quaternion
 from sim.engine import BulletClient
 
 _TURN = math.radians(10.0)

@@ -2,7 +2,9 @@
 
 from collections.abc import Callable
 
-from executive.types import FLOOR, DriveTo, Failed, Goal, Pick, PutDown, Result
+from executive.types.goals import DriveTo, Goal, Pick, PutDown
+from executive.types.home import FLOOR
+from executive.types.results import Failed, Result
 from sim.fake import FakeRobot, FakeWorld
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import Blocked, Drop, Moved, Slip, Stuck

@@ -12,9 +12,10 @@ from typing import TypeVar
 import numpy as np
 
 from executive.computing import afterwards
-from executive.interfaces import Camera, Detector, Recorder
+from executive.interfaces.perception import Camera, Detector
+from executive.interfaces.runtime import Recorder
 from executive.records import Mishap
-from executive.types import Detection, Frame
+from executive.types.perception import Detection, Frame
 from sim.faults.orders import Blind, Confuse, Fault, Miss, Noise, Rated
 
 F = TypeVar("F", bound=Fault)

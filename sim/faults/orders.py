@@ -12,7 +12,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import ClassVar, Self
 
 from executive.errors import InputError
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.home.arrangement import NoRoomError
 from sim.home.floorplan import doors_between
 from sim.home.home import DELIVERY, Home

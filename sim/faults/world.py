@@ -4,8 +4,9 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from executive.colors import Color
 from executive.records import Entity, Shape
-from executive.types import Color, Pose
+from executive.types.geometry import Pose
 from sim.body.skill import CONTROL_S
 from sim.bullet.bodies import create_body, frame_pose, put_at
 from sim.engine import BulletClient, pybullet

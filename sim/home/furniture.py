@@ -12,9 +12,10 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from executive.colors import Color
 from executive.geometry import heading
 from executive.records import Shape
-from executive.types import Color, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 from sim.home.floorplan import Coordinate, Length
 
 PlanarPose = tuple[float, float, float]

@@ -18,7 +18,8 @@ from executive.errors import InputError
 from executive.files import decoded, read_bytes
 from executive.geometry import heading
 from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml
-from executive.types import DELIVERY, PERSON, Place, Pose, Thing, Vector3
+from executive.types.geometry import Pose, Vector3
+from executive.types.home import DELIVERY, PERSON, Place, Thing
 from sim.home.arrangement import Spot, Standing, arrange
 from sim.home.floorplan import FARTHEST_M, Door, Length, Room, Wall, walls
 from sim.home.furniture import Furniture, PlanarPose, PoseInDegrees, Surface

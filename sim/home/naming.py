@@ -8,7 +8,7 @@ from itertools import dropwhile, zip_longest
 
 from executive.language.naming import Fault, place_fault
 from executive.language.phrases import place_words, spoken
-from executive.types import DELIVERY, FLOOR, HAND, PERSON
+from executive.types.home import DELIVERY, FLOOR, HAND, PERSON
 
 LONGEST = 64
 """Characters of a name."""

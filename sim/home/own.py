@@ -7,10 +7,10 @@ from typing import Annotated, Any, Self
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from executive.colors import color_name
+from executive.colors import Color, color_name
 from executive.errors import InputError
 from executive.records import Shape
-from executive.types import Color, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 from sim.home.arrangement import Spot
 from sim.objects.objects import GREY, WHITE, HexColor, ObjectModel, object_model, rgba
 

@@ -15,7 +15,7 @@ from executive.errors import InputError
 from executive.files import write_whole
 from executive.text import printable
 from executive.toml_file import in_words, read_toml, refuse_misread_bools
-from executive.types import Vector3
+from executive.types.geometry import Vector3
 from sim.home.arrangement import NoRoomError, Spot
 from sim.home.furniture import Furniture
 from sim.home.home import Home

@@ -5,7 +5,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 from executive.errors import InputError
-from executive.types import DELIVERY
+from executive.types.home import DELIVERY
 from sim.home.arrangement import NoRoomError
 from sim.home.floorplan import wall_axis, wall_lines
 from sim.home.furniture import FORM_OF_KIND

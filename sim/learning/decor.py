@@ -10,7 +10,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from PIL import Image
 
-from executive.types import Color
+from executive.colors import Color
 from sim.bullet.rendering import Light
 from sim.engine import BulletClient
 

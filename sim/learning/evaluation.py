@@ -25,7 +25,7 @@ from executive.perception.pipeline import locate
 from executive.perception.segmentation import segment
 from executive.terminal import show_over
 from executive.text import printable
-from executive.types import Box, Detection, Frame
+from executive.types.perception import Box, Detection, Frame
 from sim.learning.frames import EVALUATION_SEED, VALIDATION_SEED, class_names
 from sim.learning.metrics import ClassReport, Ints, Judged, by_class, confusion, match
 from sim.learning.scenes import Scene, SceneMaker

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from executive.records import Shape
-from executive.types import Box, Frame, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
+from executive.types.perception import Box, Frame
 from sim.body.hardware import Hardware
 from sim.body.head import aim
 from sim.bullet.bodies import PERSON_SHAPES, create_body, create_object

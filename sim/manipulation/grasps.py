@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.body.hardware import FINGER_TRAVEL
 from sim.bullet.client import GRAVITY_M_S2
 from sim.objects.objects import ObjectModel

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.body.arm import hold
 from sim.body.hardware import Hardware
 from sim.body.skill import CONTROL_S, CannotError, Skill

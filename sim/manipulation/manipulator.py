@@ -14,7 +14,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats
-from executive.types import Detection, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Detection
 from sim.body.arm import SLOW, follow
 from sim.body.base import CREEPING, drive
 from sim.body.hardware import FINGER_TRAVEL, FOLDED, Hardware

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats, carried_by, heading
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.body.arm import follow
 from sim.body.hardware import ARM, Hardware
 from sim.body.skill import CannotError, Skill, Thinker, pause, wait_until

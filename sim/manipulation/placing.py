@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats, heading
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.home.furniture import OPEN, Surface
 from sim.home.home import Furniture
 from sim.manipulation.clutter import level_points, rising_points

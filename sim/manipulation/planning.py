@@ -7,7 +7,7 @@ import numpy as np
 
 from executive.geometry import Floats
 from executive.records import Shape
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.body.hardware import FOLDED
 from sim.bullet.bodies import build_home, create_body
 from sim.engine import pybullet as p

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from executive.geometry import Floats, heading
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.manipulation.fitting import least_squares
 from sim.objects.distance import distance_to
 from sim.objects.objects import ObjectModel

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Generator
 
 from executive.geometry import Floats
-from executive.interfaces import Recorder
+from executive.interfaces.runtime import Recorder
 from executive.records import PlannedPath
 from sim.body.base import BlockedError, Limits, drive
 from sim.body.hardware import Hardware

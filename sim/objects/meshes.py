@@ -13,11 +13,12 @@ from PIL import Image
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
+from executive.colors import Color
 from executive.errors import InputError
 from executive.files import read_bytes
 from executive.geometry import Floats
 from executive.records import Shape
-from executive.types import Color, Pose
+from executive.types.geometry import Pose
 from sim.objects.objects import WHITE, ObjectModel
 from sim.objects.solids import signed_distance
 

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from pydantic import AfterValidator, BaseModel, ConfigDict, TypeAdapter
 from pydantic_core import PydanticCustomError
 
+from executive.colors import Color
 from executive.geometry import matrix_of, orientation_of, transform
 from executive.records import Shape
 from executive.toml_file import parse_toml
-from executive.types import Color, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 
 Grasp = Literal["top", "rim", "handle"]
 TUBE_WALLS = 12

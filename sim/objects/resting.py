@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats
 from executive.records import Shape
-from executive.types import Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 from sim.objects.objects import ObjectModel
 from sim.objects.solids import sample_surface
 

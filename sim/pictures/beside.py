@@ -10,10 +10,10 @@ import logging
 import multiprocessing
 import os
 
-from executive.interfaces import Recorder
+from executive.interfaces.runtime import Recorder
 from executive.records import Note
 from executive.text import printable
-from executive.types import Frame
+from executive.types.perception import Frame
 from sim.bullet.camera import SimulatedCamera, view_from
 from sim.pictures.coming import ComingFrame
 from sim.pictures.painter import Asked, Stage

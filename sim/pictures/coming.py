@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from executive.types import Frame, Intrinsics, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Frame, Intrinsics
 
 if TYPE_CHECKING:  # the renderer takes long to import, and not all who get pictures have one
     from sim.pictures.painter import Pixels

@@ -4,9 +4,12 @@ import math
 from typing import TYPE_CHECKING, Protocol
 
 from executive.geometry import heading
-from executive.interfaces import Camera, SimulatedHome
+from executive.interfaces.perception import Camera
+from executive.interfaces.simulation import SimulatedHome
 from executive.records import Transform
-from executive.types import FLOOR, PERSON, DriveTo, Goal, LookAt, Pose, Vector3
+from executive.types.geometry import Pose, Vector3
+from executive.types.goals import DriveTo, Goal, LookAt
+from executive.types.home import FLOOR, PERSON
 from sim.fake import EYE_HEIGHT_M, SPEED_M_S, FakeRobot, FakeWorld
 from sim.goals import AnyGoal, Face, GoTo, Grip, MoveHand, MoveJoints
 from sim.home.home import Home, PlanarPose

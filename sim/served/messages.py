@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from executive.geometry import heading
 from executive.records import Transform
 from executive.ros.protocol import Message
-from executive.types import Frame, Intrinsics, Pose, Quaternion, Vector3
+from executive.types.geometry import Pose, Quaternion, Vector3
+from executive.types.perception import Frame, Intrinsics
 
 MAP, ODOM, BASE, CAMERA = "map", "odom", "base_link", "camera_optical"
 Planar = tuple[float, float, float]

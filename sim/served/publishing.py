@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from executive.ros.protocol import Message
-from executive.types import Frame
+from executive.types.perception import Frame
 from sim.pictures.coming import ComingFrame, NotDrawnError
 from sim.served import messages, offered
 from sim.served.bodies import Body

@@ -14,7 +14,8 @@ from executive.ros.moveit import DONE, NO_IK, NO_PLAN, NOT_FOLLOWED
 from executive.ros.packets import PacketError
 from executive.ros.protocol import GoalStatus, Message
 from executive.ros.server import Server
-from executive.types import DriveTo, Failed, Halt, Result
+from executive.types.goals import DriveTo, Halt
+from executive.types.results import Failed, Result
 from sim.goals import NO_MOTION, UNREACHABLE, AnyGoal, GoTo
 from sim.home.home import Home
 from sim.served.bodies import Body

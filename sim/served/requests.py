@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from executive.records import Shape
 from executive.ros.packets import PacketError, octets
 from executive.ros.protocol import Message
-from executive.types import Box, Detection, Goal, Pick, Pose, PutDown, Quaternion, Vector3
+from executive.types.geometry import Pose, Quaternion, Vector3
+from executive.types.goals import Goal, Pick, PutDown
+from executive.types.perception import Box, Detection
 from sim.goals import Face, GoTo, Grip, MoveHand, MoveJoints
 from sim.home.home import Home
 from sim.served.bodies import Body, drive

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.interfaces import Camera
+from executive.interfaces.perception import Camera
 from executive.records import Mishap, Record
 from sim.fake import FakeCamera, FakeRobot, FakeWorld
 from sim.faults.fake import FaultyFakeRobot

@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 from scipy.spatial.transform import Rotation
 
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.bullet.bodies import create_body
 from sim.bullet.camera import pinhole, render
 from sim.bullet.client import connect

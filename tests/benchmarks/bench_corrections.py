@@ -26,7 +26,7 @@ from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import THE_PERSON, Event, Heard, Inbox, StopRequested
 from executive.records import Record, Transforms
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 from logs.recorder import Stamp
 
 Row = dict[str, Any]

@@ -21,7 +21,9 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.perception.pipeline import locate
 from executive.records import Record
-from executive.types import Detection, DriveTo, Failed, Goal, LookAt, Pick, PutDown, Result
+from executive.types.goals import DriveTo, Goal, LookAt, Pick, PutDown
+from executive.types.perception import Detection
+from executive.types.results import Failed, Result
 from sim.home.home import load_home
 from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld

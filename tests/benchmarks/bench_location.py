@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from executive.types import Place
+from executive.types.home import Place
 from kb.facts import Fact, FactKind, FactStore
 from kb.ontology.ontology import Ontology
 

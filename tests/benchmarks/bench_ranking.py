@@ -19,7 +19,8 @@ from pathlib import Path
 
 from executive.errors import ModelError
 from executive.events import Ended, Inbox
-from executive.types import ChatRequest, Failed, RankRequest, Usage
+from executive.types.llm import ChatRequest, RankRequest, Usage
+from executive.types.results import Failed
 from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker
 from kb.llm.llama import LlamaCpp, embedded_model

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.bullet.bodies import build_home, create_body
 from sim.bullet.camera import pinhole, render
 from sim.bullet.client import connect

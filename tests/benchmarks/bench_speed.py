@@ -16,7 +16,7 @@ import sim.bullet.camera
 from executive.app.run_folder import new_folder
 from executive.app.session import Session
 from executive.config import load_settings
-from executive.types import DriveTo
+from executive.types.goals import DriveTo
 from sim.body.laser import Laser
 
 TOUR = ("desk", "counter_wagon", "sideboard", "delivery")

@@ -29,7 +29,8 @@ from executive import Session, load_settings
 from executive.events import Inbox, StopRequested
 from executive.records import Activity, EventTaken, Record, Tick, TreeShape
 from executive.shell import all_is_kept
-from executive.types import MissionStatus, Question
+from executive.types.dialogue import Question
+from executive.types.outcome import MissionStatus
 from logs.recorder import FanOut
 from logs.viewer import sink as _imported_by_the_command  # noqa: F401
 from sim.pictures import beside

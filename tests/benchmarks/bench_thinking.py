@@ -23,7 +23,8 @@ from executive.campaign.report.paper import COMMANDS
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.testing.bench import Run, run_mission
-from executive.types import RankRequest, Scored
+from executive.types.llm import RankRequest
+from executive.types.results import Scored
 from kb.llm.open import model_for_missions
 from sim.fake import FakeRobot
 

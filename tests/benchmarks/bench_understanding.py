@@ -11,7 +11,8 @@ from pathlib import Path
 
 from executive.events import Ended, Inbox
 from executive.language.grammar import EnglishInterpreter
-from executive.types import CommandKind, Scored
+from executive.types.commands import CommandKind
+from executive.types.results import Scored
 from kb.advice.reader import Reader
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.ontology.ontology import Ontology

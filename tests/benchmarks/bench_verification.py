@@ -22,7 +22,8 @@ from hypothesis import strategies as st
 
 from executive.events import Ended, Inbox
 from executive.language.phrases import spoken
-from executive.types import ChatRequest, Replied
+from executive.types.llm import ChatRequest
+from executive.types.results import Replied
 from kb.advice.lister import Lister
 from kb.advice.verification import Reply
 from kb.llm.llama import LlamaCpp, embedded_model

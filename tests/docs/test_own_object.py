@@ -13,7 +13,7 @@ from executive.app.simulation import blind_to
 from executive.config import KnowledgeSystem, Settings
 from executive.perception.detector import OnnxDetector
 from executive.replay import replay
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 
 HOME = Path(__file__).parents[2] / "docs" / "examples" / "own_object.toml"
 

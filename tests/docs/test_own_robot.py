@@ -18,7 +18,8 @@ from executive.config import load_settings
 from executive.events import DeadlinePassed, Inbox
 from executive.replay import replay
 from executive.testing.contracts.robot import Bench, RobotContract
-from executive.types import Goal, Halt, MissionStatus, Outcome
+from executive.types.goals import Goal, Halt
+from executive.types.outcome import MissionStatus, Outcome
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE, FILE = DOCS / "own-robot.md", DOCS / "examples" / "own_robot.py"

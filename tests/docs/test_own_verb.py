@@ -7,7 +7,8 @@ import pytest
 
 import trees.act
 from executive.testing.bench import run_mission
-from executive.types import CommandKind, MissionStatus
+from executive.types.commands import CommandKind
+from executive.types.outcome import MissionStatus
 from trees.deeds import DEEDS
 
 PAGE = Path(__file__).parents[2] / "docs" / "examples" / "own_verb.md"

@@ -11,7 +11,8 @@ from executive.language.grammar import EnglishInterpreter
 from executive.language.spoken import NOTHING, after
 from executive.records import Utterance
 from executive.testing.bench import run_mission
-from executive.types import ALL, Command, Goal
+from executive.types.commands import ALL, Command
+from executive.types.goals import Goal
 from kb.facts import FactStore
 
 PAGE = Path(__file__).parents[2] / "docs" / "what-you-can-say.md"

@@ -12,17 +12,9 @@ from houses import House
 from executive.__main__ import converse
 from executive.events import THE_PERSON, StopRequested
 from executive.language.control import Control, control
-from executive.types import (
-    DriveTo,
-    Failed,
-    Goal,
-    Halt,
-    MissionStatus,
-    Outcome,
-    Pick,
-    PutDown,
-    Succeeded,
-)
+from executive.types.goals import DriveTo, Goal, Halt, Pick, PutDown
+from executive.types.outcome import MissionStatus, Outcome
+from executive.types.results import Failed, Succeeded
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import pytest
 from executive.clock import SimulatedClock
 from executive.errors import ExecutiveError
 from executive.events import Inbox, StopRequested
-from executive.types import Answered, Succeeded
+from executive.types.results import Answered, Succeeded
 
 
 class Hourglass:

@@ -13,7 +13,9 @@ from patience import PATIENCE_S
 from executive.config import Settings
 from executive.events import THE_PERSON, Ended, Event, Heard, Inbox, StopRequested
 from executive.text import LONGEST
-from executive.types import Answered, Failed, MissionStatus, Outcome, Question, QuestionKind
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.outcome import MissionStatus, Outcome
+from executive.types.results import Answered, Failed
 from executive.user import FORGOTTEN, MOST_LINES, NOTHING_TO_STOP, STOPPING, Console
 
 WHERE = Question(QuestionKind.WHERE_IS, "mug", "Where is the mug?")

@@ -11,7 +11,7 @@ from executive.events import THE_PERSON, Ended, Inbox, StopRequested
 from executive.language.control import Control, control
 from executive.language.grammar import EnglishInterpreter
 from executive.text import LONGEST, one_line, printable, too_long
-from executive.types import Answered
+from executive.types.results import Answered
 
 PLAIN = ("stop", "halt", "cancel", "abort", "freeze", "wait", "pause", "don't move", "hold it")
 MORE = (

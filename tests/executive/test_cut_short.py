@@ -15,7 +15,9 @@ from executive.app.session import Session
 from executive.config import Settings
 from executive.events import Broke, StopRequested
 from executive.replay.replaying import replay
-from executive.types import DriveTo, Failed, Goal, Halt, MissionStatus
+from executive.types.goals import DriveTo, Goal, Halt
+from executive.types.outcome import MissionStatus
+from executive.types.results import Failed
 from logs.recording.reader import Run
 from trees.looking import SeeTarget
 

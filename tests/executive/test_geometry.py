@@ -11,7 +11,7 @@ from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
 from executive.geometry import matrix_of, orientation_of, transform, turned
-from executive.types import Pose
+from executive.types.geometry import Pose
 
 numbers = st.floats(-10, 10)
 four = st.tuples(numbers, numbers, numbers, numbers)

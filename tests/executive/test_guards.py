@@ -18,20 +18,10 @@ from executive.guards import (
 )
 from executive.records import Note
 from executive.testing.bench import Notebook
-from executive.types import (
-    Answered,
-    ChatRequest,
-    DriveTo,
-    Failed,
-    Halt,
-    LookAt,
-    PutDown,
-    Question,
-    QuestionKind,
-    RankRequest,
-    Replied,
-    Usage,
-)
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.goals import DriveTo, Halt, LookAt, PutDown
+from executive.types.llm import ChatRequest, RankRequest, Usage
+from executive.types.results import Answered, Failed, Replied
 
 ASKED = Question(QuestionKind.WHERE_IS, "mug", "Where is the mug?")
 CHAT = ChatRequest("general_pos", ())

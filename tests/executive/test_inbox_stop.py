@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from executive.events import DeadlinePassed, Inbox, StopRequested
-from executive.types import Answered
+from executive.types.results import Answered
 from kb.llm import llama
 
 

@@ -15,21 +15,12 @@ from executive.pending import Pending
 from executive.records import EventTaken, Note, Tick, TreeShape
 from executive.situation import Situation
 from executive.testing.bench import Notebook, run_mission
-from executive.types import (
-    Answered,
-    DriveTo,
-    Goal,
-    Halt,
-    LookAt,
-    MissionStatus,
-    Pick,
-    PutDown,
-    Question,
-    RankRequest,
-    Scored,
-    Source,
-    Usage,
-)
+from executive.types.dialogue import Question
+from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
+from executive.types.knowledge import Source
+from executive.types.llm import RankRequest, Usage
+from executive.types.outcome import MissionStatus
+from executive.types.results import Answered, Scored
 from kb.llm.scripted import Scripted as ScriptedModel
 from sim.fake import FakeRobot, FakeWorld
 from trees.nodes import Step

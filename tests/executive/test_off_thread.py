@@ -16,7 +16,10 @@ from executive.computing import Computation, GivenUpError, Worker, afterwards, s
 from executive.events import BodyTold, Inbox, StopRequested
 from executive.records import Mishap, Record, Seen
 from executive.testing.bench import Notebook, Run, run_mission
-from executive.types import Detection, Failed, Frame, Goal, LookAt, MissionStatus, Succeeded
+from executive.types.goals import Goal, LookAt
+from executive.types.outcome import MissionStatus
+from executive.types.perception import Detection, Frame
+from executive.types.results import Failed, Succeeded
 from sim.fake import FakeDetector, FakeWorld
 
 

@@ -1,5 +1,5 @@
 from executive.pending import Pending
-from executive.types import Failed, Succeeded
+from executive.types.results import Failed, Succeeded
 
 
 def test_two_behaviours_of_one_name_wait_each_for_its_own() -> None:

@@ -7,7 +7,8 @@ import pytest
 from patience import PATIENCE_S
 
 from executive.events import Ended, Event, Inbox, StopRequested
-from executive.types import Answered, Failed, Question, QuestionKind
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.results import Answered, Failed
 from executive.user import Console, Nobody, Oracle
 
 WHERE = Question(QuestionKind.WHERE_IS, "mug", "Where is the mug?")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from executive.events import Heard, Inbox, StopRequested
-from executive.interfaces import Interpreter
+from executive.interfaces.dialogue import Interpreter
 from executive.speech.doubt import Doubt
 from executive.speech.interfaces import Ears
 from executive.speech.microphone import from_files

@@ -20,7 +20,9 @@ from executive.events import Inbox, StopRequested
 from executive.language.wording import Wording
 from executive.ros.profile import profile_text
 from executive.testing.bench import four_rooms
-from executive.types import HAND, CommandKind, MissionStatus, Outcome
+from executive.types.commands import CommandKind
+from executive.types.home import HAND
+from executive.types.outcome import MissionStatus, Outcome
 from executive.user import Nobody
 from sim.served.simulation import Simulation
 

@@ -7,7 +7,8 @@ from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Event, Inbox, StopRequested
 from executive.replay.replaying import replay
-from executive.types import Goal, Outcome
+from executive.types.goals import Goal
+from executive.types.outcome import Outcome
 from logs.recording.reader import Run
 from sim.fake import FakeWorld
 

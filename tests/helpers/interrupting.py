@@ -1,7 +1,7 @@
 """Something happens at a certain moment of a mission."""
 
 from executive.events import Event, Inbox
-from executive.interfaces import Clock
+from executive.interfaces.runtime import Clock
 
 
 class Interrupting:

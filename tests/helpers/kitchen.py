@@ -2,7 +2,9 @@ from executive.events import Inbox
 from executive.perception.pipeline import locate as locate_pixels
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
-from executive.types import Detection, LookAt, Succeeded
+from executive.types.goals import LookAt
+from executive.types.perception import Detection
+from executive.types.results import Succeeded
 from sim.home.home import Home
 from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld

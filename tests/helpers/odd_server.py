@@ -11,7 +11,8 @@ from typing import Any
 from patience import PATIENCE_S
 
 from executive.events import Ended, Inbox
-from executive.types import ChatRequest, Failed, Message, Replied, Result
+from executive.types.llm import ChatRequest, Message
+from executive.types.results import Failed, Replied, Result
 from kb.advice.verification import Reply
 from kb.llm.server.server import Server
 

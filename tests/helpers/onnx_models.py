@@ -5,7 +5,8 @@ import numpy as np
 import onnx
 from onnx import TensorProto, helper, numpy_helper
 
-from executive.types import Frame, Intrinsics, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Frame, Intrinsics
 
 NAMES = ("apple", "mug")
 

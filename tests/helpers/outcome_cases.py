@@ -2,7 +2,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from executive.testing.bench import four_rooms
-from executive.types import SEARCHING, CommandKind, MissionStatus, Source
+from executive.types.commands import SEARCHING, CommandKind
+from executive.types.knowledge import Source
+from executive.types.outcome import MissionStatus
 
 ALL = tuple(place.name for place in four_rooms().places())
 

@@ -20,7 +20,7 @@ from executive.app.simulation import fake
 from executive.events import Inbox
 from executive.page.address import Address
 from executive.page.page import Page
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 
 TOKEN = "the-token"
 

@@ -7,7 +7,7 @@ from executive.app.parts import Change, as_they_are
 from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
-from executive.types import Goal
+from executive.types.goals import Goal
 from executive.user import Scripted
 from kb.llm.scripted import Scripted as ScriptedModel
 from sim.fake import FakeWorld

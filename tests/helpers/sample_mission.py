@@ -33,26 +33,13 @@ from executive.records import (
     Verified,
     WaysTold,
 )
-from executive.types import (
-    Box,
-    Candidate,
-    ChatRequest,
-    CommandKind,
-    Detection,
-    Frame,
-    Intrinsics,
-    Message,
-    MissionStatus,
-    Outcome,
-    Pose,
-    Precedent,
-    RankRequest,
-    Replied,
-    Scored,
-    Source,
-    Succeeded,
-    Usage,
-)
+from executive.types.commands import CommandKind
+from executive.types.geometry import Pose
+from executive.types.knowledge import Candidate, Source
+from executive.types.llm import ChatRequest, Message, Precedent, RankRequest, Usage
+from executive.types.outcome import MissionStatus, Outcome
+from executive.types.perception import Box, Detection, Frame, Intrinsics
+from executive.types.results import Replied, Scored, Succeeded
 
 STARTED = datetime(2024, 5, 13, 9, 30, tzinfo=UTC)
 WORDS = "Bring a sugar_box"

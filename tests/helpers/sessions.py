@@ -12,7 +12,7 @@ from executive.records import (
     TreeShape,
     Utterance,
 )
-from executive.types import Succeeded
+from executive.types.results import Succeeded
 
 BRANCHES, LEAVES = 25, 7
 

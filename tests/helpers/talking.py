@@ -8,7 +8,7 @@ from typing import Any
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Inbox
-from executive.types import Goal, PutDown
+from executive.types.goals import Goal, PutDown
 from executive.user import Scripted
 from sim.fake import FakeWorld
 

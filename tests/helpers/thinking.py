@@ -5,7 +5,8 @@ from dataclasses import replace
 from typing import Any
 
 from executive.app.parts import Parts
-from executive.types import ChatRequest, Failed, RankRequest
+from executive.types.llm import ChatRequest, RankRequest
+from executive.types.results import Failed
 from kb.llm.scripted import Scripted
 from sim.fake import FakeRobot, FakeWorld
 

@@ -13,7 +13,8 @@ import pytest
 import kb.benchmark.__main__ as benchmark
 from executive.errors import InputError
 from executive.events import Inbox
-from executive.types import Place, RankRequest
+from executive.types.home import Place
+from executive.types.llm import RankRequest
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import Known
 from kb.benchmark.calibration import calibration

@@ -17,7 +17,9 @@ from hypothesis import strategies as st
 from executive.app.parts import furniture_at
 from executive.errors import InputError
 from executive.testing.bench import Run, four_rooms, run_mission
-from executive.types import DriveTo, LookAt, MissionStatus, Pick, PutDown, Source
+from executive.types.goals import DriveTo, LookAt, Pick, PutDown
+from executive.types.knowledge import Source
+from executive.types.outcome import MissionStatus
 from kb.__main__ import age, main
 from kb.facts import Fact, FactKind, FactStore
 

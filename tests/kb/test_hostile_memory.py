@@ -13,7 +13,7 @@ import pytest
 
 from executive.errors import InputError
 from executive.testing.bench import run_mission
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 from kb.__main__ import main
 from kb.facts import FactStore
 from kb.facts_file import APPLICATION_ID

@@ -15,7 +15,7 @@ from patience import PATIENCE_S
 
 from executive.events import Ended, Inbox
 from executive.testing.bench import ontology
-from executive.types import Replied, Scored
+from executive.types.results import Replied, Scored
 from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker
 from kb.llm.kept import Kept

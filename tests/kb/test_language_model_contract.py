@@ -8,7 +8,7 @@ from odd_server import says, serving
 
 from executive.events import Inbox
 from executive.testing.contracts.language_model import LanguageModelContract, ModelBench
-from executive.types import ChatRequest, RankRequest
+from executive.types.llm import ChatRequest, RankRequest
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.options import ModelOptions
 from kb.llm.scripted import Scripted

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from ontologies import OWL
 
 from executive.testing.bench import ontology
-from executive.types import Place
+from executive.types.home import Place
 from kb.ontology.ontology import Ontology
 from kb.ontology.usual import standing_for
 

@@ -10,15 +10,8 @@ from patience import PATIENCE_S, until
 from executive.errors import ModelError
 from executive.events import Ended, Inbox
 from executive.testing.bench import ontology
-from executive.types import (
-    ChatRequest,
-    Failed,
-    Message,
-    Precedent,
-    RankRequest,
-    Replied,
-    Scored,
-)
+from executive.types.llm import ChatRequest, Message, Precedent, RankRequest
+from executive.types.results import Failed, Replied, Scored
 from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker
 from kb.advice.verification import Reply

@@ -9,7 +9,7 @@ from PIL import Image
 
 from executive.colors import color_name
 from executive.testing.bench import four_rooms, ontology
-from executive.types import OtherColor, Thing
+from executive.types.home import OtherColor, Thing
 from kb.__main__ import main
 from kb.ontology.ontology import HOUSEHOLD, Ontology
 from kb.ontology.uses import purpose_of

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from executive.events import Inbox
 from executive.testing.bench import ontology
-from executive.types import Message
+from executive.types.llm import Message
 from kb.advice.history import DialogueHistory, history_budget
 from kb.advice.lister import Lister
 from kb.llm.scripted import Scripted

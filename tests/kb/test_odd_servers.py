@@ -36,7 +36,8 @@ from executive.events import Inbox
 from executive.servers.address import bases_of
 from executive.servers.key import Key
 from executive.servers.refusal import Refused, refusal
-from executive.types import ChatRequest, Failed, Message, RankRequest
+from executive.types.llm import ChatRequest, Message, RankRequest
+from executive.types.results import Failed
 from kb.llm.options import ModelOptions
 from kb.llm.server import asking, lines, wire
 from kb.llm.server.dialect import Dialect

@@ -15,7 +15,7 @@ from rdflib import RDF, RDFS
 from executive.errors import InputError
 from executive.language.phrases import stem, words_of
 from executive.testing.bench import four_rooms, ontology
-from executive.types import Place
+from executive.types.home import Place
 from kb.__main__ import main
 from kb.ontology.names import PlaceNames
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology

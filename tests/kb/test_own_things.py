@@ -7,7 +7,7 @@ from ontologies import OWL
 
 from executive.errors import InputError
 from executive.testing.bench import four_rooms
-from executive.types import Thing
+from executive.types.home import Thing
 from kb.__main__ import main
 from kb.ontology.ontology import Ontology
 

@@ -8,7 +8,7 @@ import pytest
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.testing.bench import four_rooms, ontology
-from executive.types import ChatRequest, Message
+from executive.types.llm import ChatRequest, Message
 from kb.advice.lister import Lister
 from kb.advice.prompts import TEXTS, Prompts
 from kb.advice.ranker import Ranker

@@ -8,7 +8,10 @@ from hypothesis import strategies as st
 
 from executive.language.phrases import spoken
 from executive.testing.bench import four_rooms, ontology
-from executive.types import Place, RankRequest, Scored, Source, Usage
+from executive.types.home import Place
+from executive.types.knowledge import Source
+from executive.types.llm import RankRequest, Usage
+from executive.types.results import Scored
 from kb.advice.prompts import Prompts
 from kb.advice.ranker import Ranker
 from kb.advice.ranking import MOST_PRECEDENTS, Known, answer, rank_request, ranked

@@ -14,7 +14,9 @@ from patience import PATIENCE_S
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
-from executive.types import ChatRequest, Failed, Message, MissionStatus, Replied, Result
+from executive.types.llm import ChatRequest, Message
+from executive.types.outcome import MissionStatus
+from executive.types.results import Failed, Replied, Result
 from kb.advice.lister import Lister
 from kb.llm.options import ModelOptions
 from kb.llm.server import asking

@@ -16,7 +16,7 @@ from patience import PATIENCE_S
 from executive.__main__ import main
 from executive.errors import ModelError
 from executive.events import Inbox, StopRequested
-from executive.types import Message
+from executive.types.llm import Message
 from kb.llm import first_load
 from kb.llm.first_load import tried
 from kb.llm.gguf_header import read_header, refuse_what_does_not_chat

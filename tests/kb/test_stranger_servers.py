@@ -21,7 +21,7 @@ from odd_server import (
 )
 
 from executive.servers.key import Key
-from executive.types import ChatRequest
+from executive.types.llm import ChatRequest
 from kb.llm.server import asking
 from kb.llm.thinking import answer_of
 

@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 
 from executive.language.grammar import EnglishInterpreter
 from executive.testing.bench import ontology
-from executive.types import SEARCHING, CommandKind, Scored, Usage
+from executive.types.commands import SEARCHING, CommandKind
+from executive.types.llm import Usage
+from executive.types.results import Scored
 from kb.advice.commands import DEEDS
 from kb.advice.reader import Reader
 

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from executive.testing.bench import ontology, run_mission
-from executive.types import DriveTo, Verdict
+from executive.types.goals import DriveTo
+from executive.types.knowledge import Verdict
 from kb.advice.verification import read, verify
 
 KNOWN = ontology(True).place_names

@@ -30,7 +30,8 @@ from executive.records import (
     Record,
     TreeShape,
 )
-from executive.types import Outcome, Saw
+from executive.types.outcome import Outcome
+from executive.types.results import Saw
 from logs.__main__ import main
 from logs.questions import export
 from logs.recording import mcap_file, parsing

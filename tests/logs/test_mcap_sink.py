@@ -22,7 +22,7 @@ from executive.records import (
     Transform,
     Transforms,
 )
-from executive.types import Pose
+from executive.types.geometry import Pose
 from logs.recorder import Stamp
 from logs.recording.channels import TOPICS
 from logs.recording.sink import McapSink

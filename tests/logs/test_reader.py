@@ -24,7 +24,7 @@ from sample_mission import (
 from executive.errors import InputError
 from executive.events import Ended, Started
 from executive.records import Tick, Utterance
-from executive.types import Succeeded
+from executive.types.results import Succeeded
 from logs.__main__ import main
 from logs.questions import report
 from logs.recorder import Stamp

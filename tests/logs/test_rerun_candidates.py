@@ -10,7 +10,7 @@ from rerun.chunk import RrdReader
 from sample_mission import mission
 
 from executive.records import Entity, Planned, Shape
-from executive.types import Pose
+from executive.types.geometry import Pose
 from logs.viewer.candidates import COLORS, CandidatesView
 from logs.viewer.states import State, states
 

@@ -15,7 +15,7 @@ from sample_mission import detection, frame, mission, robot_at, scene, tick
 
 from executive.errors import ExecutiveError
 from executive.records import Picture, Record, Scene, Seen, Shape
-from executive.types import Box
+from executive.types.perception import Box
 from logs.recorder import Stamp
 from logs.viewer import program
 from logs.viewer.sink import RerunSink

@@ -29,7 +29,8 @@ from executive.records import (
     Transforms,
     Utterance,
 )
-from executive.types import Answered, Pose
+from executive.types.geometry import Pose
+from executive.types.results import Answered
 from logs.recorder import FanOut
 from logs.recording.channels import MOST_IN_A_MESSAGE
 from logs.recording.reader import Run

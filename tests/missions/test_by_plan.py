@@ -9,7 +9,9 @@ from executive.belief import ELSEWHERE
 from executive.records import Planned, Utterance, WaysTold
 from executive.testing import bench
 from executive.testing.bench import Run, four_rooms
-from executive.types import Detection, DriveTo, Frame, Goal, MissionStatus
+from executive.types.goals import DriveTo, Goal
+from executive.types.outcome import MissionStatus
+from executive.types.perception import Detection, Frame
 from kb.facts import FactStore
 from kb.ontology.ontology import Ontology
 from sim.fake import FakeDetector

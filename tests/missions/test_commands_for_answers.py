@@ -4,7 +4,7 @@ import pytest
 
 from executive.records import Utterance
 from executive.testing.bench import Run, run_mission
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 from executive.user import Scripted
 
 

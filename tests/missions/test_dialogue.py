@@ -9,7 +9,8 @@ from talking import session_in, told
 
 from executive.app.session import Session
 from executive.replay.replaying import replay
-from executive.types import DELIVERY, MissionStatus, Outcome
+from executive.types.home import DELIVERY
+from executive.types.outcome import MissionStatus, Outcome
 
 Talk = Callable[..., Session]
 

@@ -4,7 +4,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from executive.testing.bench import Run, run_mission
-from executive.types import Box, CommandKind, Detection, Frame, LookAt, MissionStatus
+from executive.types.commands import CommandKind
+from executive.types.goals import LookAt
+from executive.types.outcome import MissionStatus
+from executive.types.perception import Box, Detection, Frame
 from kb.facts import FactStore
 from sim.fake import FakeDetector, FakeWorld
 

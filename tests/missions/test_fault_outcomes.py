@@ -7,7 +7,9 @@ import pytest
 
 from executive.records import Mishap
 from executive.testing.bench import Run, run_mission
-from executive.types import DriveTo, LookAt, MissionStatus, Pick, Source
+from executive.types.goals import DriveTo, LookAt, Pick
+from executive.types.knowledge import Source
+from executive.types.outcome import MissionStatus
 
 HAMMER_AT = "shelf_lobby"
 

@@ -10,7 +10,7 @@ from served import served
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Inbox
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 from executive.user import Scripted
 from logs.questions.comparison import compare
 from logs.recording.reader import Run

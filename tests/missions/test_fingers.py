@@ -14,7 +14,10 @@ from executive.config import KnowledgeSystem, Settings
 from executive.events import HandFelt, Inbox, StopRequested
 from executive.replay.replaying import replay
 from executive.situation import Hand
-from executive.types import SOMETHING, Failed, Goal, MissionStatus, Outcome, Pick, PutDown, Result
+from executive.types.goals import Goal, Pick, PutDown
+from executive.types.home import SOMETHING
+from executive.types.outcome import MissionStatus, Outcome
+from executive.types.results import Failed, Result
 from logs.recording.reader import Run
 from sim.fake import FakeWorld
 

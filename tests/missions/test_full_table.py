@@ -8,7 +8,9 @@ from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.testing.bench import Notebook, four_rooms
-from executive.types import DriveTo, Failed, Goal, MissionStatus, PutDown, Result, Succeeded
+from executive.types.goals import DriveTo, Goal, PutDown
+from executive.types.outcome import MissionStatus
+from executive.types.results import Failed, Result, Succeeded
 from sim.fake import FakeRobot, FakeWorld
 
 

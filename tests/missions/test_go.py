@@ -7,7 +7,8 @@ from talking import session_in, session_of, told
 
 from executive.replay.replaying import replay
 from executive.testing.bench import run_mission
-from executive.types import DriveTo, MissionStatus
+from executive.types.goals import DriveTo
+from executive.types.outcome import MissionStatus
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,8 @@ import pytest
 from executive.events import Inbox
 from executive.records import Utterance
 from executive.testing.bench import run_mission
-from executive.types import Goal, MissionStatus
+from executive.types.goals import Goal
+from executive.types.outcome import MissionStatus
 from kb.facts import FactStore
 
 

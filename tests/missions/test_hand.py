@@ -10,7 +10,7 @@ import pytest
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.replay.replaying import replay
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 
 
 @contextmanager

@@ -15,7 +15,9 @@ from executive.events import OFF, ON, Deed, Event, Heard, Inbox, Intervened, Sto
 from executive.records import Record, Tick
 from executive.replay import replay
 from executive.testing.bench import run_mission
-from executive.types import DELIVERY, DriveTo, MissionStatus, Outcome
+from executive.types.goals import DriveTo
+from executive.types.home import DELIVERY
+from executive.types.outcome import MissionStatus, Outcome
 from executive.user import Scripted
 from kb.facts import FactStore
 from logs.recorder import Stamp

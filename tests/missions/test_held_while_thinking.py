@@ -15,7 +15,9 @@ from executive.records import Utterance
 from executive.replay import replay
 from executive.testing import bench
 from executive.testing.bench import Run
-from executive.types import DriveTo, Failed, MissionStatus, Result
+from executive.types.goals import DriveTo
+from executive.types.outcome import MissionStatus
+from executive.types.results import Failed, Result
 from sim.fake import FakeRobot
 
 LIST = '{"places": ["bookshelf_bedroom"]}'

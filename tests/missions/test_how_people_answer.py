@@ -3,7 +3,7 @@
 import pytest
 
 from executive.testing.bench import run_mission
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 
 
 def moved(run) -> set[str]:

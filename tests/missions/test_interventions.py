@@ -7,7 +7,8 @@ import pytest
 from executive.events import Deed, Inbox, Intervened
 from executive.records import Intervention
 from executive.testing.bench import Run, run_mission
-from executive.types import Goal, MissionStatus
+from executive.types.goals import Goal
+from executive.types.outcome import MissionStatus
 from kb.facts import FactStore
 
 DONE, NOT_DONE = MissionStatus.DONE, MissionStatus.NOT_DONE

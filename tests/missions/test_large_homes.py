@@ -5,7 +5,9 @@ import json
 import pytest
 
 from executive.events import Inbox
-from executive.types import Place, Scored, Usage
+from executive.types.home import Place
+from executive.types.llm import Usage
+from executive.types.results import Scored
 from kb.advice.large_homes import BYTES_PER_TOKEN, MOST_OPTIONS, Alike
 from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker

@@ -9,7 +9,9 @@ from executive.events import Inbox
 from executive.perception.detector import LEARNED, OnnxDetector
 from executive.perception.pipeline import locate
 from executive.testing.bench import Notebook
-from executive.types import Detection, DriveTo, Frame, Goal, LookAt, Succeeded
+from executive.types.goals import DriveTo, Goal, LookAt
+from executive.types.perception import Detection, Frame
+from executive.types.results import Succeeded
 from sim.home.home import load_home
 from sim.learning.frames import class_names
 from sim.manipulation.registration import fit_pose

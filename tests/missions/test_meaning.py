@@ -12,7 +12,7 @@ from sample_mission import STARTED
 from executive.campaign.observer import Observed
 from executive.records import LlmCall, Record, Tick, TreeShape, Verified
 from executive.testing.bench import run_mission
-from executive.types import Goal, Pick
+from executive.types.goals import Goal, Pick
 from logs.questions.why import why, why_text
 from logs.recorder import Stamp
 from logs.recording.reader import Run

@@ -15,7 +15,8 @@ from executive.config import KnowledgeSystem, load_settings
 from executive.events import StopRequested
 from executive.records import Tick, Transforms
 from executive.testing.bench import Notebook
-from executive.types import CommandKind, MissionStatus, Outcome
+from executive.types.commands import CommandKind
+from executive.types.outcome import MissionStatus, Outcome
 
 pytestmark = [pytest.mark.physics, pytest.mark.llm]
 

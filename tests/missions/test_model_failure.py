@@ -4,7 +4,8 @@ import pytest
 
 from executive.records import EventTaken, Utterance
 from executive.testing.bench import Run, run_mission
-from executive.types import MissionStatus, Source
+from executive.types.knowledge import Source
+from executive.types.outcome import MissionStatus
 
 WARNING = "My language model does not answer: "
 

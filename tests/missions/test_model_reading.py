@@ -6,7 +6,8 @@ import pytest
 
 from executive.records import Utterance
 from executive.testing.bench import Run, run_mission
-from executive.types import CommandKind, MissionStatus
+from executive.types.commands import CommandKind
+from executive.types.outcome import MissionStatus
 
 
 def reply(kind: str, thing: str = "", source: str = "", goal: str = "") -> str:

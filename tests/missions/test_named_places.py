@@ -7,7 +7,9 @@ from talking import session_in, told
 
 from executive.replay.replaying import replay
 from executive.testing.bench import run_mission
-from executive.types import DriveTo, MissionStatus, Source
+from executive.types.goals import DriveTo
+from executive.types.knowledge import Source
+from executive.types.outcome import MissionStatus
 from kb.facts import FactStore
 
 

@@ -14,7 +14,7 @@ from executive.__main__ import main, parser
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.errors import InputError
-from executive.types import MissionStatus, Outcome
+from executive.types.outcome import MissionStatus, Outcome
 
 ANSWER = '{"places": ["counter\\_wagon", "desk",]}'
 SECRET = "sk-4f5e6d7c"

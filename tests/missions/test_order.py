@@ -2,7 +2,9 @@
 
 from executive.app.parts import Parts
 from executive.testing.bench import Run, run_mission
-from executive.types import PERSON, DriveTo, MissionStatus
+from executive.types.goals import DriveTo
+from executive.types.home import PERSON
+from executive.types.outcome import MissionStatus
 from kb.facts import FactStore
 
 

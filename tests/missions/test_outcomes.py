@@ -6,7 +6,9 @@ from hypothesis import strategies as st
 from outcome_cases import ALL, CASES, GENERATE, OKB, Case, favouring, listing
 
 from executive.testing.bench import run_mission
-from executive.types import SEARCHING, DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
+from executive.types.commands import SEARCHING
+from executive.types.goals import DriveTo, Goal, LookAt, Pick, PutDown
+from executive.types.outcome import MissionStatus
 
 FAILURES = [
     Case("empty words", "", status=MissionStatus.NOT_UNDERSTOOD, reason="I do not understand"),

@@ -13,7 +13,9 @@ from executive.perception.pipeline import locate
 from executive.records import Mishap, PlannedPath, Scene, Transforms
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
-from executive.types import Detection, DriveTo, Failed, LookAt, Pick, PutDown, Succeeded
+from executive.types.goals import DriveTo, LookAt, Pick, PutDown
+from executive.types.perception import Detection
+from executive.types.results import Failed, Succeeded
 from sim.engine import pybullet
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_faults

@@ -12,7 +12,8 @@ from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import Ended, Inbox
 from executive.testing.bench import ontology
-from executive.types import ChatRequest, Message, RankRequest, Replied, Scored, Usage
+from executive.types.llm import ChatRequest, Message, RankRequest, Usage
+from executive.types.results import Replied, Scored
 from kb.advice.lister import Lister
 from kb.advice.ranker import Ranker
 from kb.llm.context import Context

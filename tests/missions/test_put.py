@@ -10,7 +10,10 @@ from executive.app.session import Session
 from executive.campaign.truth import completed, whereabouts
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
-from executive.types import DELIVERY, HAND, CommandKind, DriveTo, MissionStatus, Pick
+from executive.types.commands import CommandKind
+from executive.types.goals import DriveTo, Pick
+from executive.types.home import DELIVERY, HAND
+from executive.types.outcome import MissionStatus
 from logs.questions.why import why, why_text
 from logs.recording.reader import Run as Recorded
 from sim.fake import FakeWorld

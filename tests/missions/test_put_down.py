@@ -15,16 +15,10 @@ from executive.events import Inbox
 from executive.language.grammar import EnglishInterpreter
 from executive.replay.replaying import replay
 from executive.testing.bench import four_rooms
-from executive.types import (
-    DELIVERY,
-    HELD,
-    SOMETHING,
-    CommandKind,
-    DriveTo,
-    Goal,
-    MissionStatus,
-    PutDown,
-)
+from executive.types.commands import HELD, CommandKind
+from executive.types.goals import DriveTo, Goal, PutDown
+from executive.types.home import DELIVERY, SOMETHING
+from executive.types.outcome import MissionStatus
 from executive.user import Scripted
 from sim.fake import FakeWorld
 

@@ -4,7 +4,8 @@ import pytest
 
 from executive.campaign.truth import completed
 from executive.testing.bench import Run, run_mission
-from executive.types import DriveTo, Goal, LookAt, MissionStatus, Pick
+from executive.types.goals import DriveTo, Goal, LookAt, Pick
+from executive.types.outcome import MissionStatus
 from kb.facts import FactStore
 
 DONE, NOT_DONE = MissionStatus.DONE, MissionStatus.NOT_DONE

@@ -12,7 +12,7 @@ from rerun.chunk import RrdReader
 
 from executive.app.session import Session
 from executive.config import load_settings
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 
 pytestmark = [pytest.mark.physics, pytest.mark.llm]
 

@@ -10,7 +10,8 @@ from patience import PATIENCE_S
 
 from executive.clock import SimulatedClock
 from executive.events import Ended, StopRequested
-from executive.types import DriveTo, Failed, Halt, Pick, PutDown, Result, Succeeded
+from executive.types.goals import DriveTo, Halt, Pick, PutDown
+from executive.types.results import Failed, Result, Succeeded
 from sim.body.hardware import FINGER_TRAVEL
 from sim.manipulation import manipulator
 

@@ -9,7 +9,8 @@ from executive.campaign.truth import completed
 from executive.events import Inbox, StopRequested
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
-from executive.types import DriveTo, Goal, MissionStatus, Pick, PutDown
+from executive.types.goals import DriveTo, Goal, Pick, PutDown
+from executive.types.outcome import MissionStatus
 from executive.user import Oracle
 from kb.facts import FactStore
 from logs.recording.reader import Run as Recorded

@@ -18,7 +18,8 @@ from executive.guards import GuardedSource
 from executive.records import SourceAnswer, Utterance
 from executive.replay.replaying import replay
 from executive.testing.bench import Notebook, run_mission
-from executive.types import DriveTo, MissionStatus
+from executive.types.goals import DriveTo
+from executive.types.outcome import MissionStatus
 from logs.recording.reader import Run
 
 NOWHERE: tuple[str, ...] = ()

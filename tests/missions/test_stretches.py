@@ -11,7 +11,7 @@ import pytest
 from stretches import OPENING, PICTURES, Stretches
 
 from executive import Session, load_settings
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 
 LONGEST_S = 0.25
 

@@ -8,12 +8,14 @@ from replays import recorded
 
 from executive.app.parts import mission_tree
 from executive.events import Inbox, StopRequested
-from executive.interfaces import Tree
+from executive.interfaces.runtime import Tree
 from executive.language.grammar import EnglishInterpreter
 from executive.replay.replaying import replay
 from executive.situation import Agenda, Situation
 from executive.testing.bench import Run, run_mission
-from executive.types import Command, CommandKind, DriveTo, Goal, LookAt, MissionStatus, Pick
+from executive.types.commands import Command, CommandKind
+from executive.types.goals import DriveTo, Goal, LookAt, Pick
+from executive.types.outcome import MissionStatus
 from kb.facts import FactStore
 from logs.questions.why import why
 from logs.recording.reader import Run as Recorded

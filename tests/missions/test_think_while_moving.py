@@ -16,7 +16,9 @@ from executive.records import Tick, Utterance
 from executive.replay import replay
 from executive.testing import bench
 from executive.testing.bench import Run, four_rooms
-from executive.types import DriveTo, Goal, MissionStatus, Source
+from executive.types.goals import DriveTo, Goal
+from executive.types.knowledge import Source
+from executive.types.outcome import MissionStatus
 from logs.questions.why import why, why_text
 from logs.recording.reader import Run as Recorded
 

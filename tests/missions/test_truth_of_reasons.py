@@ -16,7 +16,9 @@ from executive.situation import Situation
 from executive.situation.looks import Looks
 from executive.testing.bench import Run, run_mission
 from executive.text import printable
-from executive.types import CommandKind, DriveTo, Goal, Halt, LookAt, MissionStatus, Pick, PutDown
+from executive.types.commands import CommandKind
+from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
+from executive.types.outcome import MissionStatus
 from kb.facts import FactStore
 from logs.questions.why import why
 from logs.recording.reader import Run as RecordedRun

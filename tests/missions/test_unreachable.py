@@ -13,10 +13,12 @@ from executive.app.parts import Parts
 from executive.app.session import Session
 from executive.config import load_settings
 from executive.events import BodyTold, Inbox
-from executive.interfaces import Robot
+from executive.interfaces.robot import Robot
 from executive.replay import replay
 from executive.ros.profile import profile_text
-from executive.types import DriveTo, Failed, Goal, LookAt, MissionStatus, Pick
+from executive.types.goals import DriveTo, Goal, LookAt, Pick
+from executive.types.outcome import MissionStatus
+from executive.types.results import Failed
 from executive.user import Nobody
 from logs.questions.why import why
 from logs.recording.reader import Run
@@ -58,6 +60,14 @@ class CutOff:
         return request
 
 
+def profile_that_waits(seconds: float, folder: Path) -> str:
+    """Where the served robot's profile is, with so long to wait for a link that is lost."""
+    text, _ = profile_text("served_instant")
+    file = folder / "waits.toml"
+    file.write_text(f"link_wait_s = {seconds}\n{text.decode()}")
+    return str(file)
+
+
 @pytest.mark.parametrize("kind", [DriveTo, LookAt, Pick])
 @pytest.mark.parametrize("words", ["Bring a mug and find an apple", "Bring all fruit"])
 def test_nothing_is_tried_without_a_robot(tmp_path: Path, words: str, kind: type) -> None:
@@ -87,13 +97,12 @@ def test_the_next_mission_has_a_robot_that_came_back(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("executive.ros.actions.LINK_S", 0.1)
-    inbox, profile = Inbox(), tmp_path / "impatient.toml"
+    inbox, profile = Inbox(), profile_that_waits(0.3, tmp_path)
     listener = Listener(inbox)
-    profile.write_text("link_wait_s = 0.3\n" + profile_text("served_instant")[0].decode())
     with ExitStack() as gone, ExitStack() as anew:
         there = gone.enter_context(served(speed=1.0))
         url = there.server.address
-        settings = load_settings(robot=url, profile=str(profile), llm="none", runs=tmp_path)
+        settings = load_settings(robot=url, profile=profile, llm="none", runs=tmp_path)
         with Session(settings, inbox=inbox, user=listener, recorded=False) as session:
             listener.when_it_is_said = lambda text: gone.close()
             outcome = session.run("Find a mug")
@@ -108,9 +117,8 @@ def test_that_the_link_is_lost_and_back_is_told_and_replays(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("executive.ros.actions.LINK_S", 0.1)
-    inbox, profile = Inbox(), tmp_path / "patient.toml"
+    inbox, profile = Inbox(), profile_that_waits(300, tmp_path)
     listener = Listener(inbox)
-    profile.write_text("link_wait_s = 300\n" + profile_text("served_instant")[0].decode())
     with ExitStack() as gone, ExitStack() as anew:
         url = gone.enter_context(served(speed=1.0)).server.address
         port = int(url.rpartition(":")[2])
@@ -121,7 +129,7 @@ def test_that_the_link_is_lost_and_back_is_told_and_replays(
             gone.close()  # as soon as it has said where it looks
 
         listener.when_it_is_said = hear
-        settings = load_settings(robot=url, profile=str(profile), llm="none", runs=tmp_path)
+        settings = load_settings(robot=url, profile=profile, llm="none", runs=tmp_path)
         with Session(settings, inbox=inbox, user=listener) as session:
             assert session.run("Find a mug").status == MissionStatus.DONE
             assert session.folder

@@ -15,7 +15,8 @@ from executive.config import load_settings
 from executive.events import Heard, Inbox
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
-from executive.types import DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
+from executive.types.goals import DriveTo, Goal, LookAt, Pick, PutDown
+from executive.types.outcome import MissionStatus
 from executive.user import Oracle
 from kb.facts import FactStore
 from logs.questions.why import why, why_text

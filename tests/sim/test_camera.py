@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.geometry import rays, transform
 from executive.perception.pipeline import locate
-from executive.types import Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 from sim.__main__ import HEIGHT, WIDTH, main
 from sim.bullet.bodies import build_home, frame_pose, place_objects
 from sim.bullet.camera import (

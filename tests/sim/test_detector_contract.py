@@ -12,7 +12,8 @@ from executive.perception.detector import OnnxDetector
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.detector import DetectorBench, DetectorContract
 from executive.testing.contracts.robot import Bench
-from executive.types import DriveTo, LookAt, Succeeded
+from executive.types.goals import DriveTo, LookAt
+from executive.types.results import Succeeded
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 from sim.faults.injector import FaultInjector, FaultyDetector
 from sim.objects.objects import load_objects

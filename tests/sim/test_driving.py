@@ -12,7 +12,9 @@ from executive.events import Inbox
 from executive.records import PlannedPath, Shape, Transforms
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
-from executive.types import DriveTo, Failed, Pose, Succeeded
+from executive.types.geometry import Pose
+from executive.types.goals import DriveTo
+from executive.types.results import Failed, Succeeded
 from sim.body.base import BRAKING, CARRYING, FREE
 from sim.body.laser import RANGE_M, RAYS, Laser, Scan
 from sim.bullet.bodies import create_body

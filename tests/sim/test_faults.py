@@ -14,7 +14,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.records import Mishap
 from executive.testing.bench import Notebook, four_rooms
-from executive.types import Frame
+from executive.types.perception import Frame
 from sim.fake import FakeCamera, FakeDetector, FakeWorld
 from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import FAULTS, Blind, Fault, Miss, Moved, Span, parse_fault, parse_faults

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from written_homes import FLAT
 
 from executive.__main__ import main as executive
-from executive.types import Place
+from executive.types.home import Place
 from kb.ontology.ontology import Ontology
 from sim.__main__ import main
 from sim.home.furniture import FORM_OF_KIND

@@ -6,7 +6,10 @@ from kitchen import MODELS, Kitchen, home_before
 from scipy.spatial.transform import Rotation
 
 from executive.testing.bench import four_rooms
-from executive.types import Detection, DriveTo, Failed, Pick, Pose, PutDown, Succeeded
+from executive.types.geometry import Pose
+from executive.types.goals import DriveTo, Pick, PutDown
+from executive.types.perception import Detection
+from executive.types.results import Failed, Succeeded
 from sim.body.skill import CannotError, Skill
 from sim.manipulation.clutter import CELL_M, Column
 from sim.manipulation.grasps import WIDEST, HandPose, find_grasps, varied

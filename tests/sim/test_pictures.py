@@ -18,7 +18,10 @@ from executive.events import Ended, Inbox
 from executive.perception.pipeline import CameraPerception
 from executive.records import Note, Picture, Seen
 from executive.testing.bench import Notebook, four_rooms, ontology
-from executive.types import DriveTo, Frame, Pose, Saw
+from executive.types.geometry import Pose
+from executive.types.goals import DriveTo
+from executive.types.perception import Frame
+from executive.types.results import Saw
 from sim.bullet.camera import GLANCING, view_from
 from sim.faults.injector import FaultInjector
 from sim.faults.orders import parse_fault

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.home.home import load_home
 from sim.manipulation.placing import RIM_M, TIGHT_M, free_spots, stands
 from sim.manipulation.registration import fit_fallen_pose

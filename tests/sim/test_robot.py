@@ -10,7 +10,9 @@ from executive.events import Inbox
 from executive.records import Picture, PlannedPath, Scene, Shape, Transforms
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.robot import Bench
-from executive.types import DriveTo, Failed, LookAt, Pose, Succeeded
+from executive.types.geometry import Pose
+from executive.types.goals import DriveTo, LookAt
+from executive.types.results import Failed, Succeeded
 from sim.body.hardware import Hardware
 from sim.bullet.bodies import create_body
 from sim.bullet.client import connect

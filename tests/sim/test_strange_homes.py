@@ -17,7 +17,7 @@ from executive.language.control import control
 from executive.language.grammar import EnglishInterpreter
 from executive.language.phrases import spoken
 from executive.text import printable
-from executive.types import Place
+from executive.types.home import Place
 from kb.ontology.names import PlaceNames
 from sim.__main__ import main
 from sim.home.home import MOST_TOLD, home_text, inspect_home, load_home

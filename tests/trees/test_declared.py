@@ -10,7 +10,7 @@ from textwrap import dedent
 import pytest
 
 import trees
-from executive.types import Source
+from executive.types.knowledge import Source
 from trees.__main__ import build
 from trees.nodes import Action, Step
 from trees.tree import MissionTree

@@ -3,7 +3,8 @@
 import pytest
 
 from executive.language.grammar import EnglishInterpreter
-from executive.types import DELIVERY, PERSON, SEARCHING, CommandKind
+from executive.types.commands import SEARCHING, CommandKind
+from executive.types.home import DELIVERY, PERSON
 from trees.deeds import DEEDS
 
 

@@ -10,7 +10,8 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.situation import Situation
-from executive.types import PERSON, Outcome, TaskOutcome
+from executive.types.home import PERSON
+from executive.types.outcome import Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.driving import DriveBack

@@ -5,7 +5,9 @@ from collections.abc import Iterable
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import DELIVERY, FLOOR, CommandKind, Outcome, TaskOutcome
+from executive.types.commands import CommandKind
+from executive.types.home import DELIVERY, FLOOR
+from executive.types.outcome import Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.deeds.fall import SayItFell, pick_up_again

@@ -1,7 +1,7 @@
 """Check whether a thing is there: go there, look, come back, and tell."""
 
 from executive.situation import Situation
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 from trees.context import MissionContext
 from trees.deeds.answer import Answer
 from trees.survey import found_where, not_seen, nothing_there

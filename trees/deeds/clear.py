@@ -8,7 +8,9 @@ from py_trees.common import Status
 
 from executive.language.phrases import is_plural
 from executive.language.wording import listed
-from executive.types import CommandKind, Outcome, Question, QuestionKind, TaskOutcome
+from executive.types.commands import CommandKind
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.outcome import Outcome, TaskOutcome
 from trees.asking import Ask
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to

@@ -1,6 +1,6 @@
 """Count things: go there, look at all of it, come back, and tell how many were seen."""
 
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 from trees.context import MissionContext
 from trees.deeds.answer import Answer
 from trees.survey import found_where, not_seen, nothing_there

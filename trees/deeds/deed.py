@@ -7,7 +7,8 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.situation import Situation
-from executive.types import CommandKind, Meaning, MissionStatus, Outcome, TaskOutcome
+from executive.types.commands import CommandKind, Meaning
+from executive.types.outcome import MissionStatus, Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.nodes import Check, Step
 

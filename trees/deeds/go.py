@@ -6,7 +6,10 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Activity
-from executive.types import PERSON, CommandKind, Outcome, Result, Succeeded, TaskOutcome
+from executive.types.commands import CommandKind
+from executive.types.home import PERSON
+from executive.types.outcome import Outcome, TaskOutcome
+from executive.types.results import Result, Succeeded
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.driving import DriveToGoal

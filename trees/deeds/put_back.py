@@ -1,6 +1,6 @@
 """Put a thing back: where the robot took it, else where it belongs."""
 
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 from trees.deeds.put import Put
 
 

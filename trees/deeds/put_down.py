@@ -5,7 +5,9 @@ from collections.abc import Iterable, Iterator
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.types import DELIVERY, HAND, HELD, SOMETHING, CommandKind, Outcome, TaskOutcome
+from executive.types.commands import HELD, CommandKind
+from executive.types.home import DELIVERY, HAND, SOMETHING
+from executive.types.outcome import Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.driving import DriveToSurface

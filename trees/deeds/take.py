@@ -4,7 +4,9 @@ from collections.abc import Iterable
 
 from py_trees.behaviour import Behaviour
 
-from executive.types import HAND, CommandKind, Outcome, TaskOutcome
+from executive.types.commands import CommandKind
+from executive.types.home import HAND
+from executive.types.outcome import Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
 from trees.nodes import Check, sequence

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 from trees.context import MissionContext
 from trees.deeds.answer import Answer
 from trees.survey import found_where, not_seen, nothing_there

@@ -4,7 +4,7 @@ Ordered as in its tables: systems from left to right, without and with default l
 """
 
 from executive.config import KnowledgeSystem
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 OKB, LLM, MEM = KnowledgeSystem
 

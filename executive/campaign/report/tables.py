@@ -27,7 +27,7 @@ from executive.campaign.report.variants import (
     summary_of,
 )
 from executive.config import KnowledgeSystem
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 from kb.benchmark.calibration import calibration
 
 Lines = list[list[str]]

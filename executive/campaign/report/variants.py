@@ -8,7 +8,7 @@ from executive.campaign.journal import Row
 from executive.campaign.report.paper import Condition
 from executive.campaign.report.statistics import Summary, grouped, summarize
 from executive.config import KnowledgeSystem
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 OKB = KnowledgeSystem.OKB
 Column = Callable[[Row], float]

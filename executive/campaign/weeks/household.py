@@ -20,9 +20,10 @@ from executive.campaign.truth import completed, whereabouts
 from executive.campaign.weeks.lived import COMMANDS_A_DAY, Line, Lived
 from executive.config import Settings
 from executive.events import Inbox
-from executive.interfaces import LanguageModel
+from executive.interfaces.llm import LanguageModel
 from executive.records import Record, Tick
-from executive.types import Outcome, Source
+from executive.types.knowledge import Source
+from executive.types.outcome import Outcome
 from kb.facts import Fact, FactStore
 from kb.llm.open import model_for_missions
 from logs.recorder import Stamp

@@ -18,7 +18,7 @@ from executive.page.experiment.reels import LIVE, LiveReel, Reels
 from executive.page.experiment.runs import Runs
 from executive.page.experiment.wizard import Wizard
 from executive.page.person import PagePerson
-from executive.types import Replied, Scored
+from executive.types.results import Replied, Scored
 from logs.questions.difference import parting
 from logs.recording.reader import FILE_NAME, Run
 

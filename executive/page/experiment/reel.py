@@ -25,7 +25,7 @@ from executive.records import (
     Verified,
 )
 from executive.text import printable
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 from logs.questions.interventions import done
 from logs.recording.events import in_words
 

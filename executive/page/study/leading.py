@@ -17,7 +17,7 @@ from executive.page.study.showing import Shown, declined, shown
 from executive.page.study.steps import Kind, Step, steps
 from executive.page.study.tables import FINISHED, GAVE_UP, LEFT, STOP, TIME, renew_tables
 from executive.page.study.watching import SteppedIn, Watch
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 
 AGREED, DECLINED, READ = "agreed", "declined", "read"
 

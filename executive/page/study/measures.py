@@ -7,7 +7,7 @@ from statistics import fmean
 from executive.campaign.report.statistics import Comparison, Summary, pairwise, summarize
 from executive.page.study.questionnaire import ALL
 from executive.page.study.tables import FINISHED, Tables, TaskRow
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 
 OUTSIDE = ("",)
 """Of any condition: before the first one, after the last one."""

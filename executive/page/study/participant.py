@@ -5,7 +5,7 @@ from executive.language.control import Control, control
 from executive.page.board import Board
 from executive.page.person import PagePerson
 from executive.page.study.tables import GAVE_UP
-from executive.types import Failed
+from executive.types.results import Failed
 
 OVER = "the task is over"
 

@@ -15,7 +15,7 @@ from executive.files import write_whole
 from executive.page.study.data import Entry, Journal, StudyData, number_of
 from executive.page.study.file import Study
 from executive.text import one_line
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 
 log = logging.getLogger(__name__)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.interfaces import Camera
+from executive.interfaces.perception import Camera
 
 NEAREST_M, FARTHEST_M = 0.02, 50.0
 """Depths beyond these were not meant in metres."""
@@ -25,7 +25,7 @@ class CameraBench:
 
 
 class CameraContract:
-    """Each method is one promise of `executive.interfaces.Camera` and `executive.types.Frame`."""
+    """Each method is one promise of `Camera` and `Frame`."""
 
     def test_pictures_are_rgb_bytes_and_depth_of_one_size(self, camera_bench: CameraBench) -> None:
         frame = camera_bench.camera.capture()

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from executive.interfaces import Detector
-from executive.types import Detection, Frame
+from executive.interfaces.perception import Detector
+from executive.types.perception import Detection, Frame
 
 
 @dataclass
@@ -33,7 +33,7 @@ class DetectorBench:
 
 
 class DetectorContract:
-    """Each method is one promise of `executive.interfaces.Detector` and of `Detection`."""
+    """Each method is one promise of `Detector` and of `Detection`."""
 
     @pytest.fixture
     def found(self, detector_bench: DetectorBench) -> tuple[Detection, ...]:

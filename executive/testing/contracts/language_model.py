@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from executive.events import Ended, Inbox
-from executive.interfaces import LanguageModel
+from executive.interfaces.llm import LanguageModel
 from executive.testing.contracts.requests import PATIENCE_S, end_of, is_silent, next_event
-from executive.types import ChatRequest, Failed, Message, RankRequest, Replied, Scored
+from executive.types.llm import ChatRequest, Message, RankRequest
+from executive.types.results import Failed, Replied, Scored
 
 SYSTEM = Message("system", "You know a home. Answer in a few words.")
 CHAT = ChatRequest("general_pos", (SYSTEM, Message("user", "Where is the mug?")))
@@ -32,7 +33,7 @@ class ModelBench:
 
 
 class LanguageModelContract:
-    """Each method is one promise of `executive.interfaces.LanguageModel`."""
+    """Each method is one promise of `LanguageModel`."""
 
     def test_it_has_a_name_and_a_window(self, model_bench: ModelBench) -> None:
         assert model_bench.model.name

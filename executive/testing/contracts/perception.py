@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from executive.events import Inbox
-from executive.interfaces import Perception
+from executive.interfaces.perception import Perception
 from executive.testing.contracts.requests import end_of, is_silent
-from executive.types import Saw
+from executive.types.results import Saw
 
 
 @dataclass
@@ -31,7 +31,7 @@ class PerceptionBench:
 
 
 class PerceptionContract:
-    """Each method is one promise of `executive.interfaces.Perception` and of `Saw`."""
+    """Each method is one promise of `Perception` and of `Saw`."""
 
     def test_it_sees_what_is_there(self, perception_bench: PerceptionBench) -> None:
         labels = {detection.label for detection in perception_bench.look().detections}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from executive.interfaces import PlaceSource
+from executive.interfaces.knowledge import PlaceSource
 
 
 @dataclass

@@ -3,7 +3,7 @@
 import time
 
 from executive.events import Ended, Event, Inbox
-from executive.types import Result
+from executive.types.results import Result
 
 PATIENCE_S = 60.0
 """So long (real time) a request may take to end."""

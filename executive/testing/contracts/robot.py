@@ -12,21 +12,11 @@ import numpy as np
 import pytest
 
 from executive.events import Ended, Inbox
-from executive.interfaces import Robot
-from executive.types import (
-    FLOOR,
-    Box,
-    Detection,
-    DriveTo,
-    Failed,
-    Goal,
-    Halt,
-    LookAt,
-    Pick,
-    PutDown,
-    Result,
-    Succeeded,
-)
+from executive.interfaces.robot import Robot
+from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
+from executive.types.home import FLOOR
+from executive.types.perception import Box, Detection
+from executive.types.results import Failed, Result, Succeeded
 
 PATIENCE_S = 90.0
 MOVING_S = 0.4
@@ -83,7 +73,7 @@ def nothing_there() -> Detection:
 
 
 class RobotContract:
-    """Each method is one promise of `executive.interfaces.Robot`."""
+    """Each method is one promise of `Robot`."""
 
     def test_starting_returns_at_once_and_the_end_comes_as_an_event(self, bench: Bench) -> None:
         request = bench.robot.start(DriveTo(bench.place))

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import pytest
 
 from executive.events import Ended, Event, Inbox, StopRequested
-from executive.interfaces import User
+from executive.interfaces.dialogue import User
 from executive.testing.contracts.requests import is_silent, next_event
-from executive.types import Answered, Failed, Question, QuestionKind
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.results import Answered, Failed
 
 WHERE = Question(QuestionKind.WHERE_IS, "mug", "Where is the mug?")
 QUESTIONS = (
@@ -57,7 +58,7 @@ class UserBench:
 
 
 class UserContract:
-    """Each method is one promise of `executive.interfaces.User`."""
+    """Each method is one promise of `User`."""
 
     @pytest.mark.parametrize("question", QUESTIONS, ids=lambda question: question.kind)
     def test_a_question_of_any_kind_is_answered_or_fails_in_words(

@@ -16,7 +16,8 @@ from executive.servers.key import LLM_KEY, Key
 from executive.servers.network import why
 from executive.servers.refusal import MOST_BYTES, MOST_CHARACTERS, Refused, refusal
 from executive.text import printable, writable
-from executive.types import ChatRequest, Failed
+from executive.types.llm import ChatRequest
+from executive.types.results import Failed
 from kb.llm.server.dialect import Dialect
 from kb.llm.server.listing import chat_models, is_about_the_model
 from kb.llm.server.packed import NotUnpacked, unpacked

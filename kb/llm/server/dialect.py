@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from executive.servers.refusal import Refused
-from executive.types import ChatRequest
+from executive.types.llm import ChatRequest
 from kb.llm.turns import without_system
 
 OPTIONAL = ("stream_options", "seed", "top_p", "temperature", "stream")

@@ -9,7 +9,8 @@ from executive.events import Inbox
 from executive.servers.address import refuse_secrets
 from executive.servers.key import LLM_KEY, Key
 from executive.text import printable
-from executive.types import ChatRequest, Failed, RankRequest, Replied, Result, Usage
+from executive.types.llm import ChatRequest, RankRequest, Usage
+from executive.types.results import Failed, Replied, Result
 from kb.llm.options import USUAL, ModelOptions
 from kb.llm.server.asking import Asked, Asking
 from kb.llm.server.dialect import Dialect

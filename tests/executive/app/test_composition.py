@@ -18,7 +18,7 @@ from executive.events import Inbox
 from executive.language.spoken import Spoken
 from executive.replay import replay
 from executive.testing.bench import run_mission
-from executive.types import Commands
+from executive.types.commands import Commands
 from kb.facts import FactStore
 from kb.llm.scripted import Scripted
 from trees.__main__ import build

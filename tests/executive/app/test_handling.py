@@ -6,7 +6,8 @@ import pytest
 
 from executive.app.handling import KnownThings
 from executive.testing.bench import four_rooms
-from executive.types import PERSON, Pose
+from executive.types.geometry import Pose
+from executive.types.home import PERSON
 
 NEAR_M = 0.45
 

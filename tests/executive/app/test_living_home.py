@@ -13,7 +13,7 @@ from executive.app.living import LivingHome
 from executive.errors import InputError
 from executive.replay import replay
 from executive.testing.bench import four_rooms
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 from sim.home.arrangement import Spot
 from sim.home.state import HomeState, read_state, spot_on, with_room, write_state
 

@@ -21,7 +21,7 @@ from executive.campaign.folder import Progress, clock
 from executive.campaign.journal import Journal, Row, in_order, read_table
 from executive.config import KnowledgeSystem, load_settings
 from executive.events import Inbox
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 from kb.llm.scripted import Scripted
 from sim.home.home import home_text
 from sim.tools.generation import generate_home

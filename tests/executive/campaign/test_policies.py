@@ -12,7 +12,7 @@ from executive.campaign.routes import Routes
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
 from executive.testing.bench import four_rooms
-from executive.types import ChatRequest
+from executive.types.llm import ChatRequest
 from kb.llm.scripted import Scripted
 
 LLM = KnowledgeSystem.OKB_LLM

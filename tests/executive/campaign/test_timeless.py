@@ -7,7 +7,8 @@ from executive.app.parts import Parts
 from executive.campaign.timeless import Timeless
 from executive.events import Inbox
 from executive.testing.bench import Run, four_rooms, run_mission
-from executive.types import RankRequest, Scored, Usage
+from executive.types.llm import RankRequest, Usage
+from executive.types.results import Scored
 from kb.llm.scripted import Scripted
 
 SCORES = tuple(1.0 if place.name == "desk" else 0.0 for place in four_rooms().places())

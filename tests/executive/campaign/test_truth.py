@@ -11,7 +11,8 @@ from executive.campaign.observer import Observed
 from executive.campaign.routes import Routes
 from executive.campaign.truth import completed, shortest_m, whereabouts
 from executive.testing.bench import four_rooms, run_mission
-from executive.types import CommandKind, Pick, PutDown
+from executive.types.commands import CommandKind
+from executive.types.goals import Pick, PutDown
 from logs.recorder import Stamp
 from sim.navigation.grid import OccupancyGrid, plan
 

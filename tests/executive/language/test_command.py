@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.language.grammar import EnglishInterpreter
-from executive.types import CommandKind
+from executive.types.commands import CommandKind
 
 read = EnglishInterpreter()
 

@@ -4,7 +4,7 @@ import pytest
 
 from executive.language.grammar import EnglishInterpreter
 from executive.language.spoken import NOTHING, Spoken, after
-from executive.types import Command
+from executive.types.commands import Command
 
 read = EnglishInterpreter()
 HAMMER = after(read.read("Find the hammer"), NOTHING, things=("hammer",), place="shelf")

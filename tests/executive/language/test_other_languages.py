@@ -4,7 +4,7 @@ import pytest
 
 from executive.language.grammar import EnglishInterpreter
 from executive.testing.bench import run_mission
-from executive.types import MissionStatus
+from executive.types.outcome import MissionStatus
 
 LABELS = ("taza de café", "pain sans gluten", "りんご", "caja de la cocina")
 read = EnglishInterpreter(LABELS)

@@ -5,7 +5,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.language.meaning import (
-    ALL,
     ME,
     About,
     Answer,
@@ -26,7 +25,7 @@ from executive.language.meaning import (
     Where,
 )
 from executive.language.reader import Reader, english
-from executive.types import CommandKind
+from executive.types.commands import ALL, CommandKind
 
 read = english().read
 

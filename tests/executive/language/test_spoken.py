@@ -5,9 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.language.grammar import EnglishInterpreter
-from executive.language.meaning import Request
+from executive.language.meaning import Request, Task
 from executive.language.pronouns import resolved
 from executive.language.spoken import NOTHING, Spoken, after
+from executive.types.commands import CommandKind
 
 read = EnglishInterpreter()
 FRUIT = Spoken(("apple", "pear"), "fruit", "coffee_table")
@@ -82,6 +83,11 @@ names = st.text(min_size=1, max_size=8)
 def test_a_recording_keeps_all_of_it(spoken: Spoken) -> None:
     words = after(read.read("If there is an apple on the desk, bring it, otherwise a pear"), spoken)
     assert Spoken.from_json(words.to_json()) == words
+
+
+def test_a_recording_from_before_may_keep_more_than_is_kept_today() -> None:
+    before = '{"called":"mug","request":{"tasks":[{"verb":"bring"}],"too":true}}'
+    assert Spoken.from_json(before).request == Request((Task(CommandKind.BRING),))
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import pytest
 
 from executive.language.wording import Wording, as_said
 from executive.testing.bench import ontology
-from executive.types import DELIVERY, SOMETHING, Called, Place
+from executive.types.home import DELIVERY, SOMETHING, Called, Place
 from kb.ontology.ontology import Ontology
 from kb.ontology.speaking import places_called, thing_called
 

@@ -9,7 +9,7 @@ from PIL import Image
 
 from executive.page.portraits import SIDE, Portraits, portrait
 from executive.records import Shape
-from executive.types import Pose
+from executive.types.geometry import Pose
 from sim.objects.objects import ObjectModel, load_objects
 
 

@@ -8,7 +8,8 @@ import numpy as np
 from executive.page.board import Board
 from executive.page.sink import PageSink
 from executive.records import Picture, Seen
-from executive.types import Frame, Intrinsics, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Frame, Intrinsics
 from logs.recorder import Stamp
 
 NOW = Stamp(0.0, 0)

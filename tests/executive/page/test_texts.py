@@ -9,7 +9,9 @@ from typing import Any
 import pytest
 
 from executive.records import Activity
-from executive.types import MissionStatus, QuestionKind, Source
+from executive.types.dialogue import QuestionKind
+from executive.types.knowledge import Source
+from executive.types.outcome import MissionStatus
 
 
 def of(package: str) -> tuple[Traversable, dict[str, Any], str]:

@@ -7,7 +7,8 @@ import pytest
 
 from executive.geometry import back_project, transform
 from executive.perception.pipeline import locate
-from executive.types import Box, Detection, Frame, Intrinsics, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Box, Detection, Frame, Intrinsics
 
 INTRINSICS = Intrinsics(width=64, height=48, fx=60.0, fy=60.0, cx=31.5, cy=23.5)
 LOOKING_DOWN = Pose((1.0, 2.0, 1.5), (1.0, 0.0, 0.0, 0.0))

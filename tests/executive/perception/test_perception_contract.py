@@ -7,7 +7,8 @@ from executive.perception.pipeline import CameraPerception
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.perception import PerceptionBench, PerceptionContract
 from executive.testing.contracts.robot import Bench
-from executive.types import DriveTo, LookAt, Succeeded
+from executive.types.goals import DriveTo, LookAt
+from executive.types.results import Succeeded
 from sim.fake import FakeCamera, FakeDetector, FakeRobot, FakeWorld
 
 

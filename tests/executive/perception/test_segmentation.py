@@ -8,7 +8,8 @@ import pytest
 
 from executive.perception.pipeline import locate
 from executive.perception.segmentation import segment
-from executive.types import Box, Detection, Frame, Intrinsics, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Box, Detection, Frame, Intrinsics
 
 LENS = Intrinsics(width=160, height=120, fx=150.0, fy=150.0, cx=79.5, cy=59.5)
 FROM_ABOVE = Pose((0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0))

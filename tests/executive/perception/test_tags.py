@@ -9,7 +9,7 @@ from executive.events import Inbox
 from executive.perception.tags import LONGEST, TagDetector, read, tag
 from executive.testing.bench import Notebook, four_rooms
 from executive.testing.contracts.detector import DetectorBench, DetectorContract
-from executive.types import Frame
+from executive.types.perception import Frame
 from sim.fake import FakeCamera, FakeDetector, FakeWorld
 
 NAMES = st.text(min_size=1, max_size=64).filter(lambda name: 0 < len(name.encode()) <= LONGEST)

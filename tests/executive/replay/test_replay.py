@@ -18,7 +18,9 @@ from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
 from executive.replay import replay, replay_text, replays_text
-from executive.types import CommandKind, DriveTo, Goal, LookAt, MissionStatus, Pick, PutDown
+from executive.types.commands import CommandKind
+from executive.types.goals import DriveTo, Goal, LookAt, Pick, PutDown
+from executive.types.outcome import MissionStatus
 from executive.user import Console
 from kb.ontology import ontology
 from logs.__main__ import main

@@ -18,7 +18,10 @@ from executive.events import Inbox
 from executive.replay.body import recorded_body
 from executive.replay.replaying import replay
 from executive.testing.bench import four_rooms
-from executive.types import Box, Detection, Goal, LookAt, MissionStatus, Pick, Saw
+from executive.types.goals import Goal, LookAt, Pick
+from executive.types.outcome import MissionStatus
+from executive.types.perception import Box, Detection
+from executive.types.results import Saw
 from kb.advice.prompts import TEXTS
 from kb.llm.scripted import Scripted as ScriptedModel
 from logs.recording.reader import Run

@@ -8,7 +8,7 @@ from replays import recorded
 
 from executive.events import Ended, Inbox
 from executive.replay.replaying import replay
-from executive.types import Result
+from executive.types.results import Result
 
 
 def test_an_answer_that_says_stop_stops_and_replays(tmp_path: Path) -> None:

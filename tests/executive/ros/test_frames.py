@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.ros.frames import KEPT, FrameTree
 from executive.ros.packets import PacketError
-from executive.types import Pose
+from executive.types.geometry import Pose
 
 COORDINATE = st.floats(-10, 10)
 TURN = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: sum(v * v for v in q) > 0.1)

@@ -19,7 +19,8 @@ from executive.ros.link import LinkError
 from executive.ros.losses import Losses
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench, nothing_there
-from executive.types import DriveTo, Failed, Halt, LookAt, Pick, Result, Succeeded
+from executive.types.goals import DriveTo, Halt, LookAt, Pick
+from executive.types.results import Failed, Result, Succeeded
 
 LOOK = '[look]\naction = "/acme/go"\ntype = "acme_msgs/action/Go"\nsilent_s = 1.0\n'
 WAIT_S = 20.0

@@ -17,7 +17,9 @@ from executive.ros.__main__ import main as look
 from executive.ros.connection import Connection
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench, RobotContract
-from executive.types import Box, Detection, DriveTo, Failed, Halt, LookAt, Pick, PutDown, Succeeded
+from executive.types.goals import DriveTo, Halt, LookAt, Pick, PutDown
+from executive.types.perception import Box, Detection
+from executive.types.results import Failed, Succeeded
 from sim.objects.objects import load_objects
 from sim.objects.solids import sample_surface
 

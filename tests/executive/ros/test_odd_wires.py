@@ -13,7 +13,8 @@ from executive.loop import HALTS
 from executive.ros.connection import Connection
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench
-from executive.types import DriveTo, Halt, LookAt, Succeeded
+from executive.types.goals import DriveTo, Halt, LookAt
+from executive.types.results import Succeeded
 
 CASES = {
     "delays": Mischief(delay=0.05),

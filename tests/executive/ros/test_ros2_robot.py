@@ -28,7 +28,9 @@ from executive.ros.link import LinkError
 from executive.ros.profile import load_profile
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench
-from executive.types import DriveTo, Failed, Frame, Halt, LookAt, Succeeded
+from executive.types.goals import DriveTo, Halt, LookAt
+from executive.types.perception import Frame
+from executive.types.results import Failed, Succeeded
 from sim.fake import straight_s
 
 pytestmark = [pytest.mark.ros2, pytest.mark.filterwarnings("ignore::DeprecationWarning")]

@@ -20,7 +20,8 @@ from executive.testing.bench import four_rooms
 from executive.testing.contracts.camera import CameraBench, CameraContract
 from executive.testing.contracts.requests import end_of
 from executive.testing.contracts.robot import Bench, RobotContract
-from executive.types import DriveTo, Failed, Halt, Succeeded
+from executive.types.goals import DriveTo, Halt
+from executive.types.results import Failed, Succeeded
 
 
 @dataclass

@@ -21,7 +21,7 @@ from executive.ros.profile import load_profile
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.camera import CameraBench, CameraContract
 from executive.testing.contracts.robot import Bench, RobotContract
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 from logs.questions.comparison import compare
 from logs.recording.reader import Run
 from sim.served.simulation import Simulation

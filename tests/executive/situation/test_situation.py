@@ -1,6 +1,8 @@
 from executive.events import Broke, Ended, Started, StopRequested
 from executive.situation import Situation
-from executive.types import Failed, MissionStatus, RankRequest, Scored, Usage
+from executive.types.llm import RankRequest, Usage
+from executive.types.outcome import MissionStatus
+from executive.types.results import Failed, Scored
 
 
 def test_what_was_found_out_since_it_was_saved_is_forgotten_in_every_part() -> None:

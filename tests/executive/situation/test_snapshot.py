@@ -5,7 +5,8 @@ import numpy as np
 
 from executive.situation import Situation
 from executive.situation.snapshot import NOT_LOGGED, PART, logged_as, snapshot
-from executive.types import Box, Candidate, Detection, Source
+from executive.types.knowledge import Candidate, Source
+from executive.types.perception import Box, Detection
 
 KEYS = {
     *("command", "options", "object", "among", "consultation", "candidates", "candidate", "view"),

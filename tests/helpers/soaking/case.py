@@ -22,11 +22,13 @@ from executive.app.session import Session
 from executive.config import KnowledgeSystem, Settings
 from executive.errors import InputError
 from executive.events import Inbox, StopRequested
-from executive.interfaces import SimulatedHome
+from executive.interfaces.simulation import SimulatedHome
 from executive.language.wording import Wording
 from executive.replay.replaying import replay, replay_text
 from executive.text import printable
-from executive.types import FLOOR, CommandKind, MissionStatus, Outcome
+from executive.types.commands import CommandKind
+from executive.types.home import FLOOR
+from executive.types.outcome import MissionStatus, Outcome
 from logs.recording.reader import Run
 from sim.faults.orders import parse_faults
 from sim.home.floorplan import doors_between

@@ -5,19 +5,12 @@ import random
 from collections.abc import Sequence
 
 from executive.events import Inbox, StopRequested
-from executive.interfaces import Perception, Robot
+from executive.interfaces.perception import Perception
+from executive.interfaces.robot import Robot
 from executive.records import Record
-from executive.types import (
-    ChatRequest,
-    Failed,
-    Goal,
-    Halt,
-    RankRequest,
-    Replied,
-    Scored,
-    Succeeded,
-    Usage,
-)
+from executive.types.goals import Goal, Halt
+from executive.types.llm import ChatRequest, RankRequest, Usage
+from executive.types.results import Failed, Replied, Scored, Succeeded
 from logs.recorder import Stamp
 
 HOSTILE = (

@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from executive.events import Ended, StopRequested
-from executive.interfaces import SimulatedHome
+from executive.interfaces.simulation import SimulatedHome
 from executive.language.wording import Wording
 from executive.records import EventTaken, Record, Tick
 from executive.text import printable
-from executive.types import FLOOR, HAND, Goal, LookAt, Saw, Succeeded
+from executive.types.goals import Goal, LookAt
+from executive.types.home import FLOOR, HAND
+from executive.types.results import Saw, Succeeded
 from logs.recorder import Stamp
 
 NAME = r"(?P<thing>[a-z][a-z0-9_]*)"

@@ -4,7 +4,8 @@ import random
 from collections.abc import Callable, Sequence
 
 from executive.events import Inbox
-from executive.types import Answered, Failed, Question, QuestionKind
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.results import Answered, Failed
 from sim.home.home import Home
 from soaking.chaos import HOSTILE, Chaos
 

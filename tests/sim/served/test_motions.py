@@ -19,7 +19,7 @@ from executive.replay import replay
 from executive.ros.moveit import DONE, NO_IK, Load, scene, to_joints, to_pose
 from executive.ros.packets import PacketError
 from executive.testing.bench import four_rooms
-from executive.types import Pose, Vector3
+from executive.types.geometry import Pose, Vector3
 from sim.__main__ import main as sim
 from sim.goals import Face, Grip, MoveHand, MoveJoints
 from sim.served.offered import ARM, GRIPPER, MOTIONS

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from served import Raw, place_goal, served
 
-from executive.types import Frame, Intrinsics, Pose
+from executive.types.geometry import Pose
+from executive.types.perception import Frame, Intrinsics
 from sim.pictures.coming import ComingFrame, NotDrawnError
 from sim.served.offered import COLOR, DEPTH, DRIVE
 from sim.served.publishing import Publisher

@@ -14,7 +14,7 @@ from executive.page.experiment.wizard import AS_BEFORE
 from executive.page.page import Page
 from executive.records import Intervention
 from executive.replay import replay
-from executive.types import Outcome
+from executive.types.outcome import Outcome
 from logs.recording.reader import Run
 
 ANNA = "Anna"
