@@ -94,7 +94,7 @@ def explain(file: Path, home: str, words: str) -> int:
     from kb.experience import MOST_LEARNED, Experience
     from kb.explaining import habits, lines
     from kb.ontology.ontology import Ontology
-    from sim.home.home import load_home
+    from sim.home.home_file import load_home
 
     ours = load_home(home)
     ontology = Ontology(ours.places(), things=ours.things())
@@ -135,7 +135,7 @@ def age(seconds: float) -> str:
 def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> "Ontology":
     """What a mission with the same options would know."""
     from kb.ontology.ontology import Ontology
-    from sim.home.home import load_home
+    from sim.home.home_file import load_home
 
     home, own = load_home(given.home), [*given.kb, *files]
     ontology = Ontology(
