@@ -94,7 +94,7 @@ def explain(file: Path, home: str, words: str) -> int:
     from kb.experience import MOST_LEARNED, Experience
     from kb.explaining import habits, lines
     from kb.ontology.ontology import Ontology
-    from sim.home.home import load_home
+    from sim.home.home_file import load_home
 
     ours = load_home(home)
     ontology = Ontology(ours.places(), things=ours.things())
@@ -135,7 +135,7 @@ def age(seconds: float) -> str:
 def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> "Ontology":
     """What a mission with the same options would know."""
     from kb.ontology.ontology import Ontology
-    from sim.home.home import load_home
+    from sim.home.home_file import load_home
 
     home, own = load_home(given.home), [*given.kb, *files]
     ontology = Ontology(
@@ -191,22 +191,7 @@ def parser() -> argparse.ArgumentParser:
     asked = commands.add_parser("query", help="ask the ontology in SPARQL")
     asked.add_argument("sparql", help='"SELECT ?x WHERE { ?x rdfs:subClassOf household:Fruit }"')
     for command in (shown, checked, asked):
-        own = "own OWL file: adds to ours, or replaces the one with the same ontology IRI"
-        command.add_argument(
-            "--kb", action="append", default=[], type=Path, metavar="FILE", help=own
-        )
-        command.add_argument(
-            "--home",
-            default="four_rooms",
-            metavar="NAME or FILE.toml",
-            help="whose furniture (default: four_rooms)",
-        )
-        command.add_argument(
-            "--defaults",
-            action=argparse.BooleanOptionalAction,
-            default=True,
-            help="whether to load defaults.owl (default: yes)",
-        )
+        _add_knowledge(command)
     remembered = commands.add_parser(
         "facts", help="what was seen, missed, looked at, said, taken and put"
     )
@@ -221,12 +206,7 @@ def parser() -> argparse.ArgumentParser:
     remembered.add_argument(
         "--learned", action="store_true", help="what was learned of all things, and of habits"
     )
-    remembered.add_argument(
-        "--home",
-        default="four_rooms",
-        metavar="NAME or FILE.toml",
-        help="whose things (default: four_rooms)",
-    )
+    _add_home(remembered, "whose things")
     forgotten = commands.add_parser("forget", help="remove facts")
     forgotten.add_argument("words", nargs="*", metavar="OBJECT", help="about this; none: all")
     for command in (remembered, forgotten):
@@ -234,6 +214,28 @@ def parser() -> argparse.ArgumentParser:
             "--memory", required=True, type=Path, metavar="FILE", help="as given to missions"
         )
     return p
+
+
+def _add_knowledge(command: argparse.ArgumentParser) -> None:
+    """What the ontology is made of."""
+    own = "own OWL file: adds to ours, or replaces the one with the same ontology IRI"
+    command.add_argument("--kb", action="append", default=[], type=Path, metavar="FILE", help=own)
+    _add_home(command, "whose furniture")
+    command.add_argument(
+        "--defaults",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="whether to load defaults.owl (default: yes)",
+    )
+
+
+def _add_home(command: argparse.ArgumentParser, whose: str) -> None:
+    command.add_argument(
+        "--home",
+        default="four_rooms",
+        metavar="NAME or FILE.toml",
+        help=f"{whose} (default: four_rooms)",
+    )
 
 
 if __name__ == "__main__":

@@ -74,7 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _view(options: argparse.Namespace) -> int:
     from PIL import Image
 
-    from sim.home.home import load_home
+    from sim.home.home_file import load_home
     from sim.objects.objects import load_objects
     from sim.objects.ycb import with_scans
     from sim.tools.catalogue import contact_sheet

@@ -24,7 +24,8 @@ from executive.types.perception import Detection, Frame, Intrinsics
 from executive.types.results import Failed, Result, Succeeded
 from sim.goals import GoTo
 from sim.home.arrangement import Spot
-from sim.home.home import Home, PlanarPose
+from sim.home.furniture import PlanarPose
+from sim.home.home import Home
 from sim.objects.objects import why_not_taken
 
 SPEED_M_S = 0.8

@@ -9,7 +9,7 @@ from executive.events import Inbox
 from executive.text import printable
 from executive.types.geometry import Vector3
 from executive.types.goals import DriveTo, Halt, LookAt, Pick, PutDown
-from executive.types.home import FLOOR
+from executive.types.home import FLOOR, PERSON
 from executive.types.results import Failed, Succeeded
 from sim.body.arm import hold
 from sim.body.base import CARRYING, FREE, brake
@@ -17,7 +17,8 @@ from sim.body.hardware import Hardware
 from sim.body.head import hold_head, look_at
 from sim.body.skill import CannotError, Skill, Thinker, pause, wait_until
 from sim.goals import AnyGoal, Face, GoTo, Grip, MoveHand, MoveJoints
-from sim.home.home import FLOOR_VIEWS, PERSON, Home, PlanarPose
+from sim.home.furniture import PlanarPose
+from sim.home.home import FLOOR_VIEWS, Home
 from sim.manipulation.hand import LostError
 from sim.manipulation.manipulator import Manipulator
 from sim.manipulation.motions import Motions

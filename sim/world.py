@@ -94,6 +94,7 @@ class PhysicsWorld:
         """
         self._home = home
         self._models = models
+        self._inbox = inbox
         self._recorder = recorder
         self._client = connect(gui)
         self._client.setPhysicsEngineParameter(deterministicOverlappingPairs=1)
@@ -114,17 +115,7 @@ class PhysicsWorld:
         self.camera: Camera = FaultyCamera(camera, injector) if injector else camera
         self._glancing: Camera = FaultyCamera(glancing, injector) if injector else glancing
         self.detector = SimulatedDetector(camera, self._things)
-        laser = Laser(self._client, self._hardware)
-        grid = OccupancyGrid.from_home(home)
-        thinker = Thinker(inbox)
-        navigator = Navigator(self._hardware, laser, grid, recorder, self._time, thinker)
-        manipulator = Manipulator(self._hardware, self._planning, home, models, self._scan, thinker)
-        motions = Motions(self._hardware, self._planning, manipulator.hand, thinker)
-        durations = durations_in(home, grid)
-        self.robot = SimulatedRobot(
-            self._hardware, navigator, durations, manipulator, motions, home, inbox, thinker
-        )
-        self._inbox = inbox
+        self.robot = self._robot()
         self._waits = False
         self._periods = 0
         self._steps = 0
@@ -321,6 +312,19 @@ class PhysicsWorld:
             return Hardware(self._client, start), None
         hardware = FaultyHardware(self._client, start, injector)
         return hardware, WorldFaults(self._client, self._home, self._things, hardware, injector)
+
+    def _robot(self) -> SimulatedRobot:
+        """What drives, looks and handles with the hardware and its senses."""
+        home, hardware, thinker = self._home, self._hardware, Thinker(self._inbox)
+        laser = Laser(self._client, hardware)
+        grid = OccupancyGrid.from_home(home)
+        navigator = Navigator(hardware, laser, grid, self._recorder, self._time, thinker)
+        manipulator = Manipulator(hardware, self._planning, home, self._models, self._scan, thinker)
+        motions = Motions(hardware, self._planning, manipulator.hand, thinker)
+        durations = durations_in(home, grid)
+        return SimulatedRobot(
+            hardware, navigator, durations, manipulator, motions, home, self._inbox, thinker
+        )
 
     def _disturb(self, seed: int, left: Collection[str]) -> None:
         """Move and turn the things a little, once, before anything begins."""

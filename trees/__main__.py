@@ -52,7 +52,7 @@ def build(knowledge: str, elicit: str, search: str = "plan") -> "Behaviour":
     """The tree of these settings, with nobody in the context: it is to be looked at, not ticked."""
     from executive.app.parts import Parts, build_context
     from executive.situation import Situation
-    from sim.home.home import load_home
+    from sim.home.home_file import load_home
     from trees.context import Parameters
     from trees.mission import mission
 

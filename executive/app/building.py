@@ -34,7 +34,9 @@ from kb.llm.gguf_header import check_file
 from kb.llm.open import model_for_missions
 from kb.ontology.ontology import Ontology
 from kb.ontology.owl import OwlFile, read
-from sim.home.home import Home, load_home
+from sim.home.home import Home
+from sim.home.home_file import load_home
+from sim.home.validation import with_placement
 
 log = logging.getLogger(__name__)
 
@@ -60,7 +62,7 @@ def build_parts(
     Raises:
         ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
     """
-    living = LivingHome(settings, load_home(settings.home).with_placement(settings.place))
+    living = living_home(settings)
     home = living.home
     prompts = Prompts.load(settings.prompts)
     if model is None and (model := model_for_missions(settings, inbox)):
@@ -108,7 +110,7 @@ def try_files(settings: Settings) -> None:
     Raises:
         InputError: if one is not there, or something in it is wrong.
     """
-    home = LivingHome(settings, load_home(settings.home).with_placement(settings.place)).home
+    home = living_home(settings).home
     Prompts.load(settings.prompts)
     read_ontology(settings, home)
     if settings.robot and settings.profile:
@@ -123,6 +125,11 @@ def try_files(settings: Settings) -> None:
         read_onnx(Path(settings.detector))
     if settings.llm.endswith(".gguf"):
         _try_model(Path(settings.llm))
+
+
+def living_home(settings: Settings) -> LivingHome:
+    """The home that the settings name, with things where they say or were left."""
+    return LivingHome(settings, with_placement(load_home(settings.home), settings.place))
 
 
 def _try_model(file: Path) -> None:

@@ -30,7 +30,8 @@ from executive.types.home import DELIVERY
 from kb.advice.advisor import advise
 from kb.advice.prompts import Prompts
 from kb.ontology.ontology import Ontology
-from sim.home.home import Furniture, Home
+from sim.home.furniture import Furniture
+from sim.home.home import Home
 from trees.context import MissionContext, NoFacts, Parameters
 from trees.mission import mission
 from trees.tree import MissionTree

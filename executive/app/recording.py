@@ -18,7 +18,8 @@ from executive.toml_file import MOST_BYTES
 from executive.types.home import DELIVERY, FLOOR
 from logs.recorder import Sink
 from logs.recording.sink import McapSink
-from sim.home.home import Home, home_text
+from sim.home.home import Home
+from sim.home.home_file import home_text
 
 log = logging.getLogger(__name__)
 

@@ -53,6 +53,14 @@ def parser() -> argparse.ArgumentParser:
         + "\nexit: 0 all missions have ended, 1 some had no working model, 2 bad usage or input, "
         "130 stopped",
     )
+    _add_missions(p)
+    _add_folders_and_workers(p)
+    _add_settings(p)
+    return p
+
+
+def _add_missions(p: argparse.ArgumentParser) -> None:
+    """Which missions there are."""
     setting = p.add_mutually_exclusive_group()
     setting.add_argument(
         "--ideal",
@@ -90,6 +98,10 @@ def parser() -> argparse.ArgumentParser:
         metavar="N",
         help="live with households of 10 commands a day whose things wander by habits",
     )
+
+
+def _add_folders_and_workers(p: argparse.ArgumentParser) -> None:
+    """Where what comes of them is kept, and who runs them."""
     p.add_argument(
         "--out", type=Path, metavar="DIR", help="default: campaigns/ideal, /physics or /weeks"
     )
@@ -101,6 +113,10 @@ def parser() -> argparse.ArgumentParser:
     workers.add_argument(
         "--cluster", metavar="ADDRESS", help="of a Dask scheduler; its workers run the missions"
     )
+
+
+def _add_settings(p: argparse.ArgumentParser) -> None:
+    """What each of them is run with."""
     p.add_argument(
         "--policy",
         action="append",
@@ -118,7 +134,6 @@ def parser() -> argparse.ArgumentParser:
         p, "top", type=_count, metavar="N", help="places of a ranking worth a visit (default: 5)"
     )
     p.add_argument("--config", type=Path, metavar="FILE", help="settings in TOML")
-    return p
 
 
 def _policy(name: str) -> str:

@@ -32,7 +32,8 @@ from executive.interfaces.simulation import SimulatedHome
 from executive.types.llm import ChatRequest, Message
 from executive.types.outcome import Outcome
 from kb.llm.open import model_for_missions
-from sim.home.home import Home, load_home
+from sim.home.home import Home
+from sim.home.home_file import load_home
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,9 @@ from functools import cache
 from executive.errors import InputError
 from executive.types.home import Place
 from kb.ontology.ontology import Ontology
-from sim.home.home import Home, load_home
+from sim.home.home import Home
+from sim.home.home_file import load_home
+from sim.home.validation import with_placement
 from sim.objects.objects import load_objects
 
 SURVEYED = "four_rooms"
@@ -31,7 +33,7 @@ def drawn(home: Home, thing: str, seed: int) -> dict[str, str]:
     likely = likely or [p.name for p in pieces if p.kind in kinds] or [p.name for p in pieces]
     for place in random.Random(f"{seed} {thing}").sample(likely, len(likely)):
         try:
-            home.with_placement({thing: place})
+            with_placement(home, {thing: place})
         except InputError:
             continue
         return {thing: place}

@@ -8,7 +8,8 @@ from math import dist, inf
 import numpy as np
 
 from executive.geometry import Floats
-from sim.home.home import Home, load_home
+from sim.home.home import Home
+from sim.home.home_file import load_home
 from sim.navigation.grid import OccupancyGrid, Point, Reach, Unreachable
 
 

@@ -4,7 +4,9 @@ import math
 from typing import Any
 
 from executive.language.phrases import spoken
-from sim.home.home import DELIVERY, Furniture, Home
+from executive.types.home import DELIVERY
+from sim.home.furniture import Furniture
+from sim.home.home import Home
 
 
 def plan(home: Home) -> dict[str, Any]:

@@ -26,7 +26,9 @@ from kb.facts import FactStore
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
 from kb.ontology.owl import parsed
 from logs.recording.reader import Run
-from sim.home.home import Home, recorded_home
+from sim.home.home import Home
+from sim.home.home_file import recorded_home
+from sim.home.validation import with_placement
 
 T = TypeVar("T")
 
@@ -50,7 +52,7 @@ def recorded_parts(
         InputError: if the recording lacks one of them.
     """
     settings = _settings(run)
-    home = _home(kept(run, run.attachments, "home.toml")).with_placement(settings.place)
+    home = with_placement(_home(kept(run, run.attachments, "home.toml")), settings.place)
     body = recorded_body(run, settings, home)
     absent.several = body.views
     absent.ways = _ways(run)

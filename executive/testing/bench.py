@@ -33,7 +33,9 @@ from executive.user import Oracle, Scripted
 from kb.llm.scripted import Scripted as ScriptedModel
 from kb.ontology.ontology import Ontology
 from sim.fake import FakeCamera, FakeWorld
-from sim.home.home import Home, load_home
+from sim.home.home import Home
+from sim.home.home_file import load_home
+from sim.home.validation import with_placement
 from trees.context import NoFacts
 
 
@@ -142,7 +144,7 @@ def run_mission(
         fault=tuple(mishaps),
         seed=seed,
     )
-    home = four_rooms().with_placement(place or {})
+    home = with_placement(four_rooms(), place or {})
     knowledge = ontology(defaults)
     body = fake(Setup(settings, home, inbox, notebook, knowledge))
     world = body.truth

@@ -10,10 +10,11 @@ from executive.colors import Color
 from executive.geometry import carried_by
 from executive.records import Entity, Shape
 from executive.types.geometry import Pose, Vector3
+from executive.types.home import PERSON
 from sim.engine import BulletClient
 from sim.engine import pybullet as p
 from sim.home.furniture import box
-from sim.home.home import PERSON, Home
+from sim.home.home import Home
 from sim.objects.objects import ObjectModel
 
 MAP = "map"

@@ -13,9 +13,10 @@ from typing import ClassVar, Self
 
 from executive.errors import InputError
 from executive.types.geometry import Pose
+from executive.types.home import DELIVERY
 from sim.home.arrangement import NoRoomError
 from sim.home.floorplan import doors_between
-from sim.home.home import DELIVERY, Home
+from sim.home.home import Home
 
 JOINTS = ("lift", *(f"joint{i}" for i in range(1, 8)))
 """What can be stuck, in the order of `sim.body.hardware.ARM`."""

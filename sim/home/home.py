@@ -5,30 +5,20 @@ A home is a TOML file; `homes/four_rooms.toml` shows every key. Its frame is `ma
 
 import math
 from collections.abc import Mapping
-from functools import cache, lru_cache
-from importlib.resources import files
-from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr
 
 from executive.errors import InputError
-from executive.files import decoded, read_bytes
 from executive.geometry import heading
-from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml
 from executive.types.geometry import Pose, Vector3
-from executive.types.home import DELIVERY, PERSON, Place, Thing
+from executive.types.home import PERSON, Place, Thing
 from sim.home.arrangement import Spot, Standing, arrange
-from sim.home.floorplan import FARTHEST_M, Door, Length, Room, Wall, walls
-from sim.home.furniture import Furniture, PlanarPose, PoseInDegrees, Surface
-from sim.home.naming import usable
-from sim.home.own import Entry, OwnObject, is_declaration
-from sim.home.validation import home_flaws, mesh_flaws, object_flaws, spot_flaws
+from sim.home.floorplan import Door, Length, Room, Wall, walls
+from sim.home.furniture import Furniture, PlanarPose, PoseInDegrees
+from sim.home.own import Entry, OwnObject
 from sim.objects.objects import ObjectModel, load_objects
-
-__all__ = ["DELIVERY", "PERSON", "Furniture", "Home", "PlanarPose", "Surface", "load_home"]
 
 STAND_OFF_M = 0.62
 """From the front edge of a piece of furniture to the middle of the robot that uses it."""
@@ -37,10 +27,6 @@ TALKING_DISTANCE_M = 0.9
 FLOOR_VIEWS = 5
 """How many looks it takes to see the floor all around the robot."""
 FACE_HEIGHT_M = 1.55
-MOST_TOLD = 100
-"""So many things that are wrong are told of one file."""
-_SHOWN = 80
-"""So many characters of a value that is wrong are told."""
 VIEW_DEPTH_M = 0.17
 """Behind the front edge of a surface, where the camera looks."""
 VIEW_HEIGHT_M = 0.06
@@ -48,7 +34,7 @@ VIEW_HEIGHT_M = 0.06
 
 
 class Home(BaseModel):
-    """A home as its file describes it; made by `load_home`."""
+    """A home as its file describes it; `home_file` reads one."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
@@ -70,6 +56,22 @@ class Home(BaseModel):
     _file: str = PrivateAttr("")
     _left: frozenset[str] = PrivateAttr(frozenset())
     """Things that were left just where they are: so there is room for them."""
+
+    @classmethod
+    def from_file(cls, data: Any, file: str, folder: Path | None) -> Self:
+        """The home that a file describes.
+
+        Args:
+            data: what is in it.
+            file: what it is called in messages.
+            folder: where its meshes are; None: nowhere, and things look like their forms.
+
+        Raises:
+            ValidationError: if it has not the right form.
+        """
+        home = cls.model_validate(data)
+        home._folder, home._file = folder, file
+        return home
 
     @property
     def file(self) -> str:
@@ -196,21 +198,6 @@ class Home(BaseModel):
             for x, _, z in (surface.center,)
         )
 
-    def with_placement(self, placement: Mapping[str, str]) -> Self:
-        """This home with some objects on other furniture.
-
-        Raises:
-            InputError: if an object or a piece of furniture is unknown, or there is no room for it.
-        """
-        if not placement:
-            return self
-        nowhere = Spot(furniture="")
-        spots = {n: self.objects.get(n, nowhere).moved(place) for n, place in placement.items()}
-        home = self.model_copy(update={"objects": {**self.objects, **spots}})
-        for flaw in (*object_flaws(home), *spot_flaws(home)):
-            raise InputError("--place", *flaw)
-        return home
-
     def arrangement(self) -> dict[str, Standing]:
         """Where each object's frame is in the frame of its furniture at the start."""
         surfaces = {f.name: f.surfaces() for f in (*self.furniture, self.delivery)}
@@ -222,129 +209,3 @@ class Home(BaseModel):
         home = self.model_copy(update={"objects": {**self.objects, **moved}})
         home._left = self._left | spots.keys()
         return home
-
-
-def load_home(name_or_path: str) -> Home:
-    """Read a home: the name of a packaged one, or a TOML file.
-
-    Raises:
-        InputError: if there is no such home or something in it is wrong, naming file and key.
-    """
-    if name_or_path in packaged_homes():
-        return _packaged(name_or_path)
-    return _sound(*_read(name_or_path))
-
-
-@cache
-def _packaged(name: str) -> Home:
-    """What comes with the project stays as it is."""
-    return _sound(*_read(name))
-
-
-@lru_cache(maxsize=8)
-def _sound(content: bytes, where: str) -> Home:
-    """The home of a file; one that has not changed is the same home."""
-    home, faults = _inspect(content, where, Path(where).parent)
-    if home is None or faults:
-        raise faults[0]
-    return home
-
-
-def inspect_home(name_or_path: str) -> tuple[Home | None, tuple[InputError, ...]]:
-    """Read a home and all that is wrong in its file; no home if it does not have the right form.
-
-    Raises:
-        InputError: if there is no such home or it is not TOML.
-    """
-    content, where = _read(name_or_path)
-    return _inspect(content, where, Path(where).parent)
-
-
-def recorded_home(content: bytes) -> Home:
-    """The home of a recording, whose meshes may be elsewhere.
-
-    Raises:
-        InputError: if something in it is wrong.
-    """
-    home, faults = _inspect(content, "home.toml", None)
-    if home is None or faults:
-        raise faults[0]
-    return home
-
-
-def _inspect(
-    content: bytes, where: str, folder: Path | None
-) -> tuple[Home | None, tuple[InputError, ...]]:
-    data = {"name": usable(Path(where).stem), **parse_toml(content, where)}
-    try:
-        home = Home.model_validate(data)
-    except ValidationError as error:
-        found = islice(error.errors(include_url=False), MOST_TOLD)
-        return None, tuple(_input_error(where, data, fault) for fault in found)
-    home._folder, home._file = folder, where
-    flaws = list(islice(home_flaws(home), MOST_TOLD)) or list(islice(mesh_flaws(home), MOST_TOLD))
-    return home, tuple(InputError(where, *flaw) for flaw in flaws)
-
-
-def home_text(name_or_path: str) -> str:
-    """The file of a home, as `load_home` reads it.
-
-    Raises:
-        InputError: if there is no such home.
-    """
-    return decoded(*_read(name_or_path))
-
-
-def packaged_homes() -> tuple[str, ...]:
-    """Names of the homes that come with the project."""
-    return packaged("sim", "homes")
-
-
-def _read(name_or_path: str) -> tuple[bytes, str]:
-    """The file of a home, and what to call it in messages."""
-    known = f"packaged are {', '.join(packaged_homes())}"
-    if name_or_path.endswith(".toml"):
-        return read_bytes(Path(name_or_path), MOST_BYTES, right=known), name_or_path
-    if name_or_path in packaged_homes():
-        file = files("sim").joinpath("homes", f"{name_or_path}.toml")
-        return file.read_bytes(), file.name
-    known += "; or give the path of a .toml file"
-    raise InputError(f"home {name_or_path[:_SHOWN]}", "there is no home of this name", known)
-
-
-def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
-    """One of pydantic's complaints, with the key as the file has it."""
-    key = _key(data, fault["loc"])
-    example = "see sim/homes/four_rooms.toml"
-    match fault["loc"]:
-        case ("objects", name, _, *_) if is_declaration(data["objects"][name]):
-            example = "see docs/own-home.md"
-    if fault["type"] == "extra_forbidden":
-        return InputError(where, f"there is no key {key}", example)
-    if fault["type"] == "missing":
-        return InputError(where, f"{key} is missing", example)
-    return InputError(where, f"{key} is {_shown(fault['input'])}", _right(fault))
-
-
-def _key(data: Any, path: tuple[str | int, ...]) -> str:
-    """A path into the file as a person would put it: `furniture.desk.size.0`."""
-    words = []
-    for part in path:
-        try:
-            data = data[part]
-        except (KeyError, IndexError, TypeError):
-            data = None
-        name = data.get("name") if isinstance(part, int) and isinstance(data, dict) else None
-        words.append(str(part if name is None else name)[:_SHOWN])
-    return ".".join(words)
-
-
-def _right(fault: ErrorDetails) -> str:
-    said = in_words(fault["msg"].lower())
-    is_point = any(bound in (-FARTHEST_M, FARTHEST_M) for bound in fault.get("ctx", {}).values())
-    return f"{said} (metres)" if is_point else said
-
-
-def _shown(value: Any) -> str:
-    text = str(value).lower() if isinstance(value, bool) else repr(value)
-    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."

@@ -1,20 +1,17 @@
 """All that is wrong with a home that has the right form: names, plan, what stands where."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 from executive.errors import InputError
 from executive.types.home import DELIVERY
-from sim.home.arrangement import NoRoomError
+from sim.home.arrangement import NoRoomError, Spot
 from sim.home.floorplan import wall_axis, wall_lines
 from sim.home.furniture import FORM_OF_KIND
+from sim.home.home import Home
 from sim.home.naming import LONGEST, RULE, alike, folded, name_fault, taken_fault
 from sim.home.overlaps import overlapping
 from sim.objects.objects import load_objects
-
-if TYPE_CHECKING:
-    from sim.home.home import Home
 
 Flaw = tuple[str, str]
 """What is wrong, and what would be right."""
@@ -25,7 +22,23 @@ _SHOWN = 30
 """So many names are listed at most."""
 
 
-def home_flaws(home: "Home") -> Iterator[Flaw]:
+def with_placement(home: Home, placement: Mapping[str, str]) -> Home:
+    """A home with some objects on other furniture.
+
+    Raises:
+        InputError: if an object or a piece of furniture is unknown, or there is no room for it.
+    """
+    if not placement:
+        return home
+    nowhere = Spot(furniture="")
+    spots = {n: home.objects.get(n, nowhere).moved(place) for n, place in placement.items()}
+    placed = home.model_copy(update={"objects": {**home.objects, **spots}})
+    for flaw in (*object_flaws(placed), *spot_flaws(placed)):
+        raise InputError("--place", *flaw)
+    return placed
+
+
+def home_flaws(home: Home) -> Iterator[Flaw]:
     """All that is wrong; what follows only from an earlier flaw is left out."""
     unspeakable = list(_name_flaws(home))
     yield from unspeakable
@@ -40,7 +53,7 @@ def home_flaws(home: "Home") -> Iterator[Flaw]:
         yield from spot_flaws(home)
 
 
-def _name_flaws(home: "Home") -> Iterator[Flaw]:
+def _name_flaws(home: Home) -> Iterator[Flaw]:
     """Names and kinds that are none, as all else would be told by them."""
     pieces = (*home.furniture, home.delivery)
     named = [("home", "name", home.name)]
@@ -57,7 +70,7 @@ def _name_flaws(home: "Home") -> Iterator[Flaw]:
             yield f"{what} {_cut(name)}: its {key} {fault}", RULE
 
 
-def _room_flaws(home: "Home") -> Iterator[Flaw]:
+def _room_flaws(home: Home) -> Iterator[Flaw]:
     yield from _taken("room", [room.name for room in home.rooms])
     yield from _labels_taken("room", [r.label for r in home.rooms], [r.name for r in home.rooms])
     for room in home.rooms:
@@ -107,7 +120,7 @@ def _labels_taken(what: str, labels: Sequence[str], names: Sequence[str]) -> Ite
         yield from _taken(f"{what} that is called", called)
 
 
-def _furniture_flaws(home: "Home") -> Iterator[Flaw]:
+def _furniture_flaws(home: Home) -> Iterator[Flaw]:
     rooms = {room.name for room in home.rooms}
     spoken = {folded(room.kind): room.name for room in home.rooms}
     spoken |= {folded(name): name for name in rooms}
@@ -138,7 +151,7 @@ def _furniture_flaws(home: "Home") -> Iterator[Flaw]:
             yield f"{of}: nothing can stand on it", "give its boards"
 
 
-def _layout_flaws(home: "Home") -> Iterator[Flaw]:
+def _layout_flaws(home: Home) -> Iterator[Flaw]:
     for room, neighbour in combinations(home.rooms, 2):
         if room.overlaps(neighbour):
             yield f"room {room.name} and {neighbour.name} overlap", "let them share an edge at most"
@@ -154,7 +167,7 @@ def _layout_flaws(home: "Home") -> Iterator[Flaw]:
         yield f"furniture {names} overlap", "move one of them"
 
 
-def _own_flaws(home: "Home") -> Iterator[Flaw]:
+def _own_flaws(home: Home) -> Iterator[Flaw]:
     """Objects that the file declares under a name that something else has."""
     yield from _taken("object", list(home.own))
     called = {folded(room.name): f"room {room.name}" for room in home.rooms}
@@ -164,7 +177,7 @@ def _own_flaws(home: "Home") -> Iterator[Flaw]:
             yield f"object {name}: {other} is called the same", "give another name"
 
 
-def mesh_flaws(home: "Home") -> Iterator[Flaw]:
+def mesh_flaws(home: Home) -> Iterator[Flaw]:
     """Meshes that are not there, are elsewhere, or cannot be used."""
     for name in home.own:
         try:
@@ -174,7 +187,7 @@ def mesh_flaws(home: "Home") -> Iterator[Flaw]:
             yield f"objects.{name}.mesh: {where} {what}", right
 
 
-def object_flaws(home: "Home") -> Iterator[Flaw]:
+def object_flaws(home: Home) -> Iterator[Flaw]:
     """Objects that do not exist, or are on furniture that does not."""
     models = home.models()
     furniture = _surfaces_of(home)
@@ -187,7 +200,7 @@ def object_flaws(home: "Home") -> Iterator[Flaw]:
             yield what, f"furniture: {_some(furniture)}"
 
 
-def spot_flaws(home: "Home") -> Iterator[Flaw]:
+def spot_flaws(home: Home) -> Iterator[Flaw]:
     """Objects for which there is no room; those named otherwise are left out."""
     furniture, models = _surfaces_of(home), home.models()
     left = {n: s for n, s in home.objects.items() if n in models and s.furniture in furniture}
@@ -201,7 +214,7 @@ def spot_flaws(home: "Home") -> Iterator[Flaw]:
             return
 
 
-def _surfaces_of(home: "Home") -> dict[str, None]:
+def _surfaces_of(home: Home) -> dict[str, None]:
     """Names of all furniture that things can be on, in the file's order."""
     return dict.fromkeys([*(piece.name for piece in home.furniture), DELIVERY])
 

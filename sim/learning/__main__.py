@@ -26,9 +26,28 @@ from sim.learning.frames import SHARD, make_shards
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit status (0 done, 2 bad input, 130 stopped)."""
-    parser = Parser(prog="python -m sim.learning", description=__doc__)
-    commands = parser.add_subparsers(required=True, metavar="command")
-    frames = commands.add_parser("frames", help="render scenes drawn by chance")
+    options = parser().parse_args(arguments)
+    try:
+        options.run(options)
+    except KeyboardInterrupt:
+        print("\nstopped; the same command goes on from here", file=sys.stderr)
+        raise
+    return DONE
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = Parser(prog="python -m sim.learning", description=__doc__)
+    commands = p.add_subparsers(required=True, metavar="command")
+    _add_frames(commands.add_parser("frames", help="render scenes drawn by chance"))
+    _add_train(commands.add_parser("train", help="train on them (needs the train extra)"))
+    judged = commands.add_parser("evaluate", help="judge a detector in scenes that are new to it")
+    evaluation.add_options(judged)
+    judged.set_defaults(run=evaluation.evaluate)
+    return p
+
+
+def _add_frames(frames: argparse.ArgumentParser) -> None:
     frames.add_argument("folder", type=Path, help="where the shards go, or some are already")
     frames.add_argument("--frames", type=int, default=3000, metavar="N", help="default: 3000")
     frames.add_argument("--seed", type=int, default=0, help="of the first frame (default: 0)")
@@ -41,7 +60,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     frames.add_argument("--ycb", type=Path, metavar="DIR", help="scans to show instead of ours")
     frames.set_defaults(run=_frames)
-    train = commands.add_parser("train", help="train on them (needs the train extra)")
+
+
+def _add_train(train: argparse.ArgumentParser) -> None:
     train.add_argument("folder", type=Path, help="the frames")
     train.add_argument(
         "--out", type=Path, default=Path("detector.onnx"), help="default: %(default)s"
@@ -63,16 +84,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     train.add_argument("--seed", type=int, default=0)
     train.add_argument("--threads", type=int, help="default: one for each core")
     train.set_defaults(run=_train)
-    judged = commands.add_parser("evaluate", help="judge a detector in scenes that are new to it")
-    evaluation.add_options(judged)
-    judged.set_defaults(run=evaluation.evaluate)
-    options = parser.parse_args(arguments)
-    try:
-        options.run(options)
-    except KeyboardInterrupt:
-        print("\nstopped; the same command goes on from here", file=sys.stderr)
-        raise
-    return DONE
 
 
 def _frames(options: argparse.Namespace) -> None:

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from executive.geometry import Floats
-from sim.home.furniture import Surface
-from sim.home.home import Furniture
+from sim.home.furniture import Furniture, Surface
 
 CELL_M = 0.03
 _ABOVE_M = 0.01

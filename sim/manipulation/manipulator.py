@@ -21,8 +21,8 @@ from sim.body.base import CREEPING, drive
 from sim.body.hardware import FINGER_TRAVEL, FOLDED, Hardware
 from sim.body.head import look_at
 from sim.body.skill import CannotError, Skill, Thinker, attempt, pause, wait_until
-from sim.home.furniture import Surface
-from sim.home.home import Furniture, Home
+from sim.home.furniture import Furniture, Surface
+from sim.home.home import Home
 from sim.manipulation.clutter import over
 from sim.manipulation.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, grip_force, varied
 from sim.manipulation.hand import Hand, Held, LostError

@@ -8,8 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats, heading
 from executive.types.geometry import Pose
-from sim.home.furniture import OPEN, Surface
-from sim.home.home import Furniture
+from sim.home.furniture import OPEN, Furniture, Surface
 from sim.manipulation.clutter import level_points, rising_points
 from sim.objects.objects import ObjectModel
 

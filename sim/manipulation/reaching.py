@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from executive.geometry import Floats
-from sim.home.home import Furniture
+from sim.home.furniture import Furniture
 from sim.manipulation.grasps import HandPose
 from sim.manipulation.planning import CHECKED, PlanningWorld
 

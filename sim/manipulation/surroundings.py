@@ -8,7 +8,8 @@ from executive.geometry import Floats
 from sim.body.base import RADIUS_M
 from sim.body.hardware import Hardware
 from sim.body.skill import CannotError
-from sim.home.home import Furniture, Home
+from sim.home.furniture import Furniture
+from sim.home.home import Home
 from sim.manipulation.clutter import CELL_M, Column, columns
 from sim.manipulation.placing import FLAT_M
 from sim.manipulation.planning import PlanningWorld

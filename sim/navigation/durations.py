@@ -9,8 +9,10 @@ import threading
 import numpy as np
 
 from executive.geometry import Floats
+from executive.types.home import DELIVERY, PERSON
 from sim.body.base import FREE, Limits, fastest
-from sim.home.home import DELIVERY, PERSON, Home, PlanarPose
+from sim.home.furniture import PlanarPose
+from sim.home.home import Home
 from sim.navigation.grid import OccupancyGrid, Point, ways
 
 STEP_M = 0.02

@@ -9,7 +9,7 @@ from sim.body.base import BlockedError, Limits, drive
 from sim.body.hardware import Hardware
 from sim.body.laser import Laser
 from sim.body.skill import Skill, Thinker, pause
-from sim.home.home import PlanarPose
+from sim.home.furniture import PlanarPose
 from sim.navigation.costmap import Costmap
 from sim.navigation.grid import OccupancyGrid, Point, Unreachable, plan
 

@@ -12,7 +12,8 @@ from executive.types.goals import DriveTo, Goal, LookAt
 from executive.types.home import FLOOR, PERSON
 from sim.fake import EYE_HEIGHT_M, SPEED_M_S, FakeRobot, FakeWorld
 from sim.goals import AnyGoal, Face, GoTo, Grip, MoveHand, MoveJoints
-from sim.home.home import Home, PlanarPose
+from sim.home.furniture import PlanarPose
+from sim.home.home import Home
 
 if TYPE_CHECKING:  # it takes long to import, and the instant world does without
     from sim.world import PhysicsWorld

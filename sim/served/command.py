@@ -45,7 +45,8 @@ def add_serving(commands: "argparse._SubParsersAction[Any]") -> None:
 
 
 def _serve(options: argparse.Namespace) -> int:
-    from sim.home.home import load_home  # both take long, and are not for help
+    from sim.home.home_file import load_home  # all of this takes long, and is not for help
+    from sim.home.validation import with_placement
     from sim.served.serving import Plan, build
 
     if not 0 <= options.port < 2**16:
@@ -58,7 +59,7 @@ def _serve(options: argparse.Namespace) -> int:
         raise InputError(f"--seed {options.seed}", "is negative")
     if options.arm == MOVEIT and options.world != "physics":
         raise InputError(f"--arm {MOVEIT}", "the instant world has no arm", "leave out --world")
-    home = load_home(options.home).with_placement(options.place or {})
+    home = with_placement(load_home(options.home), options.place or {})
     plan = Plan(
         home,
         world=options.world,

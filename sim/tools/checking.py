@@ -7,9 +7,11 @@ from math import dist
 import numpy as np
 
 from executive.errors import InputError
+from executive.types.home import DELIVERY, PERSON
 from sim.body.hardware import FOLDED
 from sim.home.furniture import Furniture
-from sim.home.home import DELIVERY, PERSON, Home, inspect_home
+from sim.home.home import Home
+from sim.home.home_file import inspect_home
 from sim.home.validation import Flaw
 from sim.manipulation.grasps import TILTS, Grasp, find_grasps
 from sim.manipulation.manipulator import APPROACH_M

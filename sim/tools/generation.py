@@ -14,8 +14,9 @@ from typing import Any
 import tomli_w
 
 from executive.errors import InputError
+from executive.types.home import DELIVERY
 from sim.home.arrangement import NoRoomError, Spot, arrange
-from sim.home.home import DELIVERY, STAND_OFF_M, Home
+from sim.home.home import STAND_OFF_M, Home
 from sim.home.validation import home_flaws
 from sim.navigation.grid import FOOTPRINT_M
 from sim.objects.objects import load_objects, rooms_of_objects

@@ -19,7 +19,8 @@ from executive.events import Inbox
 from executive.records import Record
 from sim.body.base import FREE
 from sim.body.skill import Skill
-from sim.home.home import Home, load_home
+from sim.home.home import Home
+from sim.home.home_file import load_home
 from sim.navigation.grid import OccupancyGrid, Unreachable, reachable
 from sim.objects.objects import load_objects
 from sim.tools.generation import generate_home

@@ -24,7 +24,8 @@ from executive.records import Record
 from executive.types.goals import DriveTo, Goal, LookAt, Pick, PutDown
 from executive.types.perception import Detection
 from executive.types.results import Failed, Result
-from sim.home.home import load_home
+from sim.home.home_file import load_home
+from sim.home.validation import with_placement
 from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 
@@ -46,7 +47,7 @@ class Handler:
 
     def __init__(self, thing: str, place: str, seed: int) -> None:
         """Build the world."""
-        home = HOME.with_placement({thing: place})
+        home = with_placement(HOME, {thing: place})
         home = home.model_copy(update={"robot_start": home.stand(place)})
         self.thing, self.place, self._inbox = thing, place, Inbox()
         self.world = PhysicsWorld(
@@ -126,7 +127,7 @@ def trials(seeds: int) -> Iterator[Row]:
 
 def _fits(thing: str, place: str) -> bool:
     try:
-        HOME.with_placement({thing: place})
+        with_placement(HOME, {thing: place})
     except InputError:
         return False
     return True

@@ -26,7 +26,7 @@ from executive.page.page import Page
 from executive.page.plan import plan
 from executive.records import PlannedPath
 from logs.recorder import FanOut
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 
 APPEARED = """() => {
   window.appeared = [];

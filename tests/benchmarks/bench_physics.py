@@ -10,7 +10,7 @@ from executive.events import Inbox
 from executive.perception.pipeline import locate
 from executive.records import Record
 from executive.types.goals import DriveTo, Goal, LookAt, Pick, PutDown
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 from sim.objects.objects import load_objects
 from sim.world import PhysicsWorld
 

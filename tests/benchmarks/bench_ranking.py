@@ -26,7 +26,7 @@ from kb.advice.ranker import Ranker
 from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.options import ModelOptions
 from kb.ontology.ontology import Ontology
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 
 Ask = Callable[[str], int]
 """From an object to the request that asks for its places."""

@@ -21,7 +21,7 @@ from sim.bullet.bodies import build_home, create_body
 from sim.bullet.camera import pinhole, render
 from sim.bullet.client import connect
 from sim.engine import BulletClient
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 from sim.objects.objects import ObjectModel, load_objects
 from sim.objects.ycb import with_scans
 

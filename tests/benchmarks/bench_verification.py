@@ -30,7 +30,7 @@ from kb.llm.llama import LlamaCpp, embedded_model
 from kb.llm.options import ModelOptions
 from kb.llm.scripted import Scripted
 from kb.ontology.ontology import Ontology
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 

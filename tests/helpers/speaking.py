@@ -31,6 +31,6 @@ def four_rooms() -> Vocabulary:
     from executive.app.building import read_ontology
     from executive.app.speaking import vocabulary
     from executive.config import Settings
-    from sim.home.home import load_home
+    from sim.home.home_file import load_home
 
     return vocabulary(read_ontology(Settings(), load_home("four_rooms")))

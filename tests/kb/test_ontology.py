@@ -19,7 +19,7 @@ from executive.types.home import Place
 from kb.__main__ import main
 from kb.ontology.names import PlaceNames
 from kb.ontology.ontology import DEFAULTS, HOUSEHOLD, Ontology
-from sim.home.home import home_text
+from sim.home.home_file import home_text
 
 PAPERS_OBJECTS = [
     *("adjustable_wrench", "apple", "banana", "bleach_cleanser", "colored_wood_blocks"),

@@ -22,7 +22,7 @@ from kb.llm.options import ModelOptions
 from kb.llm.server import asking
 from kb.llm.server.server import Server
 from kb.ontology.ontology import Ontology
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 
 pytestmark = pytest.mark.llm
 

@@ -12,7 +12,7 @@ from executive.testing.bench import Notebook
 from executive.types.goals import DriveTo, Goal, LookAt
 from executive.types.perception import Detection, Frame
 from executive.types.results import Succeeded
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 from sim.learning.frames import class_names
 from sim.manipulation.registration import fit_pose
 from sim.objects.objects import load_objects

@@ -20,7 +20,7 @@ from sim.bullet.camera import (
     render,
 )
 from sim.bullet.client import connect
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 from sim.objects.objects import load_objects
 
 pytestmark = pytest.mark.physics

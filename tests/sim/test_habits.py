@@ -7,7 +7,7 @@ from executive.errors import InputError
 from executive.events import Inbox
 from executive.testing.bench import Notebook, four_rooms
 from sim.home.habits import DAY_S, Habits, Move, load_habits, moves, packaged_habits, pieces_of
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 from sim.objects.objects import load_objects
 from sim.tools.generation import generate_home
 from sim.world import PhysicsWorld

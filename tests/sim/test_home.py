@@ -5,8 +5,11 @@ import pytest
 from written_homes import FLAT
 
 from executive.errors import InputError
+from executive.types.home import DELIVERY, PERSON
 from sim.bullet.bodies import home_entities
-from sim.home.home import DELIVERY, PERSON, STAND_OFF_M, Home, load_home
+from sim.home.home import STAND_OFF_M, Home
+from sim.home.home_file import load_home
+from sim.home.validation import with_placement
 from sim.objects.objects import load_objects
 
 PAPER_COMMANDS = {
@@ -103,7 +106,7 @@ def test_every_thing_that_is_taken_from_above_fits_into_the_hand_across_its_midd
 
 
 def test_placement_can_be_changed_and_the_first_home_stays_as_it_was(four_rooms):
-    moved = four_rooms.with_placement({"mug": "bed"})
+    moved = with_placement(four_rooms, {"mug": "bed"})
     assert moved.placement["mug"] == "bed"
     assert moved.object_pose("mug").position[2] == pytest.approx(0.5)
     assert four_rooms.placement["mug"] == "coffee_table"
@@ -119,7 +122,7 @@ def test_an_exact_spot_is_kept(load):
 
 def test_what_does_not_fit_on_the_top_goes_on_a_board(four_rooms):
     names = ("power_drill", "cracker_box", "pitcher_base", "mustard_bottle", "bleach_cleanser")
-    crowded = four_rooms.with_placement(dict.fromkeys(names, "sideboard"))
+    crowded = with_placement(four_rooms, dict.fromkeys(names, "sideboard"))
     heights = {crowded.object_pose(name).position[2] for name in names}
     assert heights == {0.80, 0.46}
 
@@ -241,7 +244,7 @@ def test_a_missing_home_file_names_the_packaged_ones():
 )
 def test_a_wrong_placement_is_named(four_rooms, placement: dict[str, str], sentence: str):
     with pytest.raises(InputError, match=f"--place: .*{sentence}"):
-        four_rooms.with_placement(placement)
+        with_placement(four_rooms, placement)
 
 
 def test_all_poses_at_once_are_those_of_each(four_rooms):

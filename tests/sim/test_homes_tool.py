@@ -14,7 +14,8 @@ from executive.types.home import Place
 from kb.ontology.ontology import Ontology
 from sim.__main__ import main
 from sim.home.furniture import FORM_OF_KIND
-from sim.home.home import Home, load_home
+from sim.home.home import Home
+from sim.home.home_file import load_home
 from sim.home.validation import home_flaws
 from sim.objects.objects import load_objects
 from sim.tools.checking import check_home, way_faults

@@ -11,6 +11,7 @@ from executive.types.goals import DriveTo, Pick, PutDown
 from executive.types.perception import Detection
 from executive.types.results import Failed, Succeeded
 from sim.body.skill import CannotError, Skill
+from sim.home.validation import with_placement
 from sim.manipulation.clutter import CELL_M, Column
 from sim.manipulation.grasps import WIDEST, HandPose, find_grasps, varied
 from sim.manipulation.placing import free_spots
@@ -80,7 +81,7 @@ def test_what_was_taken_away_meanwhile_is_not_held(kitchen: Kitchen) -> None:
     ],
 )
 def test_what_lies_under_a_board_is_taken_as_believed_and_put_down(name: str, place: str) -> None:
-    bench = Kitchen(home_before(place).with_placement({name: place}), place)
+    bench = Kitchen(with_placement(home_before(place), {name: place}), place)
     assert bench.do(DriveTo(place)) == Succeeded()
     assert bench.do(Pick(bench.detection_of(name, view=1))) == Succeeded()
     assert off_in_hand(bench.world, name) < 0.02
@@ -93,7 +94,7 @@ def test_what_lies_under_a_board_is_taken_as_believed_and_put_down(name: str, pl
     ("name", "place"), [("tomato_soup_can", "cabinet_kitchen"), ("banana", "shelf_lobby")]
 )
 def test_what_was_turned_or_passed_an_edge_in_the_hand_is_put_down(name: str, place: str) -> None:
-    bench = Kitchen(home_before(place).with_placement({name: place}), place)
+    bench = Kitchen(with_placement(home_before(place), {name: place}), place)
     assert bench.do(DriveTo(place)) == Succeeded()
     assert bench.do(Pick(bench.detection_of(name))) == Succeeded()
     assert bench.do(PutDown(place)) == Succeeded()
@@ -120,7 +121,7 @@ def test_every_way_to_a_spot_brings_the_thing_there_as_it_shall_stand(kitchen: K
 
 
 def test_what_is_taken_off_its_middle_does_not_turn_in_the_fingers() -> None:
-    home = home_before("refrigerator").with_placement({"scissors": "refrigerator"})
+    home = with_placement(home_before("refrigerator"), {"scissors": "refrigerator"})
     bench = Kitchen(home, "refrigerator", seed=2)
     assert bench.do(DriveTo("refrigerator")) == Succeeded()
     assert bench.do(Pick(bench.detection_of("scissors"))) == Succeeded()

@@ -4,7 +4,9 @@ from itertools import pairwise, permutations
 import numpy as np
 import pytest
 
-from sim.home.home import DELIVERY, PERSON, Home, load_home
+from executive.types.home import DELIVERY, PERSON
+from sim.home.home import Home
+from sim.home.home_file import load_home
 from sim.navigation.grid import FOOTPRINT_M, OccupancyGrid, Unreachable, plan
 
 HOME = load_home("four_rooms")

@@ -9,7 +9,9 @@ from written_homes import FLAT
 from executive.errors import InputError
 from sim.bullet.bodies import home_entities
 from sim.faults.orders import Moved, parse_faults
-from sim.home.home import Home, inspect_home, load_home, recorded_home
+from sim.home.home import Home
+from sim.home.home_file import inspect_home, load_home, recorded_home
+from sim.home.validation import with_placement
 from sim.manipulation.grasps import WIDEST
 from sim.objects.objects import OPENING_M, load_objects, why_not_taken
 from sim.tools.checking import check_home, notes_on
@@ -78,7 +80,7 @@ def test_it_may_be_a_box_or_a_sphere_and_of_no_colour(write, form: str, size) ->
 
 def test_it_stands_on_its_furniture_and_may_be_placed_elsewhere(home: Home) -> None:
     assert home.object_pose("teapot").position[2] == pytest.approx(0.7)
-    moved = home.with_placement({"teapot": "rack"})
+    moved = with_placement(home, {"teapot": "rack"})
     assert moved.placement["teapot"] == "rack"
     assert moved.models()["teapot"] == home.models()["teapot"]
 
@@ -86,7 +88,7 @@ def test_it_stands_on_its_furniture_and_may_be_placed_elsewhere(home: Home) -> N
 def test_someone_may_move_it_by_order(home: Home) -> None:
     (fault,) = parse_faults(["moved=teapot:rack@1"], home)
     assert isinstance(fault, Moved)
-    assert fault.pose(home) == home.with_placement({"teapot": "rack"}).object_pose("teapot")
+    assert fault.pose(home) == with_placement(home, {"teapot": "rack"}).object_pose("teapot")
 
 
 def test_one_line_is_enough_and_says_where_on_the_furniture_too(write) -> None:

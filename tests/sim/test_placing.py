@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from executive.geometry import Floats
 from executive.types.geometry import Pose
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 from sim.manipulation.placing import RIM_M, TIGHT_M, free_spots, stands
 from sim.manipulation.registration import fit_fallen_pose
 from sim.objects.objects import load_objects

@@ -20,7 +20,7 @@ from executive.text import printable
 from executive.types.home import Place
 from kb.ontology.names import PlaceNames
 from sim.__main__ import main
-from sim.home.home import MOST_TOLD, home_text, inspect_home, load_home
+from sim.home.home_file import MOST_TOLD, home_text, inspect_home, load_home
 from sim.home.naming import name_fault, taken_fault, usable
 from sim.home.overlaps import overlapping
 from sim.tools.checking import way_faults

@@ -28,7 +28,7 @@ from kb.facts import Fact, FactStore
 from kb.llm.open import model_for_missions
 from logs.recorder import Stamp
 from sim.home.arrangement import Spot
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 from sim.home.state import HomeState, read_state, write_state
 
 BEGIN_S = 4_102_704_000.0

@@ -12,7 +12,7 @@ from executive.campaign.weeks.report import write_report
 from executive.errors import InputError
 from executive.shell import DONE, STOPPED
 from sim.home.habits import load_habits
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 
 POLICIES = ("plan", "paper", "nearest", "memory")
 """Which are compared if none is named."""

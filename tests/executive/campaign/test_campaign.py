@@ -23,7 +23,7 @@ from executive.config import KnowledgeSystem, load_settings
 from executive.events import Inbox
 from executive.types.outcome import Outcome
 from kb.llm.scripted import Scripted
-from sim.home.home import home_text
+from sim.home.home_file import home_text
 from sim.tools.generation import generate_home
 
 pytestmark = pytest.mark.usefixtures("no_plots")

@@ -32,7 +32,9 @@ from executive.types.outcome import MissionStatus, Outcome
 from logs.recording.reader import Run
 from sim.faults.orders import parse_faults
 from sim.home.floorplan import doors_between
-from sim.home.home import Home, load_home
+from sim.home.home import Home
+from sim.home.home_file import load_home
+from sim.home.validation import with_placement
 from sim.tools.generation import generate_home
 from soaking.chaos import Chaos, ChaosEyes, ChaosModel, ChaosRobot, ChaosSink
 from soaking.claims import Names, Notes, Witness, false_searches, looked_at, ticked_after_stop
@@ -127,7 +129,7 @@ class Soak:
             defaults=chance.random() < 0.5,
             elicit=chance.choice(("rank", "generate")),
             learn=chance.random() < 0.8,
-            fault=tuple(faults(chance, home.with_placement(placement), INSTANT)),
+            fault=tuple(faults(chance, with_placement(home, placement), INSTANT)),
             place=placement,
             action_timeout_s=chance.choice((1.0, 5.0, 120.0, 120.0)),
             answer_timeout_s=chance.choice((5.0, 120.0)),
@@ -352,7 +354,7 @@ def _placement(chance: random.Random, home: Home) -> dict[str, str]:
     for name in chance.sample(sorted(home.objects), 3):
         trial = {**placed, name: chance.choice(places)}
         with contextlib.suppress(InputError):
-            home.with_placement(trial).arrangement()
+            with_placement(home, trial).arrangement()
             placed = trial
     return placed
 

@@ -11,7 +11,7 @@ import numpy as np
 from executive.config import KnowledgeSystem, Settings
 from executive.events import StopRequested
 from sim.body.skill import CONTROL_S
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 from sim.world import PhysicsWorld
 from soaking.case import INSTANT, Soak, faults, watchdog
 from soaking.chaos import Chaos

@@ -22,6 +22,7 @@ from executive.testing.bench import four_rooms
 from executive.types.geometry import Pose, Vector3
 from sim.__main__ import main as sim
 from sim.goals import Face, Grip, MoveHand, MoveJoints
+from sim.home.validation import with_placement
 from sim.served.offered import ARM, GRIPPER, MOTIONS
 from sim.served.requests import Reader
 from sim.served.simulation import Simulation
@@ -144,7 +145,7 @@ def test_the_instant_world_has_no_arm_to_move(capsys: pytest.CaptureFixture[str]
 
 @pytest.fixture(scope="module")
 def robot() -> Iterator[Simulation]:
-    home = four_rooms().with_placement({"sugar_box": "coffee_table"})
+    home = with_placement(four_rooms(), {"sugar_box": "coffee_table"})
     with served(world="physics", arm="moveit", home=home) as simulation:
         yield simulation
 

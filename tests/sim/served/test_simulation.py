@@ -15,6 +15,7 @@ from served import Raw, look_goal, pick_goal, place_goal, pose_goal, served
 
 from executive.errors import InputError
 from executive.testing.bench import four_rooms
+from sim.home.validation import with_placement
 from sim.served.bodies import drive
 from sim.served.offered import GRAPH
 from sim.served.serving import Plan, build
@@ -70,7 +71,7 @@ def test_any_other_pose_is_driven_to_as_well() -> None:
 
 
 def test_a_thing_is_picked_up_and_put_down_elsewhere() -> None:
-    home = four_rooms().with_placement({"mug": "coffee_table"})
+    home = with_placement(four_rooms(), {"mug": "coffee_table"})
     with served(home=home) as robot, Raw(robot) as client:
         assert client.subscribe("/hand/holding") == {"data": False}
         for place, action, goal in (
