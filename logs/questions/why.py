@@ -29,6 +29,7 @@ from executive.records import (
 )
 from executive.situation import TAKEN_BACK
 from executive.text import printable
+from executive.types.knowledge import Candidate
 from executive.types.results import Scored
 from logs.questions.interventions import EXPERIMENTER, done
 from logs.recording.reader import At, Run
