@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
 
+from executive.language.anew import number_alone
 from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
 from executive.language.folding import of_several
@@ -34,7 +35,15 @@ from executive.types import Command, CommandKind, Commands
 from trees.context import MissionContext
 from trees.taken_back import is_about, refused
 from trees.telling import in_one_breath
-from trees.wishes import added, done_first, named_in, objects_of, replaced
+from trees.wishes import (
+    added,
+    done_first,
+    named_in,
+    objects_of,
+    only_so_many,
+    replaced,
+    waiting_first,
+)
 
 _FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
 
@@ -62,8 +71,11 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
     said = context.interpreter.read(words)
     spoken = _of_all_spoken(context.situation, said)
     correction = as_correction(said)
-    if isinstance(said, Answer) and said.where and not said.told and _goes_somewhere(at_hand):
-        correction = Correction(place=said.where[0])  # "on the sofa": where to, and not where it is
+    match said:
+        case Answer(things=None, where=[place, *_], told=False) if _goes_somewhere(at_hand):
+            correction = Correction(place=place)  # "on the sofa": where to, and not where it is
+        case Answer(things=Things() as things, first=True) if at_hand:
+            return _first(context, things, at_hand, words, now)
     if isinstance(said, Answer):
         said = correction or resolved(said, spoken)  # "it is on the sofa"
     if said == Answer(Choice.YES):
@@ -167,17 +179,41 @@ def _reply(context: MissionContext, said: Question | Statement | Request, now: s
     return answer
 
 
-def correct(context: MissionContext, said: Correction, words: str, now: str) -> str:
+def correct(
+    context: MissionContext, said: Correction, words: str, now: str, instead: str = " instead"
+) -> str:
     """Do this instead of the task at hand, or beside it."""
     at_hand = context.situation.agenda.whole_of(context.situation.request.command)
     assert at_hand
     spoken = _of_all_spoken(context.situation, said.meant)
     if changed := _correct_later(context, said, at_hand, words):
         return changed
+    if said.left_out:
+        return _less(context, said, at_hand, words, now)
     commands = corrected(with_names(said, spoken), at_hand, words)
     if said.adds or not isinstance(commands, tuple):
         return added(context, commands, now)
-    return replaced(context, (*commands, *_likewise(context, said, at_hand, commands, words)))
+    commands = (*commands, *_likewise(context, said, at_hand, commands, words))
+    return replaced(context, commands, instead)
+
+
+def _less(context: MissionContext, said: Correction, at_hand: Command, words: str, now: str) -> str:
+    """Do it so, but for what is not meant: "to the desk, but not the pear"."""
+    agenda, left_out = context.situation.agenda, " and ".join(but.words for but in said.left_out)
+    without = refused(context, left_out, at_hand)
+    if not without:
+        return f"{context.interpreter.not_understood(words)}. {now}"
+    rest = replace(said, left_out=())
+    if agenda.taken_back:
+        agenda.go_on_with(others := _likewise(context, rest, at_hand, (), words))
+        others_so = in_one_breath(context, chain.from_iterable(others))
+        return f"{without} All right: I {others_so}." if others else without
+    among = tuple(sorted(named_in(context, left_out) & objects_of(context, at_hand)))
+    narrower = replace(at_hand, exceptions=(*at_hand.exceptions, *among))
+    commands = corrected(rest, narrower, words)
+    if isinstance(commands, str):
+        return f"{without} {commands}"
+    return replaced(context, (*commands, *_likewise(context, rest, narrower, commands, words)))
 
 
 def _likewise(
@@ -285,12 +321,22 @@ def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) 
     return replace(at_hand, conditional=True, source=source, sought=sought, unless=command.unless)
 
 
+def _first(context: MissionContext, things: Things, at_hand: Command, words: str, now: str) -> str:
+    """Do what is named before all else: what waits, or the deed at hand with it."""
+    if said := waiting_first(context, things, at_hand, now):
+        return said
+    commands = corrected(Correction(things), at_hand, words)
+    return commands if isinstance(commands, str) else done_first(context, commands, at_hand)
+
+
 def _only(context: MissionContext, things: Things, words: str, at_hand: Command) -> str:
     """Do what is named, and nothing else that was to be done; or do it instead of all of that."""
     agenda = context.situation.agenda
     named = named_in(context, " or ".join(thing.words for thing in things.members))
     if not named:
-        return f"{context.interpreter.not_understood(words)}."
+        number = number_alone(things)
+        fewer = only_so_many(context, number, at_hand) if number else ""
+        return fewer or f"{context.interpreter.not_understood(words)}."
     whole = agenda.whole_tasks
     waiting = [task for task in whole if named & objects_of(context, task.command)]
     wishes = [task.command for task in waiting]

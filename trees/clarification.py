@@ -107,7 +107,7 @@ class AskWhichObject(Ask):
         """One object is enough; several narrow the next question down."""
         options, find = self.situation.request.options, self.context.knowledge.objects_named
         said = self.context.interpreter.read(answer)
-        if self._names_others_too(said) or self._to_another_place(said):
+        if self._names_others_too(said) or self._to_another_place(said) or _from_where(said):
             return False
         if chosen := picked(said, self.question().options):
             meant = tuple(one for name in chosen for one in find(name))
@@ -137,6 +137,10 @@ class AskWhichObject(Ask):
             assert isinstance(said, Request)
             now = f"I {self.doing()}."
             tell(self.context, correct(self.context, Correction(said), words, now))
+            return True
+        if there := _from_where(said):
+            now = f"I {self.doing()}."
+            tell(self.context, correct(self.context, there, words, now, instead=""))
             return True
         nearest = isinstance(said, Answer) and said.choice == Choice.NEAREST
         several = request.options if nearest else self._several(said)
@@ -222,3 +226,11 @@ class AskWhichObject(Ask):
         if self._all_left_out():
             return f"I know no other {target}"
         return unresolved(self.context, target, nearest(self.context, target))
+
+
+def _from_where(said: Said) -> Correction | None:
+    """An answer that says where the thing is, too: "the pear from the sofa"."""
+    match said:
+        case Answer(things=Things() as things, where=[source]):
+            return Correction(things, source=source)
+    return None

@@ -48,6 +48,8 @@ class Where:
 
 ME = Where("me")
 """The person who speaks."""
+THERE = ("there", "over there")
+"""Words for a place that was spoken of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +90,8 @@ class Things:
     members: tuple[Thing, ...]
     one_of: bool = False
     number: int = 1
+    in_order: bool = False
+    """Whether the words say that this is the order: "the mug, then the pear"."""
 
     @property
     def exceptions(self) -> tuple[Thing, ...]:
@@ -146,8 +150,6 @@ class Request:
     """Tasks, in the order in which they were said."""
 
     tasks: tuple[Task, ...]
-    in_order: bool = False
-    """Whether the words say that this is the order: "first ..., then ..."."""
     too: bool = False
     """Whether it comes on top of what was asked for before: "..., too"."""
     first: bool = False
@@ -177,6 +179,10 @@ class Unable:
 
     verb: str
     rest: str = ""
+    instead: str = field(default="", compare=False)
+    """What can be done with things instead, as a clause; empty if nothing can."""
+    more: bool = field(default=False, compare=False)
+    """Whether something else is to be done, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,6 +200,7 @@ class Correction:
         source: where it is instead: "no, from the desk".
         goal: where it is to go instead: "no, to the kitchen".
         place: one of these two: "no, in the kitchen".
+        left_out: what of it is not meant: "to the desk, but not the pear".
         adds: whether what was meant before still is.
         denies: whether it begins with a no.
     """
@@ -203,6 +210,7 @@ class Correction:
     source: Where | None = None
     goal: Where | None = None
     place: Where | None = None
+    left_out: tuple[Thing, ...] = ()
     adds: bool = False
     denies: bool = False
 
@@ -269,6 +277,8 @@ class Answer:
     where: tuple[Where, ...] = ()
     told: bool = field(default=False, compare=False)
     """Of a place, whether it is said as a statement is: "it is on the sofa"."""
+    first: bool = False
+    """Whether it is wanted before others: "the mug first"."""
 
 
 class Courtesy(StrEnum):

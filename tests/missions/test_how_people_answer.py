@@ -71,3 +71,10 @@ def test_an_answer_may_be_sloppy(answer: str) -> None:
 def test_nothing_is_put_on_the_floor() -> None:
     run = run_mission("Put the mug on the floor", answers=["on the desk"], llm=False, search="plan")
     assert run.user.asked[0].text == "I put nothing on the floor. Where shall I put the mug?"
+
+
+def test_an_answer_may_say_where_the_thing_is() -> None:
+    run = run_mission(
+        "Bring a fruit", answers=["the pear from the sofa"], llm=False, place={"pear": "sofa"}
+    )
+    assert (moved(run), run.outcome.visited) == ({"pear"}, ("sofa",))
