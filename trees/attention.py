@@ -14,6 +14,7 @@ from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
 from executive.language.folding import of_several
 from executive.language.meaning import (
+    ME,
     Answer,
     Choice,
     Correction,
@@ -28,6 +29,7 @@ from executive.language.meaning import (
 from executive.language.placed import placed
 from executive.language.pronouns import resolved, with_names
 from executive.language.spoken import Spoken
+from executive.language.wording import either
 from executive.replies import Standing, about, reply
 from executive.situation import Situation
 from executive.text import too_long
@@ -49,7 +51,7 @@ _FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
 
 _TELLS = re.compile(
     r"^\W*(?:what|why|how|where|who|when|is|are)\b"
-    r"|\b(?:it|that|this|they) (?:is|was|are|were|has|does|did|looks|seems)\b"
+    r"|\b(?:it|that|this|they) (?:is|was|are|were|has|does|did|looks|seems)(?:n['’]?t)?\b"
     r"(?!.*\b(?:need|want|necessary|bother|matter))",
     re.I,
 )
@@ -87,15 +89,16 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         if at_hand and _denies_goal(context, words, at_hand):
             agenda.replace(replace(at_hand, goal=""))
             return "Then not there."
+        beside = _beside(context, words, at_hand)
         answer = "" if _TELLS.search(words) else refused(context, words, at_hand)
-        return answer or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
+        return f"{answer}{beside}" if answer else f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
         case Courtesy():
             return context.interpreter.talk(words)
         case Question() | Statement():
             return _reply(context, said, now) or context.interpreter.talk(words)
         case Refusal() if answer := refused(context, said.words, at_hand):
-            return answer
+            return answer + _beside(context, said.words.partition(" but ")[2], at_hand)
         case Refusal() if said.words and not named_in(context, said.words):
             if _FORGETS.search(words) and (all_of_it := refused(context, "everything", at_hand)):
                 return all_of_it  # what nobody knows may be all that is to be done
@@ -109,7 +112,7 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
             if at_hand and isinstance(commands, tuple):
                 if fails := _if_it_fails(context, commands, at_hand):
                     return replaced(context, ((fails,),))
-                if _in_its_stead(context, said, at_hand):
+                if _in_its_stead(context, said, at_hand) or _lets_go(context, commands):
                     return replaced(context, commands)
                 if said.first:
                     return done_first(context, commands, at_hand)
@@ -118,6 +121,16 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         return correct(context, correction, words, now)
     why_not = context.interpreter.remark(words)
     return why_not or f"{context.interpreter.not_understood(words)}. {now}"
+
+
+def _beside(context: MissionContext, words: str, at_hand: Command | None) -> str:
+    """What words name that none of the tasks is about, as one more sentence; empty if nothing."""
+    tasks = [at_hand] if at_hand else []
+    tasks += [task.command for task in context.situation.agenda.tasks]
+    about = {name for one in tasks for name in objects_of(context, one)}
+    others = sorted(named_in(context, words) - about)
+    rest = either([context.say.the(name) for name in others])
+    return f" What is to be done with {rest} I do not understand." if rest else ""
 
 
 def _denies_goal(context: MissionContext, words: str, at_hand: Command) -> bool:
@@ -153,6 +166,14 @@ def _of_all_spoken(situation: Situation, said: object) -> Spoken:
     waiting = (task.command for task in situation.agenda.whole_tasks)
     others = [one.target for one in waiting if one.words == at_hand.words]
     return replace(spoken, things=(*spoken.things, *others))
+
+
+def _lets_go(context: MissionContext, commands: Commands) -> bool:
+    """Whether what is in the hand is to be put down: now, and not when it is there."""
+    match commands:
+        case [[Command(kind=CommandKind.PUT_DOWN)]]:
+            return context.situation.hand.in_hand is not None
+    return False
 
 
 def _in_its_stead(context: MissionContext, said: Request, at_hand: Command) -> bool:
@@ -233,17 +254,18 @@ def _likewise(
     only_these = len(asked_anew) > 1 and things <= wanted  # "no, the mug and the pear", of three
     for task in whole:
         command = task.command
+        asked_again = set() < objects_of(context, command) <= things
         alike = (command.words, command.kind, command.goal)
         if said.meant is None and alike == (at_hand.words, at_hand.kind, at_hand.goal):
             if isinstance(others := corrected(said, command, words), tuple):
                 agenda.tasks.remove(task)
                 changed += others
         elif command.words == at_hand.words and isinstance(said.meant, Things):
-            if objects_of(context, command) <= things:
+            if asked_again:
                 agenda.tasks.remove(task)
             elif only_these:
                 agenda.strike_out(task)
-        elif len(asked_anew) > 1 and objects_of(context, command) <= things:
+        elif asked_again:
             agenda.tasks.remove(task)
     return tuple(changed)
 
@@ -271,9 +293,12 @@ def differs(context: MissionContext, said: Request, words: str) -> bool:
 
 
 def _correct_later(context: MissionContext, said: Correction, at_hand: Command, words: str) -> str:
-    """Change the task that waits, if it is that which is not meant: "the pear, not the apple"."""
-    agenda = context.situation.agenda
-    named = " or ".join(thing.words for thing in said.wrong.members) if said.wrong else ""
+    """Change the task that waits, if it is that which is not meant: "the pear, not the apple".
+
+    So it is if what it is about is to go elsewhere: "no, the pear to the desk".
+    """
+    agenda, meant = context.situation.agenda, said.wrong or _to_go_elsewhere(said)
+    named = " or ".join(thing.words for thing in meant.members) if meant else ""
     if not (wrong := named_in(context, named)) or wrong & objects_of(context, at_hand):
         return ""
     task = next((one for one in agenda.tasks if wrong & objects_of(context, one.command)), None)
@@ -284,6 +309,14 @@ def _correct_later(context: MissionContext, said: Correction, at_hand: Command, 
     agenda.change(task, command)
     agenda.add(others)
     return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} instead."
+
+
+def _to_go_elsewhere(said: Correction) -> Things | None:
+    """The things that are to go to another place; None if none are."""
+    match said.meant:
+        case Request(tasks=[task]) if task.goal not in (None, ME):
+            return task.things
+    return None
 
 
 def all_of(

@@ -561,3 +561,36 @@ def test_another_place_is_for_the_rest_of_a_kind() -> None:
     mission = run("Bring all the fruit", "To the sofa, but not the pear")
     assert mission.world.resting_place("pear") == "high_table"
     assert list(mission.world.things.values()).count("sofa") == 5
+
+
+def test_what_is_told_of_a_place_takes_nothing_back() -> None:
+    mission = run("Bring the hammer", "It isn't on the shelf")
+    assert tasks(mission) == [("bring", "hammer", DONE)]
+
+
+def test_what_is_meant_instead_is_not_lost() -> None:
+    mission = run("Bring the hammer", "Not the hammer, I meant the wrench")
+    assert tasks(mission) == [("bring", "adjustable_wrench", DONE)]
+
+
+def test_what_is_named_beside_what_is_taken_back_is_told() -> None:
+    mission = run("Bring the hammer", "Don't bring the hammer now but maybe the pear later")
+    assert answers(mission) == [
+        "Then I do not bring the hammer. What is to be done with the pear I do not understand."
+    ]
+
+
+def test_what_waits_may_be_to_go_elsewhere_and_the_rest_is_done_as_before() -> None:
+    mission = run("Bring the apple and the pear", "No, the pear to the desk")
+    assert mission.world.resting_place("apple") == "delivery"
+    assert mission.world.resting_place("pear") == "desk"
+
+
+def test_a_place_to_go_to_is_not_struck_out_by_other_things() -> None:
+    mission = run("Bring the hammer, then go to the kitchen", "No, bring the apple and the pear")
+    assert [task[0] for task in tasks(mission)] == ["bring", "bring", "go"]
+
+
+def test_what_is_carried_is_put_down_at_once_if_that_is_said() -> None:
+    mission = run("Bring the hammer", "Drop it", 4)
+    assert tasks(mission) == [("put_down", "hammer", DONE)]
