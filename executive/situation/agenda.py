@@ -130,6 +130,13 @@ class Agenda:
         self._leave_parts()
         self.taken_back = True
 
+    def limit(self, number: int) -> None:
+        """Do so many parts of the task that is done so; with these done, not the one at hand."""
+        whole = self.wholes[-1]
+        whole.wanted, whole.unseen = number, ""
+        whole.command = replace(whole.command, number=number)
+        self.taken_back = len(whole.done) >= number
+
     def strike_out(self, task: Task) -> None:
         """Do not do a task that was not begun; if it is a part of one, the others are done."""
         self.tasks.remove(task)
