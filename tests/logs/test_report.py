@@ -300,6 +300,7 @@ def test_the_viewer_is_opened_natively_or_in_the_browser(
     seen = tmp_path / "arguments"
     write = f"import sys; open({str(seen)!r}, 'w').write(chr(10).join(sys.argv[1:]))"
     monkeypatch.setattr(program, "COMMAND", [sys.executable, "-c", write])
+    monkeypatch.setenv("DISPLAY", ":0")
     assert main(["view", str(run_dir), *options]) == 0
     assert seen.read_text().splitlines() == [*flags, str(run_dir / "mission.rrd")]
 
