@@ -92,4 +92,7 @@ class _Pairs(argparse.Action):
         name, equals, value = values.partition("=")
         if not (name and equals and value):
             parser.error(f"{option_string} {values}: should be {self.metavar}, as in mug=desk")
-        setattr(namespace, self.dest, {**(getattr(namespace, self.dest) or {}), name: value})
+        pairs = getattr(namespace, self.dest) or {}
+        if pairs.get(name, value) != value:
+            parser.error(f"{option_string} {values}: it is {name}={pairs[name]}, too; give one")
+        setattr(namespace, self.dest, {**pairs, name: value})

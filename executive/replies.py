@@ -26,7 +26,7 @@ SAYS: Mapping[str, str] = {
     Source.LLM: "the language model's guess",
     Source.USER: "as you said",
     Source.MEMORY: "I remember it there",
-    Source.HABITS: "it is often there at this time",
+    Source.HABITS: "people may have taken it there",
 }
 """How the person is told who names a place to look at; other sources say it themselves."""
 IDLE = "Nothing: I wait for what you say."
@@ -36,7 +36,7 @@ SAYS_OF_SEVERAL: Mapping[str, str] = {
     **SAYS,
     Source.ONTOLOGY: "that is their place",
     Source.MEMORY: "I remember them there",
-    Source.HABITS: "they are often there at this time",
+    Source.HABITS: "people may have taken them there",
 }
 _WAYS = ("go", "drive", "look", "move", "search", "there")
 """Words of a question about where the robot went."""

@@ -6,6 +6,7 @@ from dataclasses import replace
 from py_trees.common import Status
 
 from executive.language.meaning import Answer, Refusal, Said, Unread
+from executive.language.wording import as_said, listed
 from executive.records import Activity, Utterance
 from executive.text import printable, too_long
 from executive.types.dialogue import Question
@@ -73,6 +74,8 @@ class Ask(Action):
         if not unread and not refuses and self.declines(result.text):
             return self._no_help("you could not tell me")
         if not unread and self.understood(result.text):
+            if more := self._passed_over(said, result.text):
+                tell(self.context, f"I make nothing of {listed(more)}.")
             return self.succeed(result.text)
         self._attended = not unread and self._attend_to(said, result.text)
         if self.situation.agenda.interrupts:
@@ -80,6 +83,14 @@ class Ask(Action):
         if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
+
+    def _passed_over(self, said: Said, words: str) -> list[str]:
+        """The things that an answer names beside what was taken from it, if it was not read."""
+        request, knowledge = self.situation.request, self.context.knowledge
+        about = {request.object, *request.options}
+        names = knowledge.names_in(words) if isinstance(said, Unread) else ()
+        others = (name for name in names if not about & {*knowledge.objects_named(name)})
+        return [f"'{as_said(words, self.context.say.words(name))}'" for name in others]
 
     def _attend_to(self, said: Said, words: str) -> bool:
         """Answer what is no answer: a further wish, a correction, a question."""

@@ -9,10 +9,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
 
+from executive.language.anew import number_alone
 from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
 from executive.language.folding import of_several
 from executive.language.meaning import (
+    ME,
     Answer,
     Choice,
     Correction,
@@ -27,6 +29,7 @@ from executive.language.meaning import (
 from executive.language.placed import placed
 from executive.language.pronouns import resolved, with_names
 from executive.language.spoken import Spoken
+from executive.language.wording import either
 from executive.replies import Standing, about, reply
 from executive.situation import Situation
 from executive.text import too_long
@@ -34,13 +37,21 @@ from executive.types.commands import Command, CommandKind, Commands
 from trees.context import MissionContext
 from trees.taken_back import is_about, refused
 from trees.telling import in_one_breath
-from trees.wishes import added, done_first, named_in, objects_of, replaced
+from trees.wishes import (
+    added,
+    done_first,
+    named_in,
+    objects_of,
+    only_so_many,
+    replaced,
+    waiting_first,
+)
 
 _FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
 
 _TELLS = re.compile(
     r"^\W*(?:what|why|how|where|who|when|is|are)\b"
-    r"|\b(?:it|that|this|they) (?:is|was|are|were|has|does|did|looks|seems)\b"
+    r"|\b(?:it|that|this|they) (?:is|was|are|were|has|does|did|looks|seems)(?:n['’]?t)?\b"
     r"(?!.*\b(?:need|want|necessary|bother|matter))",
     re.I,
 )
@@ -62,8 +73,11 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
     said = context.interpreter.read(words)
     spoken = _of_all_spoken(context.situation, said)
     correction = as_correction(said)
-    if isinstance(said, Answer) and said.where and not said.told and _goes_somewhere(at_hand):
-        correction = Correction(place=said.where[0])  # "on the sofa": where to, and not where it is
+    match said:
+        case Answer(things=None, where=[place, *_], told=False) if _goes_somewhere(at_hand):
+            correction = Correction(place=place)  # "on the sofa": where to, and not where it is
+        case Answer(things=Things() as things, first=True) if at_hand:
+            return _first(context, things, at_hand, words, now)
     if isinstance(said, Answer):
         said = correction or resolved(said, spoken)  # "it is on the sofa"
     if said == Answer(Choice.YES):
@@ -75,15 +89,16 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         if at_hand and _denies_goal(context, words, at_hand):
             agenda.replace(replace(at_hand, goal=""))
             return "Then not there."
+        beside = _beside(context, words, at_hand)
         answer = "" if _TELLS.search(words) else refused(context, words, at_hand)
-        return answer or f"{NOT_KNOWN_WHAT.format(denial)} {now}"
+        return f"{answer}{beside}" if answer else f"{NOT_KNOWN_WHAT.format(denial)} {now}"
     match said:
         case Courtesy():
             return context.interpreter.talk(words)
         case Question() | Statement():
             return _reply(context, said, now) or context.interpreter.talk(words)
         case Refusal() if answer := refused(context, said.words, at_hand):
-            return answer
+            return answer + _beside(context, said.words.partition(" but ")[2], at_hand)
         case Refusal() if said.words and not named_in(context, said.words):
             if _FORGETS.search(words) and (all_of_it := refused(context, "everything", at_hand)):
                 return all_of_it  # what nobody knows may be all that is to be done
@@ -97,7 +112,7 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
             if at_hand and isinstance(commands, tuple):
                 if fails := _if_it_fails(context, commands, at_hand):
                     return replaced(context, ((fails,),))
-                if _in_its_stead(context, said, at_hand):
+                if _in_its_stead(context, said, at_hand) or _lets_go(context, commands):
                     return replaced(context, commands)
                 if said.first:
                     return done_first(context, commands, at_hand)
@@ -106,6 +121,16 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         return correct(context, correction, words, now)
     why_not = context.interpreter.remark(words)
     return why_not or f"{context.interpreter.not_understood(words)}. {now}"
+
+
+def _beside(context: MissionContext, words: str, at_hand: Command | None) -> str:
+    """What words name that none of the tasks is about, as one more sentence; empty if nothing."""
+    tasks = [at_hand] if at_hand else []
+    tasks += [task.command for task in context.situation.agenda.tasks]
+    about = {name for one in tasks for name in objects_of(context, one)}
+    others = sorted(named_in(context, words) - about)
+    rest = either([context.say.the(name) for name in others])
+    return f" What is to be done with {rest} I do not understand." if rest else ""
 
 
 def _denies_goal(context: MissionContext, words: str, at_hand: Command) -> bool:
@@ -143,6 +168,14 @@ def _of_all_spoken(situation: Situation, said: object) -> Spoken:
     return replace(spoken, things=(*spoken.things, *others))
 
 
+def _lets_go(context: MissionContext, commands: Commands) -> bool:
+    """Whether what is in the hand is to be put down: now, and not when it is there."""
+    match commands:
+        case [[Command(kind=CommandKind.PUT_DOWN)]]:
+            return context.situation.hand.in_hand is not None
+    return False
+
+
 def _in_its_stead(context: MissionContext, said: Request, at_hand: Command) -> bool:
     """Whether a certain thing is wanted instead of that at hand: "the drill, not the hammer"."""
     things = [t for task in said.tasks if task.things for t in task.things.members]
@@ -167,17 +200,41 @@ def _reply(context: MissionContext, said: Question | Statement | Request, now: s
     return answer
 
 
-def correct(context: MissionContext, said: Correction, words: str, now: str) -> str:
+def correct(
+    context: MissionContext, said: Correction, words: str, now: str, instead: str = " instead"
+) -> str:
     """Do this instead of the task at hand, or beside it."""
     at_hand = context.situation.agenda.whole_of(context.situation.request.command)
     assert at_hand
     spoken = _of_all_spoken(context.situation, said.meant)
     if changed := _correct_later(context, said, at_hand, words):
         return changed
+    if said.left_out:
+        return _less(context, said, at_hand, words, now)
     commands = corrected(with_names(said, spoken), at_hand, words)
     if said.adds or not isinstance(commands, tuple):
         return added(context, commands, now)
-    return replaced(context, (*commands, *_likewise(context, said, at_hand, commands, words)))
+    commands = (*commands, *_likewise(context, said, at_hand, commands, words))
+    return replaced(context, commands, instead)
+
+
+def _less(context: MissionContext, said: Correction, at_hand: Command, words: str, now: str) -> str:
+    """Do it so, but for what is not meant: "to the desk, but not the pear"."""
+    agenda, left_out = context.situation.agenda, " and ".join(but.words for but in said.left_out)
+    without = refused(context, left_out, at_hand)
+    if not without:
+        return f"{context.interpreter.not_understood(words)}. {now}"
+    rest = replace(said, left_out=())
+    if agenda.taken_back:
+        agenda.go_on_with(others := _likewise(context, rest, at_hand, (), words))
+        others_so = in_one_breath(context, chain.from_iterable(others))
+        return f"{without} All right: I {others_so}." if others else without
+    among = tuple(sorted(named_in(context, left_out) & objects_of(context, at_hand)))
+    narrower = replace(at_hand, exceptions=(*at_hand.exceptions, *among))
+    commands = corrected(rest, narrower, words)
+    if isinstance(commands, str):
+        return f"{without} {commands}"
+    return replaced(context, (*commands, *_likewise(context, rest, narrower, commands, words)))
 
 
 def _likewise(
@@ -197,17 +254,18 @@ def _likewise(
     only_these = len(asked_anew) > 1 and things <= wanted  # "no, the mug and the pear", of three
     for task in whole:
         command = task.command
+        asked_again = set() < objects_of(context, command) <= things
         alike = (command.words, command.kind, command.goal)
         if said.meant is None and alike == (at_hand.words, at_hand.kind, at_hand.goal):
             if isinstance(others := corrected(said, command, words), tuple):
                 agenda.tasks.remove(task)
                 changed += others
         elif command.words == at_hand.words and isinstance(said.meant, Things):
-            if objects_of(context, command) <= things:
+            if asked_again:
                 agenda.tasks.remove(task)
             elif only_these:
                 agenda.strike_out(task)
-        elif len(asked_anew) > 1 and objects_of(context, command) <= things:
+        elif asked_again:
             agenda.tasks.remove(task)
     return tuple(changed)
 
@@ -235,9 +293,12 @@ def differs(context: MissionContext, said: Request, words: str) -> bool:
 
 
 def _correct_later(context: MissionContext, said: Correction, at_hand: Command, words: str) -> str:
-    """Change the task that waits, if it is that which is not meant: "the pear, not the apple"."""
-    agenda = context.situation.agenda
-    named = " or ".join(thing.words for thing in said.wrong.members) if said.wrong else ""
+    """Change the task that waits, if it is that which is not meant: "the pear, not the apple".
+
+    So it is if what it is about is to go elsewhere: "no, the pear to the desk".
+    """
+    agenda, meant = context.situation.agenda, said.wrong or _to_go_elsewhere(said)
+    named = " or ".join(thing.words for thing in meant.members) if meant else ""
     if not (wrong := named_in(context, named)) or wrong & objects_of(context, at_hand):
         return ""
     task = next((one for one in agenda.tasks if wrong & objects_of(context, one.command)), None)
@@ -248,6 +309,14 @@ def _correct_later(context: MissionContext, said: Correction, at_hand: Command, 
     agenda.change(task, command)
     agenda.add(others)
     return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} instead."
+
+
+def _to_go_elsewhere(said: Correction) -> Things | None:
+    """The things that are to go to another place; None if none are."""
+    match said.meant:
+        case Request(tasks=[task]) if task.goal not in (None, ME):
+            return task.things
+    return None
 
 
 def all_of(
@@ -285,12 +354,22 @@ def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) 
     return replace(at_hand, conditional=True, source=source, sought=sought, unless=command.unless)
 
 
+def _first(context: MissionContext, things: Things, at_hand: Command, words: str, now: str) -> str:
+    """Do what is named before all else: what waits, or the deed at hand with it."""
+    if said := waiting_first(context, things, at_hand, now):
+        return said
+    commands = corrected(Correction(things), at_hand, words)
+    return commands if isinstance(commands, str) else done_first(context, commands, at_hand)
+
+
 def _only(context: MissionContext, things: Things, words: str, at_hand: Command) -> str:
     """Do what is named, and nothing else that was to be done; or do it instead of all of that."""
     agenda = context.situation.agenda
     named = named_in(context, " or ".join(thing.words for thing in things.members))
     if not named:
-        return f"{context.interpreter.not_understood(words)}."
+        number = number_alone(things)
+        fewer = only_so_many(context, number, at_hand) if number else ""
+        return fewer or f"{context.interpreter.not_understood(words)}."
     whole = agenda.whole_tasks
     waiting = [task for task in whole if named & objects_of(context, task.command)]
     wishes = [task.command for task in waiting]

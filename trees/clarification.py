@@ -106,8 +106,8 @@ class AskWhichObject(Ask):
     def understood(self, answer: str) -> bool:
         """One object is enough; several narrow the next question down."""
         options, find = self.situation.request.options, self.context.knowledge.objects_named
-        said = self.context.interpreter.read(answer)
-        if self._names_others_too(said) or self._to_another_place(said):
+        said = _all_named(self.context.interpreter.read(answer))
+        if self._names_others_too(said) or self._to_another_place(said) or _from_where(said):
             return False
         if chosen := picked(said, self.question().options):
             meant = tuple(one for name in chosen for one in find(name))
@@ -126,6 +126,7 @@ class AskWhichObject(Ask):
     def _attend_to(self, said: Said, words: str) -> bool:
         """Several may be meant, or any but the one that is named."""
         request, find = self.situation.request, self.context.knowledge.objects_named
+        said = _all_named(said)
         if isinstance(said, Refusal) and (rest := self._but(said.words)):
             request.options = rest
             return True
@@ -137,6 +138,10 @@ class AskWhichObject(Ask):
             assert isinstance(said, Request)
             now = f"I {self.doing()}."
             tell(self.context, correct(self.context, Correction(said), words, now))
+            return True
+        if there := _from_where(said):
+            now = f"I {self.doing()}."
+            tell(self.context, correct(self.context, there, words, now, instead=""))
             return True
         nearest = isinstance(said, Answer) and said.choice == Choice.NEAREST
         several = request.options if nearest else self._several(said)
@@ -222,3 +227,19 @@ class AskWhichObject(Ask):
         if self._all_left_out():
             return f"I know no other {target}"
         return unresolved(self.context, target, nearest(self.context, target))
+
+
+def _all_named(said: Said) -> Said:
+    """An answer with one thing more is one with all of them: "the pear, the mug, too"."""
+    match said:
+        case Correction(meant=Things(members=[_, _, *_]) as things, adds=True):
+            return Answer(things=things)
+    return said
+
+
+def _from_where(said: Said) -> Correction | None:
+    """An answer that says where the thing is, too: "the pear from the sofa"."""
+    match said:
+        case Answer(things=Things() as things, where=[source]):
+            return Correction(things, source=source)
+    return None

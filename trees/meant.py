@@ -1,6 +1,7 @@
 """Which things words mean, as far as nobody has to be asked."""
 
 from executive.interfaces.knowledge import Knowledge
+from executive.language.spoken import QUESTIONS
 from executive.types.commands import Command
 from trees.context import MissionContext
 
@@ -20,6 +21,15 @@ def things_meant(context: MissionContext, command: Command) -> tuple[str, ...]:
         else meant(context.knowledge, command)
     )
     return without_exceptions(context.knowledge, command, tuple(dict.fromkeys(names)))
+
+
+def just_seen(context: MissionContext) -> tuple[str, ...]:
+    """The things that the question before this was answered with; none if there was no question."""
+    ended, spoken = context.situation.agenda.ended, context.situation.dialogue.spoken
+    if ended:
+        return ended[-1].things if ended[-1].kind in QUESTIONS else ()
+    was_asked = spoken.request is not None and spoken.request.tasks[-1].verb in QUESTIONS
+    return spoken.things if was_asked else ()
 
 
 def without_exceptions(

@@ -2,7 +2,8 @@
 
 from py_trees.common import Status
 
-from executive.language.wording import beginning
+from executive.language.meaning import Said
+from executive.language.wording import as_said, beginning
 from executive.replies import SAYS, SAYS_OF_SEVERAL
 from executive.situation import candidates_from
 from executive.text import printable
@@ -11,7 +12,7 @@ from executive.types.knowledge import Source
 from trees.asking import Ask
 from trees.context import MissionContext
 from trees.nodes import Step
-from trees.place_words import places_in
+from trees.place_words import not_to_be_put, places_in
 from trees.telling import sentence, tell
 
 
@@ -23,6 +24,17 @@ class AskForPlace(Ask):
         places = (self.context.say.the(place.name) for place in self.context.knowledge.places())
         no_place = "" if self._attended else "I know no such place. "
         return f"{no_place}{text} I know: {', '.join(places)}."
+
+    def _attend_to(self, said: Said, words: str) -> bool:
+        """Say so, if nothing can be put there."""
+        puts = self.question().kind == QuestionKind.WHERE_TO_PUT
+        if not puts or not (goal := not_to_be_put(self.context, words)):
+            return super()._attend_to(said, words)
+        tell(
+            self.context,
+            f"I can put things on furniture, or in it, but not '{as_said(words, goal)}'.",
+        )
+        return True
 
 
 class AskWhere(AskForPlace):
@@ -72,7 +84,8 @@ class AskWhereToPut(AskForPlace):
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
-        self.situation.hand.surfaces = places_in(self.context, answer)
+        beside = not_to_be_put(self.context, answer)
+        self.situation.hand.surfaces = () if beside else places_in(self.context, answer)
         return bool(self.situation.hand.surfaces)
 
     def unresolved(self) -> str:

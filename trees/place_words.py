@@ -4,6 +4,8 @@ import re
 from collections.abc import Sequence
 
 from executive.language.answers import picked
+from executive.language.commands import in_words
+from executive.language.meaning import Answer
 from executive.types.commands import CommandKind
 from executive.types.home import DELIVERY, FLOOR
 from trees.context import MissionContext
@@ -83,6 +85,14 @@ def cannot_be_put(context: MissionContext, goal: str) -> bool:
     return goal.startswith(BESIDE)
 
 
+def not_to_be_put(context: MissionContext, answer: str) -> str:
+    """Where an answer would have a thing put, if nothing can be put so; empty if it can."""
+    match context.interpreter.read(answer):
+        case Answer(where=[place]) if cannot_be_put(context, goal := in_words(place)):
+            return goal
+    return ""
+
+
 def options_in(context: MissionContext) -> tuple[str, ...]:
     """The places that the words for where to may mean, if they leave open which; "or" does not."""
     return goals_in(context) if may_be_several(context, goal_words(context)) else ()
@@ -104,7 +114,8 @@ def chosen_of(context: MissionContext, answer: str, options: Sequence[str]) -> t
     if chosen := picked(context.interpreter.read(answer), options):
         return chosen
     if not (named := places_in(context, answer)):
-        named = places_in(context, f"{answer} {goal_words(context)}")  # "the coffee" table
+        kind = goal_words(context)
+        named = places_in(context, f"{answer.removesuffix(' one')} {kind}")  # "the coffee" table
     return tuple(place for place in named if place in options)
 
 

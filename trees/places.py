@@ -26,6 +26,7 @@ from trees.place_words import (
     known_at,
     may_be,
     neighbours,
+    not_to_be_put,
     options_in,
     places_in,
     unknown_goal,
@@ -275,6 +276,9 @@ class AskWhereTo(AskForPlace):
 
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
+        puts = self.question().kind == QuestionKind.WHERE_TO_PUT
+        if puts and not_to_be_put(self.context, answer):
+            return False
         if options := options_in(self.context):
             named = chosen_of(self.context, answer, options) or self._another(answer)
             if len(named) != 1:

@@ -8,7 +8,7 @@ from py_trees.common import Status
 
 from executive.types.commands import ALL, Command, CommandKind
 from trees.context import MissionContext
-from trees.meant import things_meant
+from trees.meant import just_seen, things_meant
 from trees.nodes import Check, EachOf, Step, fallback, sequence
 from trees.place_words import not_seen_yet
 from trees.places import destination_of_all, taken_from
@@ -104,10 +104,17 @@ class EachThing(Step):
         return self.succeed(", ".join(part.target for part in parts))
 
     def _meant(self, command: Command) -> Sequence[str]:
-        """All that the words mean; of what is to be put back, what was taken, if any of it was."""
-        names = things_meant(self.context, command)
-        taken = [name for name in names if taken_from(self.context, name)]
-        return taken if taken and command.kind == CommandKind.PUT_BACK else names
+        """All that the words mean.
+
+        Of what is to be put back, what was taken, if any of it was; of "the fruits", those that
+        were just seen, if any were.
+        """
+        names, nearer = things_meant(self.context, command), list[str]()
+        if command.kind == CommandKind.PUT_BACK:
+            nearer = [name for name in names if taken_from(self.context, name)]
+        elif command.plural:
+            nearer = [name for name in names if name in just_seen(self.context)]
+        return nearer or names
 
 
 def part_of(command: Command, name: str, place: str) -> Command:

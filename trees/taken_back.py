@@ -8,7 +8,7 @@ from executive.situation import Task
 from executive.types.commands import ALL, Command, CommandKind
 from trees.context import MissionContext
 from trees.telling import in_one_sentence
-from trees.wishes import named_in, objects_of, replaced
+from trees.wishes import named_in, objects_of, replaced, still_held
 
 _IT = frozenset(("it", "that", "this", "them"))
 _SEVERAL = frozenset(("them", "both", "those", "these"))
@@ -40,7 +40,7 @@ def refused(context: MissionContext, words: str, at_hand: Command | None) -> str
         if task in agenda.tasks:
             left_out.append(_leave_out(context, task, named))
     wishes = [in_one_sentence(context, command) for command in left_out]
-    return f"Then I do not {either(wishes)}." if wishes else ""
+    return f"Then I do not {either(wishes)}.{still_held(context)}" if wishes else ""
 
 
 def _others(context: MissionContext, at_hand: Command, named: set[str]) -> Command | None:

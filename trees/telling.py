@@ -140,8 +140,8 @@ def to_where(context: MissionContext, command: Command) -> str:
 def _where(context: MissionContext, command: Command, words: str, unknown: str = "at") -> str:
     """A place that it names, with a preposition; that of what is no place is given."""
     named = context.knowledge.places_named(words)
-    if len(named) == 1:
-        return context.say.at(named[0])
+    if len(named) == 1 or words == " or ".join(named):
+        return either(context.say.at_each(named))
     if words.startswith(NEXT_TO):
         things = context.knowledge.objects_named(words.removeprefix(NEXT_TO))
         return f"{NEXT_TO}{context.say.the(things[0])}" if len(things) == 1 else words

@@ -74,7 +74,8 @@ def without_condition(command: Command) -> Command:
 
 def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
     """What came of the whole; told, if its parts alone do not tell it."""
-    command, last = whole.command, whole.parts[-1]
+    command = whole.command
+    last = (whole.parts if command.conditional else whole.done or whole.parts)[-1]
     wanted = max(whole.wanted, command.number)
     if command.conditional or (wanted == 1 and not whole.unseen):
         done = last.status == MissionStatus.DONE

@@ -1,13 +1,16 @@
-"""What is wished while the robot is at something: at once, first, or afterwards."""
+"""What is wished while the robot is at something: at once, first, afterwards, or less of it."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
 
+from executive.language.meaning import Things
 from executive.language.phrases import NEGATION
 from executive.types.commands import Command, Commands
+from executive.types.outcome import MissionStatus
 from trees.context import MissionContext
 from trees.telling import in_one_breath
+from trees.telling import number as in_letters
 
 
 def replaced(context: MissionContext, commands: Commands, instead: str = " instead") -> str:
@@ -26,6 +29,53 @@ def done_first(context: MissionContext, commands: Commands, at_hand: Command) ->
         others.append(at_hand)
     agenda.replace(first, others)
     return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} first."
+
+
+def waiting_first(context: MissionContext, things: Things, at_hand: Command, now: str) -> str:
+    """Do what these things are about before all else; empty if it was not to be done.
+
+    If that is what is at hand, it goes on, and `now` says so.
+    """
+    wanted = (at_hand, *(task.command for task in context.situation.agenda.whole_tasks))
+    wishes = [
+        command
+        for thing in things.members
+        for command in wanted
+        if objects_of(context, command)
+        and objects_of(context, command) <= named_in(context, thing.words)
+    ]
+    if wishes == [at_hand]:
+        return now
+    return done_first(context, tuple((one,) for one in wishes), at_hand) if wishes else ""
+
+
+def only_so_many(context: MissionContext, number: int, at_hand: Command) -> str:
+    """Do no more of them than so many, those that are done included; empty if it were no fewer."""
+    agenda = context.situation.agenda
+    if agenda.wholes:
+        if agenda.wholes[-1].wanted <= number:
+            return ""
+        agenda.limit(number)
+        return f"All right: only {in_letters(number)}.{still_held(context)}"
+    alike = (at_hand.words, at_hand.kind)
+    waiting = [t for t in agenda.whole_tasks if (t.command.words, t.command.kind) == alike]
+    done = sum(t.kind == at_hand.kind and t.status == MissionStatus.DONE for t in agenda.ended)
+    if number >= done + 1 + len(waiting):
+        return ""
+    wanted = [at_hand, *(task.command for task in waiting)][: max(number - done, 0)]
+    for task in waiting[max(number - done - 1, 0) :]:
+        agenda.strike_out(task)
+    if not wanted:
+        agenda.take_back()
+        return f"All right: no more of them.{still_held(context)}"
+    return f"All right: I {in_one_breath(context, wanted)}, and no more."
+
+
+def still_held(context: MissionContext) -> str:
+    """What is in the hand when the task at hand is taken back, as one more sentence."""
+    held = context.situation.hand.in_hand
+    is_held = held and context.situation.agenda.taken_back
+    return f" I still hold {context.say.the(held or '')}." if is_held else ""
 
 
 def _same(command: Command, others: Sequence[Command]) -> bool:

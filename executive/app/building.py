@@ -14,6 +14,7 @@ from typing import TextIO
 from executive.app.embodiment import Embodiment, Setup
 from executive.app.living import LivingHome
 from executive.app.parts import Parts, build_advice, parameters_of
+from executive.app.simulation import faults_of
 from executive.app.worlds import embody, try_world
 from executive.config import Settings
 from executive.errors import InputError, ModelError
@@ -119,6 +120,11 @@ def try_files(settings: Settings) -> None:
         load_profile(settings.profile)
     if not settings.robot:
         try_world(settings.world)
+        faults_of(settings, home)
+    if settings.ycb:
+        from sim.objects.ycb import with_scans  # most missions do without
+
+        with_scans(home.drawn_models(), settings.ycb)
     if settings.detector.endswith(".onnx"):
         from executive.perception.onnx_file import read_onnx  # most missions do without
 

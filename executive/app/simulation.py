@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from executive.app.embodiment import Embodiment, Setup
 from executive.clock import SimulatedClock
+from executive.config import Settings
 from executive.interfaces.perception import Camera, Detector
 from executive.interfaces.robot import Robot
 from executive.interfaces.simulation import SimulatedHome
@@ -19,14 +20,25 @@ from sim.home.state import with_room
 log = logging.getLogger(__name__)
 
 
+def faults_of(settings: Settings, home: Home) -> tuple[Fault, ...]:
+    """What is to go wrong in the simulated home.
+
+    Raises:
+        InputError: if a fault is none, or takes physics and the world has none.
+    """
+    faults = parse_faults(settings.fault, home)
+    if settings.world == "fake":
+        refuse_physical(faults)
+    return faults
+
+
 def fake(setup: Setup) -> Embodiment:
     """The instant world, in which things are on furniture, and have no positions.
 
     Raises:
         InputError: if a fault is none, or takes physics.
     """
-    faults = parse_faults(setup.settings.fault, setup.home)
-    refuse_physical(faults)
+    faults = faults_of(setup.settings, setup.home)
     if (file := setup.settings.detector).endswith(".onnx"):
         log.warning("%s is not used: the instant world knows what is in its pictures", file)
     world = FakeWorld(setup.home, setup.inbox, setup.recorder)
@@ -60,7 +72,7 @@ def physics(setup: Setup) -> Embodiment:
     from sim.world import PhysicsWorld  # takes long: the model loads meanwhile
 
     settings = setup.settings
-    faults = parse_faults(settings.fault, setup.home)
+    faults = faults_of(settings, setup.home)
     injector = _injector(setup, faults, lambda: clock.now())
     models = setup.home.drawn_models()
     home = with_room(setup.home)

@@ -35,6 +35,9 @@ class Campaign:
         """
         self._out: Path = options.out or Path("campaigns") / options.setting
         self._policies = tuple(dict.fromkeys(options.policy or ["ours"]))
+        if len(self._policies) > 1 and set(options.systems) == {KnowledgeSystem.OKB}:
+            once = "okb asks no model, and is run under the first policy alone"
+            raise InputError("--policy", once, "add okb+llm to --systems")
         settings = all_settings(options)
         commands: tuple[str, ...] = paper.COMMANDS
         if options.draw:

@@ -2,9 +2,12 @@
 
 from dataclasses import replace
 
-from executive.language.meaning import ME, Correction, Request, Said, Task, Things
+from executive.language.meaning import ME, Correction, Request, Said, Task, Thing, Things
 from executive.language.spoken import Spoken
 from executive.types.commands import CommandKind
+
+_ONE = "one"
+"""A number, if it is all that is said."""
 
 
 def asked_anew(said: Correction, spoken: Spoken, *, in_one_breath: bool = False) -> Said:
@@ -29,6 +32,16 @@ def asked_anew(said: Correction, spoken: Spoken, *, in_one_breath: bool = False)
     return replace(spoken.request, tasks=(*before, task))
 
 
+def number_alone(things: Things) -> int:
+    """How many, if that is all that is said: "two of them", "one"; 0 if it is not."""
+    match things.members:
+        case [Thing(words="", number=int(number))]:
+            return number
+        case [Thing(words=word)] if word == _ONE:
+            return 1
+    return 0
+
+
 def in_place_of(task: Task, things: Things) -> Task:
     """The task with other things; a number alone is of the same kind, a name may be a place."""
     if task.things is None and task.goal:  # "go to the kitchen", "no, the bedroom"
@@ -36,7 +49,7 @@ def in_place_of(task: Task, things: Things) -> Task:
             task, goal=replace(task.goal, words=" or ".join(t.words for t in things.members))
         )
     kind = task.things.members[0].words if task.things else ""
-    if [thing.words for thing in things.members] == ["one"]:  # "no, one"
+    if [thing.words for thing in things.members] == [_ONE]:  # "no, one"
         number = None if things.members[0].definite else 1
         thing = replace(things.members[0], words=kind, number=number, said=kind)
         return replace(task, things=replace(things, members=(thing,)))

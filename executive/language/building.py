@@ -32,16 +32,19 @@ class Builder(Deeds):
     The rules about things and places are in `Nouns`, those about what is to be done in `Deeds`.
     """
 
-    def request(self, parts: list[Part]) -> Request | Refusal:
-        """Tasks, one after the other; what is to be left alone is no part of any of them."""
+    def request(self, parts: list[Part]) -> Request | Refusal | Unable:
+        """Tasks, one after the other; what is to be left alone is no part of any of them.
+
+        If one of them cannot be done, it is said which.
+        """
+        if unable := next((p for p in parts if isinstance(p, Unable)), None):
+            return replace(unable, more=True)
         left = tuple(thing for p in parts if isinstance(p, Left) for thing in p.things)
         tasks = tuple(task.without(left) for task in self._tasks(parts))
         if not tasks:
             return Refusal(" ".join(thing.said for thing in left))
-        in_order = any(is_a(p, "FIRST", "THEN") for p in parts)
         return Request(
             tasks,
-            in_order,
             first=is_a(parts[-1], "AT_FIRST"),
             agrees=any(is_a(p, "YES") for p in parts),
             later=any(is_a(p, "TOO") and p.endswith("later") for p in parts),
@@ -90,7 +93,7 @@ class Builder(Deeds):
         return Refusal(wrong.said)
 
     def unable(self, parts: list[Part]) -> Unable:
-        """As in "throw the ball"."""
+        """As in "throw the ball", "get rid of the mug", "bring the mug and wash it"."""
         verb = next(p for p in parts if is_a(p, "UNABLE"))
         return Unable(str(verb), rest_of(parts))
 
@@ -123,6 +126,8 @@ class Builder(Deeds):
                     new = {"place": part}
                 case Request() | Things():
                     new = {"meant": part}
+                case (Thing(), *_):
+                    new = {"left_out": part}
                 case _:
                     raise Unfit("")
             if new.keys() & found.keys():
@@ -190,6 +195,18 @@ class Builder(Deeds):
         things = parts[-1]
         which = things.members[0].place_in_list if len(things.members) == 1 else None
         return Answer(things=things) if which is None else Answer(place_in_list=which)
+
+    def named_there(self, parts: list[Part]) -> Answer:
+        """As in "the pear from the sofa"."""
+        things, place = (p for p in parts if not isinstance(p, Token))
+        if isinstance(place, To):
+            raise Unfit(place.place.words)
+        return Answer(things=things, where=(place if isinstance(place, Where) else place.place,))
+
+    def named_first(self, parts: list[Part]) -> Answer:
+        """As in "the mug first", "the mug first, then the pear"."""
+        members = (one for p in parts if isinstance(p, Things) for one in p.members)
+        return Answer(things=Things(tuple(members), in_order=True), first=True)
 
     def placed(self, parts: list[Part]) -> Answer | Correction:
         """As in "on the desk"; "to the desk" is not where it is."""

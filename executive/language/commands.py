@@ -36,6 +36,7 @@ _DEEDS = [_QUESTIONS.get(kind) or kind.replace("_", " ") for kind in CommandKind
 CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one after the other"
 NOT_KNOWN_WHAT = "I hear '{}', and do not understand the rest."
 """Said of a negation that is about nothing that there is to do."""
+SAY_THE_REST = " Say once more what else I am to do."
 UNTOLD = "I cannot tell you that so far."
 COURTESIES = {
     Courtesy.HELLO: "Hello!",
@@ -59,7 +60,8 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
         case Again():
             return "There is nothing yet that I could do again."
         case Unable():
-            return f"I cannot {said.verb}."
+            instead = f" things; {said.instead}" * bool(said.instead)
+            return f"I cannot {said.verb}{instead}." + SAY_THE_REST * said.more
         case Question():
             return UNTOLD if said.about not in (About.ABILITIES, About.SELF) else talk(said)
         case Courtesy():
@@ -107,7 +109,9 @@ def _commands(tasks: Iterable[Task], words: str) -> Commands | str:
     for task in tasks:
         if why := _why_not(task):
             return f"{why}. {CAN}."
-        commands.append(tuple(_command(task, things, words) for things in _each(task)))
+        each = tuple(_command(task, things, words) for things in _each(task))
+        in_order = task.things is not None and task.things.in_order
+        commands += [(one,) for one in each] if in_order else [each]
     return tuple(commands)
 
 
@@ -154,7 +158,7 @@ def _conditional(task: Task, words: str) -> Command:
     apart = sought.source is not None or _words_of(sought.things) != _words_of(task.things)
     unless = task.unless
     if unless and is_it(unless.things):
-        unless = replace(unless, things=sought.things)
+        unless = replace(unless, things=task.things)
     return replace(
         deed,
         conditional=True,

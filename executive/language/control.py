@@ -126,6 +126,8 @@ _INSTEAD = re.compile(
     rf"(?=(?:and |so |now |please )*(?:{'|'.join(ENGLISH['deeds'].split())})\b)"
     r"|^\W*(?:(?:no|oh|ok|okay|please|just|and|robot),? )*(?:forget|never mind) (?:about )?"
     rf"(?=(?:the|my|our) (?!(?:{'|'.join(_FILE['all'].split())})\b))"
+    r"|^\W*(?:forget|never ?mind)(?: (?:about )?(?:it|that))?[,.;:!]? "
+    rf"(?=(?:and |just |please )*(?:{'|'.join(ENGLISH['deeds'].split())})\b)"
 )
 """Who says so wants something else, or one thing no more: the rest says what."""
 

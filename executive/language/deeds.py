@@ -6,7 +6,7 @@ from dataclasses import replace
 from lark import Token
 
 from executive.language.folding import is_it
-from executive.language.meaning import ME, SO, Request, Task, Thing, Things, Where
+from executive.language.meaning import ME, SO, THERE, Request, Task, Thing, Things, Where
 from executive.language.nouns import Nouns
 from executive.language.parts import (
     Absent,
@@ -203,6 +203,8 @@ class Deeds(Nouns):
         says_first = isinstance(parts[0], Absent)  # "if it is not there, ...": what was spoken of
         if sought.things is None or (is_it(sought.things) and not says_first):
             sought = replace(sought, things=deed.things)
+        if not says_first:
+            sought = _with_place_of(deed, sought)
         if (instead := _instead(deed, parts)) is None:
             return replace(sought, conditional=True, unless=deed)
         return replace(instead, conditional=True, sought=sought, unless=deed)
@@ -221,6 +223,8 @@ class Deeds(Nouns):
             sought = None
         elif sought is not None and is_it(sought.things) and deed.things:
             sought = replace(sought, things=deed.things)
+        if sought is not None:
+            sought = _with_place_of(deed, sought)
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
 
     def if_so(self, parts: list[Part]) -> Request:
@@ -255,6 +259,13 @@ def _again(task: Task, things: Things | None, places: list[Part]) -> Task:
     if bool(again.goal) != bool(task.goal) and not brings:
         raise Unfit(task.said)
     return again
+
+
+def _with_place_of(deed: Task, sought: Task) -> Task:
+    """Where "there" is in a condition: "put it on the desk unless the pear is there"."""
+    place = deed.source if deed.goal in (None, ME) else deed.goal
+    is_there = sought.source is not None and sought.source.words in THERE
+    return replace(sought, source=place) if is_there and place else sought
 
 
 def _same_way(task: Task, things: Things) -> Iterator[Where]:

@@ -47,6 +47,8 @@ class Where:
 
 ME = Where("me")
 """The person who speaks."""
+THERE = ("there", "over there")
+"""Words for a place that was spoken of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +89,8 @@ class Things:
     members: tuple[Thing, ...]
     one_of: bool = False
     number: int = 1
+    in_order: bool = False
+    """Whether the words say that this is the order: "the mug, then the pear"."""
 
     @property
     def exceptions(self) -> tuple[Thing, ...]:
@@ -145,8 +149,6 @@ class Request:
     """Tasks, in the order in which they were said."""
 
     tasks: tuple[Task, ...]
-    in_order: bool = False
-    """Whether the words say that this is the order: "first ..., then ..."."""
     first: bool = False
     """Whether it is to be done before what is under way: "bring it first"."""
     agrees: bool = False
@@ -174,6 +176,10 @@ class Unable:
 
     verb: str
     rest: str = ""
+    instead: str = field(default="", compare=False)
+    """What can be done with things instead, as a clause; empty if nothing can."""
+    more: bool = field(default=False, compare=False)
+    """Whether something else is to be done, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,6 +197,7 @@ class Correction:
         source: where it is instead: "no, from the desk".
         goal: where it is to go instead: "no, to the kitchen".
         place: one of these two: "no, in the kitchen".
+        left_out: what of it is not meant: "to the desk, but not the pear".
         adds: whether what was meant before still is.
         denies: whether it begins with a no.
     """
@@ -200,6 +207,7 @@ class Correction:
     source: Where | None = None
     goal: Where | None = None
     place: Where | None = None
+    left_out: tuple[Thing, ...] = ()
     adds: bool = False
     denies: bool = False
 
@@ -266,6 +274,8 @@ class Answer:
     where: tuple[Where, ...] = ()
     told: bool = field(default=False, compare=False)
     """Of a place, whether it is said as a statement is: "it is on the sofa"."""
+    first: bool = False
+    """Whether it is wanted before others: "the mug first"."""
 
 
 class Courtesy(StrEnum):

@@ -25,6 +25,12 @@ def heard_as(name: str) -> str | None:
     return "says what was spoken of before" if _is_pronoun(words) else None
 
 
+def says_how_many(name: str) -> bool:
+    """Whether somebody who asks for a thing of this name asks for several: "two mugs"."""
+    commands = _english().commands(f"find {spoken(name)}")
+    return any(command.number for together in commands for command in together)
+
+
 def place_fault(name: str) -> Fault | None:
     """Why no answer can name a place that is called this; None if one can."""
     words = spoken(name)

@@ -150,7 +150,8 @@ class Nouns(Transformer[Token, Said]):
         things = tuple(p for p in parts if isinstance(p, Thing))
         if is_a(parts[0], "BOTH_AND") and len(things) == 1:  # "both mugs and go to the desk"
             return Things((replace(things[0], number=2),))
-        return Things(things)
+        in_order = any(is_a(p, "AND") and not p.endswith(("and", "also")) for p in parts)
+        return Things(things, in_order=in_order)
 
     def one_of(self, parts: list[Part]) -> Things:
         """As in "either the hammer or the drill"."""

@@ -7,6 +7,7 @@ from executive.language.folding import asks_for_things, folded, is_it, of_severa
 from executive.language.meaning import (
     ME,
     SO,
+    THERE,
     Again,
     Answer,
     Correction,
@@ -25,7 +26,6 @@ from executive.types.commands import ALL, CommandKind
 
 _OF_THE_HAND = (CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN)
 """What is put somewhere is first of all what the hand holds."""
-_THERE = ("there", "over there")
 _ONE = "one"
 """Of a kind that was spoken of."""
 _ANYWHERE = (CommandKind.COUNT, CommandKind.CHECK)
@@ -92,17 +92,32 @@ def _tasks(
         if not (things or spoken.things):
             task = _with_own_things(task)
         before = _named_in(task.sought) or (_all_of(task.things, named) or things)
-        meant = _meant_by(task, before, spoken, holds)
-        source, goal = (_where(where, things, place, spoken) for where in (task.source, task.goal))
+        in_this_breath = tuple(thing.words for thing in named)
+        meant = (
+            _the_other(task.things, things, in_this_breath)
+            or _the_other(task.things, things, spoken.things)
+            or _meant_by(task, before, spoken, holds)
+        )
+        near = _named_place(task.sought) or place
+        source, goal = (_where(where, things, near, spoken) for where in (task.source, task.goal))
         if _is_there(source) and (task.verb in _ANYWHERE or asks_for_things(task)):
             source = None  # "how many fruits are there"
         nearest = _before_condition(task, meant, things, spoken)
         sought = task.sought and _tasks((task.sought,), spoken, holds, nearest, place)[0]
-        done.append(replace(task, things=meant, source=source, goal=goal, sought=sought))
+        meant_so = replace(task, things=meant, source=source, goal=goal, sought=sought)
+        there = _named_place(meant_so) or near
+        unless = task.unless and _tasks((task.unless,), spoken, holds, meant, there)[0]
+        done.append(replace(meant_so, unless=unless))
         things = meant if meant and not is_it(meant) else things
         named += things.members if things and things is meant else ()
-        place = next((p for p in (goal, source) if p and not p.pronoun and p != ME), place)
+        place = _named_place(meant_so) or place
     return tuple(done)
+
+
+def _named_place(task: Task | None) -> Where | None:
+    """Where its things are to go, else where they are; None if no place is named."""
+    places = (task.goal, task.source) if task else ()
+    return next((p for p in places if p and not p.pronoun and p != ME), None)
 
 
 def _with_own_things(task: Task) -> Task:
@@ -152,8 +167,6 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
         return rest
     if seen and len(members) > 1 and is_it(task.things) and not of_several(task.things):
         return _which(task.things, spoken)
-    if before and (other := _the_other(task.things, before, spoken)):
-        return other
     if picked := _picked(task.things, members):
         return picked
     if one := _one_of_kind(task.things, called(before) or spoken.called):
@@ -212,13 +225,16 @@ def _less(members: tuple[Thing, ...], left_out: tuple[Thing, ...]) -> Things:
     return Things(rest) if rest and len(rest) < len(members) else Things(members).without(left_out)
 
 
-def _the_other(things: Things, before: Things, spoken: Spoken) -> Things | None:
+def _the_other(
+    things: Things | None, before: Things | None, spoken_of: tuple[str, ...]
+) -> Things | None:
     """Of two that were spoken of, that which is not named before: "the mug, and the other one"."""
-    [thing, *others] = things.members
-    named = {one.words for one in before.members}
-    left = [name for name in spoken.things if name.replace("_", " ") not in named]
-    is_other = not others and thing.other and thing.pronoun
-    return Things((_called(left[0]),)) if is_other and len(left) == 1 < len(spoken.things) else None
+    [thing, *others] = things.members if things else (Thing(),)
+    named = {one.words.replace("_", " ") for one in before.members} if before else set()
+    both = tuple(dict.fromkeys(name.replace("_", " ") for name in spoken_of))
+    left = [name for name in both if name not in named]
+    is_other = before and not others and thing.other and thing.pronoun
+    return Things((_called(left[0]),)) if is_other and len(left) == 1 < len(both) else None
 
 
 def _called(name: str) -> Thing:
@@ -278,4 +294,4 @@ def _named(where: Where, words: str) -> Where:
 
 
 def _is_there(where: Where | None) -> bool:
-    return where is not None and where.pronoun and where.words in _THERE
+    return where is not None and where.pronoun and where.words in THERE

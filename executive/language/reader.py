@@ -68,6 +68,8 @@ class Reader:
         self._ways = [(re.compile(p.replace("%DEED", deed)), q) for p, q in words["ways"]]
         joins, after = _any_of(words["no_new_deeds"]), _any_of(words["after_deeds"])
         self._deed = re.compile(rf"\b((?!(?:{joins}) )[^\s,]+) (?={deed} (?:{after})\b)")
+        self._instead: dict[str, str] = words["instead"]
+        self._next_deed = re.compile(rf"(?:, |\b(?:and|then) ){deed}\b")
         self._mind = re.compile(rf"^(?:please )?(?:would|do) you mind ({_any_of(gerunds)})(?= )")
         self._times = re.compile(rf",? ?\b(?:{'|'.join(words['times'])})(?=[ ,]|$)")
         self._asides = [re.compile(pattern) for pattern in words["asides"]]
@@ -84,11 +86,14 @@ class Reader:
         grammar = (ASSETS / f"{language}.lark").read_text("utf-8")
         self.vocabulary = frozenset(re.findall(r"[^\W\d_]+", grammar))
         """Words that may be more than a part of a name."""
+        name = rf"(?:{_any_of(self._names)})(?=[ ,]|$)"
+        unable = rf"(?:{_any_of([*words['unable'].split(), *self._instead])})(?=[ ,]|$)"
+        deeds = _any_of([*words["before_deeds"], *self.deeds])
         self.parser = _parser(
             grammar,
-            NAME=rf"(?:{_any_of(self._names)})(?=[ ,]|$)",
-            DEED_AHEAD=rf"(?=(?:{_any_of([*words['before_deeds'], *self.deeds])})\b)",
-            UNABLE=rf"(?:{_any_of(words['unable'].split())})(?=[ ,]|$)",
+            NAME=name,
+            DEED_AHEAD=rf"(?=(?:{deeds})\b|(?!{name}){unable})",
+            UNABLE=unable,
         )
 
     def _read_anew(self, words: str) -> Said:
@@ -102,6 +107,9 @@ class Reader:
             said = self._read_in_parts(plain) or said
         if isinstance(said, Refusal):
             return in_its_place(said, self._read)
+        if isinstance(said, Unable):
+            more = said.more or self._next_deed.search(said.rest) is not None
+            return replace(said, instead=self._instead.get(said.verb, ""), more=more)
         return replace(said, words=words) if isinstance(said, Unread) else said
 
     def _read_in_parts(self, plain: str) -> Said | None:

@@ -33,7 +33,7 @@ def without_slips(reader: Reader, words: str) -> Iterator[str]:
 def brought(reader: Reader, words: str) -> Iterator[str]:
     """What was probably meant, if things are named and nothing is said of what to do with them."""
     said = reader.read(words)
-    names = isinstance(said, Answer) and said.choice is None and said.things and not said.where
+    names = isinstance(said, Answer) and said.choice is None and said.things
     if names and not reader.denial(words):
         yield f"bring {reader.plain(words)}"
 

@@ -2,6 +2,7 @@
 
 import ast
 import logging
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -193,6 +194,10 @@ def _labels(
         some = ", ".join(unknown[:5])
         right = "names should be objects of the ontology (python -m kb show)"
         raise InputError(str(path), f"the ontology knows none of its classes ({some}, ...)", right)
+    called = Counter(name for name, label in zip(names, labels, strict=True) if label)
+    if twice := [name for name, count in called.items() if count > 1]:
+        right = f"give each a name of its own in {path.with_suffix('.names')}"
+        raise InputError(str(path), f"has several classes that are called {twice[0]!r}", right)
     if unknown:
         told = printable(f"{path}: not in the ontology, and ignored: {', '.join(unknown)}")
         log.warning("%s", told[:_LONGEST_WARNING])

@@ -5,8 +5,10 @@ from collections.abc import Sequence
 
 from executive.errors import InputError
 from executive.ros.link import Link, LinkError
+from executive.ros.moveit import SEMANTICS, SEMANTICS_TYPE, planning_groups
 from executive.ros.offers import Offers, likely, same_type
 from executive.ros.profile import Profile
+from executive.ros.protocol import Message
 from executive.ros.senses import Senses
 
 LOOKS = 3
@@ -38,7 +40,8 @@ async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> li
             return [InputError(where, str(error), ROSAPI)]
         found = [*_topics(offers, profile, where), *_actions(offers, profile, where)]
         if not found:
-            return await _heard(profile, senses, where)
+            unheard = await _heard(profile, senses, where)
+            return [*unheard, *await _unknown_group(link, offers, profile, where)]
     return found
 
 
@@ -85,6 +88,35 @@ def _actions(offers: Offers, profile: Profile, where: str) -> list[InputError]:
             what = f"{section}: {name} is of type {offers.actions[name]}, and not {kind}"
             found.append(InputError(where, what, likely(name, offers.actions_of(kind), ())))
     return found
+
+
+async def _unknown_group(
+    link: Link, offers: Offers, profile: Profile, where: str
+) -> list[InputError]:
+    """Whether MoveIt lacks the planning group of the arm, as far as it tells which there are."""
+    told = same_type(offers.topics.get(SEMANTICS, ""), SEMANTICS_TYPE)
+    if profile.arm is None or not told:
+        return []
+    heard: asyncio.Future[tuple[str, ...]] = asyncio.get_running_loop().create_future()
+
+    def take(message: Message) -> None:
+        groups = planning_groups(message["data"])
+        if not heard.done():
+            heard.set_result(groups)
+
+    end = link.subscribe(SEMANTICS, SEMANTICS_TYPE, take)
+    try:
+        async with asyncio.timeout(HEARING_S):
+            groups = await heard
+    except TimeoutError:
+        return []
+    finally:
+        end()
+    if profile.arm.group in groups:
+        return []
+    what = f"arm.group: MoveIt has no planning group {profile.arm.group[:80]}"
+    there = ", ".join(groups[:20]) or "none"
+    return [InputError(where, what, f"{SEMANTICS} tells of {there}")]
 
 
 async def _heard(profile: Profile, senses: Senses, where: str) -> list[InputError]:

@@ -14,6 +14,7 @@ builtin_interfaces/msg/Duration: int32 sec, uint32 nanosec
 unique_identifier_msgs/msg/UUID: uint8[16] uuid
 rosgraph_msgs/msg/Clock: builtin_interfaces/msg/Time clock
 std_msgs/msg/Bool: boolean data
+std_msgs/msg/String: string data
 std_msgs/msg/Header: builtin_interfaces/msg/Time stamp, string frame_id
 geometry_msgs/msg/Vector3: float64 x, float64 y, float64 z
 geometry_msgs/msg/Point: float64 x, float64 y, float64 z

@@ -1,7 +1,8 @@
-"""Goals of MoveIt 2's `MoveGroup`, what is around it for it, and why one failed."""
+"""Goals of MoveIt 2's `MoveGroup`, what is around it for it, why one failed; its groups."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from xml.etree import ElementTree
 
 from executive.geometry import seen_from
 from executive.records import Shape
@@ -18,9 +19,12 @@ REASONS: Mapping[int, str] = {
     -6: "it took too long to find a motion",
     -10: "my arm touches something where it is",
     -12: "I would touch something there",
+    -15: "MoveIt does not know the planning group of my arm",
     NO_IK: "I cannot reach there",
 }
 PLANNING_S, ATTEMPTS = 5.0, 5
+SEMANTICS, SEMANTICS_TYPE = "/robot_description_semantic", "std_msgs/msg/String"
+"""Where MoveIt tells what it calls parts of the robot, as SRDF."""
 _BOX, _SPHERE, _CYLINDER = 1, 2, 3
 """`shape_msgs/msg/SolidPrimitive`."""
 NEAR_M, NEAR_RAD = 0.005, 0.05
@@ -157,3 +161,13 @@ def failure(values: Message) -> str:
     if not isinstance(code, int) or code in (0, DONE):
         return ""
     return REASONS.get(code, f"my arm failed (MoveIt's error {code})")
+
+
+def planning_groups(srdf: str) -> tuple[str, ...]:
+    """The names of the planning groups that an SRDF has.
+
+    Raises:
+        xml.etree.ElementTree.ParseError: if it is none.
+    """
+    found = ElementTree.fromstring(srdf).findall("group")
+    return tuple(name for one in found if (name := one.get("name")))

@@ -224,10 +224,9 @@ class WireRobot:
                 await self._link.ready(0.0 if self._losses.is_for_good else STOPPING_S)
             except LinkError as error:
                 return Failed(f"{CANNOT_STOP}: {in_words(error)}")
-        failures = await self._brake.cancel_all()
+        failures, unrest = await self._brake.stop()
         if failures and self._link.loss:
             return Failed(f"{CANNOT_STOP}: {self._link.loss}")
-        unrest = await self._brake.rest()
         unstopped = [s for s in failures if s in self._actions.used]
         if unstopped:
             section = unstopped[0]

@@ -49,7 +49,7 @@ class Brake:
         self._link = link
         self._profile = profile
         self._senses = senses
-        self._under_way: asyncio.Task[dict[str, str]] | None = None
+        self._under_way: set[asyncio.Task[dict[str, str]]] = set()
         link.greet_with(self._greet)
 
     async def _greet(self) -> None:
@@ -70,17 +70,18 @@ class Brake:
 
     async def cancel_all(self) -> dict[str, str]:
         """Cancel all goals of all actions; which sections could not be stopped, and why."""
-        self._under_way = asyncio.create_task(self._cancel_all())
-        return await asyncio.shield(self._under_way)
+        return await asyncio.shield(self._begin_to_cancel())
 
     async def settled(self) -> None:
         """Wait until no cancelling is under way: it would hit what is begun meanwhile."""
-        if self._under_way is not None and self._is_cancelling:
-            await asyncio.wait({self._under_way}, timeout=2 * CANCELLING_S)
+        if self._under_way:
+            await asyncio.wait(self._under_way, timeout=2 * CANCELLING_S)
 
-    @property
-    def _is_cancelling(self) -> bool:
-        return self._under_way is not None and not self._under_way.done()
+    def _begin_to_cancel(self) -> asyncio.Task[dict[str, str]]:
+        task = asyncio.create_task(self._cancel_all())
+        self._under_way.add(task)
+        task.add_done_callback(self._under_way.discard)
+        return task
 
     async def _cancel_all(self) -> dict[str, str]:
         sections = self._profile.actions()
@@ -123,23 +124,29 @@ class Brake:
             return in_words(error)
         return "it refuses" if answer.get("return_code") == REFUSED else ""
 
-    async def rest(self) -> str:
-        """Wait for rest; what still moves then, as a clause, or nothing.
+    async def stop(self) -> tuple[dict[str, str], str]:
+        """Cancel all goals and wait for rest.
 
-        What moves on is cancelled again: it may have been begun after it was cancelled, if the one
-        overtook the other.
+        What moves meanwhile is cancelled again, whether or not all is answered: it may have been
+        begun after it was cancelled, if the one overtook the other.
+
+        Returns:
+            Which sections could not be stopped, and why; and what moves in the end, as a clause, or
+            nothing.
         """
         time = asyncio.get_running_loop().time
-        latest, again, cancelling = time() + REST_S, 0.0, time() + ASKING_S
+        cancelling = self._begin_to_cancel()
+        latest, feeling, again = time() + REST_S, 0.0, time() + ASKING_S
         while True:
-            if time() >= again:
+            if time() >= feeling:
                 self._senses.feel_motion_anew()
-                again = time() + AGAIN_S
+                feeling = time() + AGAIN_S
             await asyncio.sleep(LOOK_S)
-            if self._link.loss:
-                return f"nobody can tell whether I move: {self._link.loss}"
-            if not (unrest := self._senses.unrest) or time() > latest:
-                return unrest
-            if time() >= cancelling and not self._is_cancelling:
-                self._under_way = asyncio.create_task(self._cancel_all())
-                cancelling = time() + ASKING_S
+            unrest = self._senses.unrest
+            if cancelling.done() and self._link.loss:
+                return cancelling.result(), f"nobody can tell whether I move: {self._link.loss}"
+            if cancelling.done() and (not unrest or time() > latest):
+                return cancelling.result(), unrest
+            if unrest and time() >= again:
+                self._begin_to_cancel()
+                again = time() + ASKING_S

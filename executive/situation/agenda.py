@@ -1,7 +1,7 @@
 """What there is to do, one task after the other, and what came of those that have ended."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from executive.situation.ending import TAKEN_BACK
@@ -50,6 +50,10 @@ def _wholes(wholes: list[Whole]) -> list[dict[str, Any] | None]:
     return [command_as_logged(whole.command) for whole in wholes]
 
 
+def _parts(wholes: list[Whole]) -> list[list[dict[str, Any]]]:
+    return [[asdict(part) for part in whole.parts] for whole in wholes]
+
+
 @dataclass
 class Agenda:
     """The tasks of a mission; the one at hand is `Request.command`, and in none of these lists.
@@ -62,7 +66,9 @@ class Agenda:
     """Those to be done yet, the next first."""
     ended: list[TaskOutcome] = field(default_factory=list)
     """What came of the others, in the order in which they ended."""
-    wholes: list[Whole] = field(default_factory=list, metadata=logged_as(plain=_wholes))
+    wholes: list[Whole] = field(
+        default_factory=list, metadata=logged_as(plain=_wholes, beside={"parts": _parts})
+    )
     """The task that is being done in parts; behind it a part of it that is done so, too."""
     instead: Command | None = field(default=None, metadata=logged_as(plain=command_as_logged))
     """What is to be done at once in place of the task at hand; None for nothing."""
@@ -123,6 +129,13 @@ class Agenda:
         """Do not do the task at hand after all."""
         self._leave_parts()
         self.taken_back = True
+
+    def limit(self, number: int) -> None:
+        """Do so many parts of the task that is done so; with these done, not the one at hand."""
+        whole = self.wholes[-1]
+        whole.wanted, whole.unseen = number, ""
+        whole.command = replace(whole.command, number=number)
+        self.taken_back = len(whole.done) >= number
 
     def strike_out(self, task: Task) -> None:
         """Do not do a task that was not begun; if it is a part of one, the others are done."""

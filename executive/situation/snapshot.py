@@ -12,10 +12,15 @@ PART: Mapping[str, Any] = {"part": True}
 
 
 def logged_as(
-    key: str | None = None, plain: Callable[[Any], Any] | None = None
+    key: str | None = None,
+    plain: Callable[[Any], Any] | None = None,
+    beside: Mapping[str, Callable[[Any], Any]] | None = None,
 ) -> Mapping[str, Any]:
-    """Marks a field that the log keeps by another name, or made `plain` in its own way."""
-    return {"key": key, "plain": plain}
+    """Marks a field that the log keeps by another name, or made `plain` in its own way.
+
+    `beside` are further keys for it, each with what it keeps.
+    """
+    return {"key": key, "plain": plain, "beside": beside or {}}
 
 
 def snapshot(of: Any) -> dict[str, Any]:
@@ -33,15 +38,14 @@ def snapshot(of: Any) -> dict[str, Any]:
 @cache
 def _logged(kind: type) -> tuple[tuple[str, str, Callable[[Any], Any] | None], ...]:
     """Of each field its name, its key, and what makes it plain; None for a part."""
-    return tuple(
-        (
-            field.name,
-            field.metadata.get("key") or field.name,
-            None if field.metadata.get("part") else field.metadata.get("plain") or _plain,
-        )
-        for field in fields(kind)
-        if field.metadata.get("logged", True)
-    )
+    logged: list[tuple[str, str, Callable[[Any], Any] | None]] = []
+    for field in fields(kind):
+        marks = field.metadata
+        if marks.get("logged", True):
+            plain = None if marks.get("part") else marks.get("plain") or _plain
+            logged.append((field.name, marks.get("key") or field.name, plain))
+            logged += [(field.name, key, kept) for key, kept in marks.get("beside", {}).items()]
+    return tuple(logged)
 
 
 _ATOMS = frozenset((str, int, float, bool, type(None)))

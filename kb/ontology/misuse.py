@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from rdflib import Literal, URIRef
+from rdflib import XSD, Literal, URIRef
 from rdflib.term import Identifier
 
 from executive.text import printable
@@ -12,6 +12,7 @@ from kb.ontology.properties import NUMBER, PLURAL, PRONOUN, PROPERTIES, SAID, US
 from kb.ontology.uses import PURPOSE_WORDS
 
 MOST_SHOWN = 40
+_TEXTS = (None, XSD.string, XSD.normalizedString, XSD.token)
 
 
 def misuse(graph: Graph, namespace: str, root: Identifier) -> Iterator[str]:
@@ -32,8 +33,9 @@ def misuse(graph: Graph, namespace: str, root: Identifier) -> Iterator[str]:
 def _fault(name: str, value: Identifier, *, of_root: bool) -> str | None:
     if name == PRONOUN and not of_root:
         return "has a pronoun, which stands for any object: say it of Object, or make it a name"
-    if not isinstance(value, Literal):
-        return f"has the {name} {ending(value)}, which is no text: write it in words"
+    if not isinstance(value, Literal) or value.datatype not in _TEXTS:
+        shown = printable(ending(value))[:MOST_SHOWN]
+        return f"has the {name} {shown}, which is no text: write it in words"
     text = one_line(value)
     shown = f"has the {name} {printable(text)[:MOST_SHOWN]!r}, which"
     if why := unusable(text):

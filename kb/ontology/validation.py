@@ -7,7 +7,7 @@ from itertools import islice
 from rdflib import RDFS, BNode, Literal, URIRef
 from rdflib.term import Identifier
 
-from executive.language.naming import heard_as
+from executive.language.naming import heard_as, says_how_many
 from executive.language.phrases import Words, words_of
 from executive.text import printable
 from kb.ontology.dangling import broken_lists, dangling
@@ -118,6 +118,8 @@ def _taken(graph: Graph, things: Iterable[Identifier]) -> Iterator[str]:
                 yield f"{fault}: rename it"
             elif meaning := heard_as(name):
                 yield f"{ending(thing)} is called {name!r}, which {meaning}: rename it"
+            elif says_how_many(name):
+                yield f"{ending(thing)} is called {name!r}, which says how many: rename it"
 
 
 def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:

@@ -12,7 +12,8 @@ from heapq import merge
 from itertools import islice
 from typing import Any
 
-from executive.events import Heard
+from executive.belief import PLAN
+from executive.events import Heard, Started
 from executive.records import (
     Activity,
     EventTaken,
@@ -28,13 +29,16 @@ from executive.records import (
 )
 from executive.situation import TAKEN_BACK
 from executive.text import printable
+from executive.types.knowledge import Candidate
 from executive.types.results import Scored
 from logs.questions.interventions import EXPERIMENTER, done
 from logs.recording.reader import At, Run
 
 WORLD = "world"
 """Whose doing an ordered fault is."""
-PLAN = "look or ask"
+PERSON, EYES = "person", "eyes"
+"""Who says what was heard, and what was looked at."""
+LOOK_OR_ASK = "look or ask"
 """What a plan settles."""
 MOST_TOLD, LEAST = 5, 0.005
 """So many places that are less likely are told of, if they are as likely as this."""
@@ -75,7 +79,7 @@ class Decision:
 def why(run: Run) -> list[Decision]:
     """Every decision of a mission, in order, up to how it ended; and what went wrong by order."""
     planned = (
-        Decision(at.time_s, PLAN, at.value.text, "", "", tuple(_less_likely(at.value)))
+        Decision(at.time_s, LOOK_OR_ASK, at.value.text, "", "", tuple(_less_likely(at.value)))
         for at in run.records(Planned)
     )
     ordered = (
@@ -83,11 +87,12 @@ def why(run: Run) -> list[Decision]:
         for at in run.mishaps()
     )
     chain = merge(
+        _asked(run),
+        ordered,
         _stepped_in(run),
         _heard(run),
         _Chain(run).decisions(),
         planned,
-        ordered,
         key=lambda d: d.time_s,
     )
     decisions = list(chain)
@@ -96,6 +101,14 @@ def why(run: Run) -> list[Decision]:
         ending = outcome.reason or outcome.status
         decisions.append(Decision(outcome.mission_time_s, "outcome", ending, "", outcome.status))
     return decisions
+
+
+def _asked(run: Run) -> Iterator[Decision]:
+    """The words that the mission began with."""
+    for at in run.records(EventTaken):
+        match at.value.event:
+            case Started(words):
+                yield Decision(at.time_s, "asked", f"'{words}'", PERSON, "")
 
 
 def _stepped_in(run: Run) -> Iterator[Decision]:
@@ -114,7 +127,7 @@ def _heard(run: Run) -> Iterator[Decision]:
                 waiting.append(At(at.time_s, heard))
             case Utterance(speaker="robot", text=answer) if waiting:
                 before = waiting.pop(0)
-                yield Decision(before.time_s, f"heard '{before.value.words}'", answer, "person", "")
+                yield Decision(before.time_s, f"heard '{before.value.words}'", answer, PERSON, "")
 
 
 class _Chain:
@@ -136,14 +149,17 @@ class _Chain:
             at = At(thought.time_s, thought.value)
             states = {node.path: node for node in at.value.nodes}
             yield from _visits(before, at, self._searches)
-            ended = list(_tasks_ended(before, at))
+            ended = [*_parts_ended(before, at), *_tasks_ended(before, at)]
             goes_on = bool(ended) and _goes_on(at)
             if goes_on:  # what is settled in this tick is so for the next task
                 yield from ended
                 self._reasons.clear()
                 self._thoughts.clear()
             anew = goes_on or before is None
-            yield from _outermost(self._settled(at, states, None if anew else before))
+            yield from _split(before, at)
+            settled = list(_outermost(self._settled(at, states, None if anew else before)))
+            yield from settled
+            yield from _where_to_look(before, at, {d.answer for d in settled})
             if not goes_on:
                 yield from ended
             self._remember(states)
@@ -157,7 +173,9 @@ class _Chain:
         for fallback in self._family.fallbacks:
             status = states[fallback.path].status
             if status in ("SUCCESS", "FAILURE") and earlier.get(fallback.path) != status:
-                yield self._decision(at, fallback, states)
+                decision = self._decision(at, fallback, states)
+                if decision.source != PLAN or _failed(decision):  # a plan has a record of its own
+                    yield decision
 
     def _decision(
         self, at: At[Tick], fallback: NodeShape, states: dict[str, NodeState]
@@ -169,7 +187,7 @@ class _Chain:
                 alternatives.append(Alternative(child.name, NOT_NEEDED))
             elif states[child.path].status == "SUCCESS":
                 taken = child
-            elif reason := self._reason(child, states):
+            elif child.source != PLAN and (reason := self._reason(child, states)):
                 alternatives.append(Alternative(child.name, reason))
         if taken is None:
             return Decision(at.time_s, fallback.name, "nothing worked", "", "", tuple(alternatives))
@@ -266,15 +284,40 @@ def _outermost(settled: Iterable[Decision]) -> Iterator[Decision]:
         yield last
 
 
+def _failed(decision: Decision) -> bool:
+    """Whether anything else had been tried in vain."""
+    return any(a.why_not != NOT_NEEDED for a in decision.alternatives)
+
+
+def _split(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
+    """That the task at hand is done in parts, and which of them is the first."""
+    was, now = _before_and_now(before, at)
+    wholes = now.get("wholes") or []
+    if len(wholes) > len(was.get("wholes") or ()) and now.get("command"):
+        first = f"{_named(wholes[-1])}: first {_named(now['command'])}"
+        yield Decision(at.time_s, "in parts", first, "", at.value.tip)
+
+
+def _where_to_look(
+    before: At[Tick] | None, at: At[Tick], told: Container[str]
+) -> Iterator[Decision]:
+    """The places that somebody named, unless that was told, or a plan tells it."""
+    was, now = _before_and_now(before, at)
+    places = now.get("candidates") or ()
+    if not places or places == was.get("candidates") or now.get("plan"):
+        return
+    named = ", ".join(str(Candidate(**place)) for place in places)
+    if named not in told:
+        yield Decision(at.time_s, "which places", named, places[0]["source"], at.value.tip)
+
+
 def _visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> Iterator[Decision]:
     """Where the thing was looked for, told when the robot is through with the place.
 
     `searches` are the paths of what serves to look for it.
     """
-    if before is None:
-        return
-    was, now = before.value.situation, at.value.situation
-    if not was.get("candidate"):
+    was, now = _before_and_now(before, at)
+    if before is None or not was.get("candidate"):
         return
     place = was["candidate"]["place"]
     tip = before.value.tip
@@ -284,21 +327,74 @@ def _visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> 
             yield Decision(at.time_s, f"look at {lost}", f"not reached: {why_not}", "", tip)
     if now.get("found"):
         if not was.get("found"):
-            yield Decision(at.time_s, f"look at {place}", "seen there", "eyes", tip)
+            yield Decision(at.time_s, f"look at {place}", "seen there", EYES, tip)
     elif _runs(searches, before) and place in (was.get("visited") or ()) and is_left:
-        if _is_given_up(was, now):
-            yield Decision(at.time_s, f"look at {place}", "given up", "person", tip)
+        if _is_given_up(before, at):
+            yield Decision(at.time_s, f"look at {place}", "given up", PERSON, tip)
             return
-        why_not = (now.get("unseen") or {}).get(place)
-        seen = f"not all of it seen: {why_not}" if why_not else "not seen there"
-        yield Decision(at.time_s, f"look at {place}", seen, "eyes", tip)
+        yield Decision(at.time_s, f"look at {place}", _seen(before, at, place), EYES, tip)
 
 
-def _is_given_up(was: Mapping[str, Any], now: Mapping[str, Any]) -> bool:
+def _seen(before: At[Tick], at: At[Tick], place: str) -> str:
+    """What came of a look at a place: for the thing, or all around."""
+    was, now = before.value.situation, at.value.situation
+    if why_not := (now.get("unseen") or {}).get(place):
+        return f"not all of it seen: {why_not}"
+    ended = next(iter(_ended(before, at)), None)
+    if place not in (was.get("seen") or {}):
+        return "seen there" if ended and ended["location"] == place else "not seen there"
+    if place in (now.get("seen") or {}):
+        there = now["seen"][place]
+    elif ended:
+        there = ended.get("things") or ()
+    else:  # each thing there is a part of the task now
+        parts = (now["command"], *(now.get("tasks") or ()))
+        there = [part["target"] for part in parts if part.get("source") == place]
+    return f"seen there: {', '.join(there)}" if there else "not seen there"
+
+
+def _is_given_up(before: At[Tick], at: At[Tick]) -> bool:
     """Whether the task was, for what the person said meanwhile."""
-    if len(now.get("ended") or ()) > len(was.get("ended") or ()):
-        return bool(now["ended"][-1]["reason"] == TAKEN_BACK)
+    was, now = before.value.situation, at.value.situation
+    for task in _ended(before, at):
+        return bool(task["reason"] == TAKEN_BACK)
+    wholes = now.get("wholes") or []
+    if len(wholes) > len(was.get("wholes") or ()) and wholes[-1] == was.get("command"):
+        return False  # it goes on in parts
     return now.get("command") != was.get("command") or not now.get("visited")
+
+
+def _before_and_now(
+    before: At[Tick] | None, at: At[Tick]
+) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    return before.value.situation if before else {}, at.value.situation
+
+
+def _ended(before: At[Tick] | None, at: At[Tick]) -> list[Mapping[str, Any]]:
+    """What came of the tasks and parts that have ended since."""
+    was, now = _before_and_now(before, at)
+    known = len(was.get("ended") or ())
+    return [*_parts(now)[len(_parts(was)) :], *(now.get("ended") or [])[known:]]
+
+
+def _parts(situation: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """What came of parts of tasks, in the order in which they ended."""
+    ended = [part for task in situation.get("ended") or () for part in _within(task)]
+    under_way = [part for whole in situation.get("parts") or () for part in whole]
+    return [*ended, *(inner for part in under_way for inner in (*_within(part), part))]
+
+
+def _within(task: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
+    for part in task.get("parts") or ():
+        yield from _within(part)
+        yield part
+
+
+def _parts_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
+    """How each part of a task ended that has ended since."""
+    was, now = _before_and_now(before, at)
+    for part in _parts(now)[len(_parts(was)) :]:
+        yield Decision(at.time_s, f"part: {_named(part)}", _came_of(part), "", at.value.tip)
 
 
 def _tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
@@ -308,9 +404,21 @@ def _tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
         return
     known = len(before.value.situation.get("ended") or ()) if before else 0
     for number, task in enumerate(ended[known:], start=known + 1):
-        what = f"task {number}: {task['kind'].replace('_', ' ')} {task['target']}".strip()
-        answer = f"{task['status'].replace('_', ' ')}: {task['reason']}"
-        yield Decision(at.time_s, what, answer, "", at.value.tip)
+        what = f"task {number}: {_named(task)}"
+        yield Decision(at.time_s, what, _came_of(task), "", at.value.tip)
+
+
+def _named(task: Mapping[str, Any]) -> str:
+    """A command, or what came of one: "bring 2 fruits from desk", "put mug"."""
+    number = task.get("number") or 0
+    source = f"from {task['source']}" if task.get("source") else ""
+    goal = f"to {task['goal']}" if task.get("goal") else ""
+    kind, several = task["kind"].replace("_", " "), str(number) if number > 0 else ""
+    return " ".join(filter(None, (kind, several, task["target"], source, goal)))
+
+
+def _came_of(task: Mapping[str, Any]) -> str:
+    return f"{task['status'].replace('_', ' ')}: {task['reason']}"
 
 
 def _goes_on(at: At[Tick]) -> bool:

@@ -121,6 +121,9 @@ class _Walk:
                 yield offset, Damage("there is no record", cut=self._is_blank(offset))
                 return
             if opcode == Opcode.FOOTER:
+                self._file.seek(end + len(MAGIC))
+                if self._file.read(len(MAGIC)) == MAGIC:
+                    yield end + len(MAGIC), Damage("another file begins here, which is not read")
                 return
             if not self._may_find:
                 yield offset, Damage(_TOO_MANY)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from executive.errors import ExecutiveError
 from executive.text import printable
+from logs.viewer.display import has_display
 from logs.viewer.timelines import MISSION_TIME
 
 COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
@@ -27,6 +28,8 @@ def show(recording: Path, *, web: bool = False) -> None:
     Raises:
         ExecutiveError: if it does not start, as without a display.
     """
+    if not web and not has_display():
+        raise ExecutiveError(_NO_VIEWER)
     options = ["--web-viewer"] if web else []
     try:
         ended = subprocess.run([*COMMAND, *options, str(recording.absolute())], check=False)
@@ -84,6 +87,8 @@ def start(*options: str) -> LiveViewer:
     Raises:
         ExecutiveError: if it does not start, as without a display.
     """
+    if "--headless" not in options and not has_display():
+        raise ExecutiveError(_NO_VIEWER)
     port = _free_port()
     process = subprocess.Popen(
         [*COMMAND, *options, "--port", str(port), "--expect-data-soon"],

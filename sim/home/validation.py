@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 
 from executive.errors import InputError
+from executive.language.naming import says_how_many
 from executive.types.home import DELIVERY
 from sim.home.arrangement import NoRoomError, Spot
 from sim.home.floorplan import wall_axis, wall_lines
@@ -175,6 +176,8 @@ def _own_flaws(home: Home) -> Iterator[Flaw]:
     for name in home.own:
         if other := called.get(folded(name)):
             yield f"object {name}: {other} is called the same", "give another name"
+        elif says_how_many(name):
+            yield f"object {name}: its name says how many", "give another name"
 
 
 def mesh_flaws(home: Home) -> Iterator[Flaw]:

@@ -302,7 +302,7 @@ class Manipulator:
             any_free = any_free or is_free
             if chosen:
                 return chosen
-        clause = "I cannot reach a free spot on" if any_free else "there is no free spot on"
+        clause = "I cannot reach a free spot on" if any_free else "I see no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
 
     def _best_spot(

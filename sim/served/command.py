@@ -1,6 +1,7 @@
 """`python -m sim serve`: the simulated robot, for whoever drives it from outside."""
 
 import argparse
+from contextlib import suppress
 from typing import Any
 
 from executive.errors import InputError
@@ -81,4 +82,5 @@ def _serve(options: argparse.Namespace) -> int:
 
 
 def _tell(text: str) -> None:
-    print(printable(text), flush=True)
+    with suppress(BrokenPipeError):  # nobody reads any more: whoever drives the robot still does
+        print(printable(text), flush=True)

@@ -42,6 +42,11 @@ def touch(holding: bool) -> Message:
     return {"data": holding}
 
 
+def text(said: str) -> Message:
+    """`std_msgs/msg/String`."""
+    return {"data": said}
+
+
 def planar_pose(pose: Planar) -> Message:
     """`geometry_msgs/msg/Pose` on the floor."""
     x, y, yaw = pose

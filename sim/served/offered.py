@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from executive.ros.graph import Graph
+from executive.ros.moveit import SEMANTICS, SEMANTICS_TYPE
 
 NODE = "/robot_executive_sim"
 
@@ -21,6 +22,11 @@ DRIVE = "/navigate_to_pose"
 LOOK = "/head_controller/point_head_action"
 PICK, PLACE = "/pick", "/place"
 ARM, GRIPPER = "/move_action", "/gripper_controller/gripper_cmd"
+GROUP, TIP = "arm", "panda_grasptarget"
+"""MoveIt's names of what moves, and of the point between the fingers."""
+SRDF = f"""<robot name="panda">
+  <group name="{GROUP}"><chain base_link="base_link" tip_link="{TIP}"/></group>
+</robot>"""
 
 GRAPH = Graph(
     node=NODE,
@@ -48,6 +54,7 @@ GRAPH = Graph(
 _MOVING = {name: kind for name, kind in GRAPH.actions.items() if name not in (PICK, PLACE)}
 MOTIONS = replace(
     GRAPH,
+    published={**GRAPH.published, SEMANTICS: SEMANTICS_TYPE},
     actions={
         **_MOVING,
         ARM: "moveit_msgs/action/MoveGroup",

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 
+from executive.ros import moveit
 from executive.ros.protocol import Message
 from executive.types.perception import Frame
 from sim.pictures.coming import ComingFrame, NotDrawnError
@@ -121,6 +122,8 @@ class Publisher:
                 return messages.fixed_transforms()
             case offered.ODOMETRY:
                 return messages.odometry(time_ns, body.pose, body.velocity)
+            case moveit.SEMANTICS:
+                return messages.text(offered.SRDF)
             case offered.JOINTS:
                 return messages.joint_states(time_ns, body.joints())
             case _:

@@ -22,14 +22,15 @@ from sim.goals import Face, GoTo, Grip, MoveHand, MoveJoints
 from sim.home.home import Home
 from sim.served.bodies import Body, drive
 from sim.served.messages import MAP
+from sim.served.offered import GROUP, TIP
 
 FARTHEST_M = 1000.0
 """No coordinate is farther from the map's origin."""
 MOST_POINTS = 1_000_000
 MOST_TEXT = 200
 MOST_JOINTS = 100
-GROUP, TIP, STRAIGHT = "arm", "panda_grasptarget", "LIN"
-"""MoveIt's names of what moves, of the point between the fingers, and of its straight planner."""
+STRAIGHT = "LIN"
+"""MoveIt's name of its straight planner."""
 BASE = "base_link"
 WIDEST_M, STRONGEST_N, WIDEST_LOAD_M = 0.08, 70.0, 1.0
 """Of the hand, and of what it can carry."""

@@ -1,25 +1,43 @@
 """What the robot costs, beside another commit: `python tests/benchmarks/bench_all.py WORKTREE`.
 
-WORKTREE is a git worktree of the other commit. Both are run in turn by this Python, round by round,
-and what is told is processor time (user and system), which other programs on the machine disturb
-far less than wall time. Of each figure the least of all rounds counts. Prints the table of
+WORKTREE is a git worktree of the other commit. Both are run in turn by this Python, round by round;
+of each figure the least of all rounds counts. Most of them are processor time (user and system),
+which other programs on the machine disturb far less than wall time. Prints the tables of
 docs/performance.md, with what bounds each figure from below.
 """
 
 import argparse
 import compileall
-import os
+import re
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
-HERE = Path(__file__).parents[2]
+import bench_stop
+from paired import HERE, Pair, alone, head, line, name_of, paired, row, spent, told
+from progress import measure
+
+from executive.campaign.report.paper import COMMANDS
+from kb.ontology.ontology import Ontology
+from sim.home.home import load_home
+
 ORDER = "Bring a sugar_box"
 DOORS = ("executive", "executive.campaign", "kb", "kb.benchmark", "logs", "sim", "trees")
 
+SESSION = """
+import io, time
+from contextlib import closing
+try: from executive import Session, load_settings
+except ImportError:  # where it was before
+    from executive.app import Session
+    from executive.config import load_settings
+def session(**given):
+    settings = load_settings(user="oracle", runs={runs!r}, **given)
+    return closing(Session(settings, out=io.StringIO()))
+"""
 BENCH = """
 import sys
 try: from executive.testing.bench import run_mission
@@ -48,23 +66,66 @@ def once(): return list(run(Block(load_settings(world="fake", llm="none", user="
     "{order}", "Bring a mug", "Find an apple", "Bring a banana"))))
 share = 4
 """
-PHYSICS = """
-import time, sys, io
-from executive import Session, load_settings
-spent = dict.fromkeys(("stepSimulation", "getCameraImage"), 0.0)
-def watched(do, name):
+WATCHED = """
+from collections import Counter
+spent = Counter()
+def watch(owner, name):
+    do = getattr(owner, name)
     def timed(*given, **named):
         began = time.thread_time()
         try: return do(*given, **named)
         finally: spent[name] += time.thread_time() - began
-    return timed
-settings = load_settings(llm="none", user="oracle", runs={runs!r})
-with Session(settings, out=io.StringIO()) as session:
-    client = session.world._client
-    for name in spent: setattr(client, name, watched(getattr(client, name), name))
+    setattr(owner, name, timed)
+"""
+PHYSICS = """
+{session}{watched}
+with session(llm="none") as opened:
+    for name in ("stepSimulation", "getCameraImage"): watch(opened.world._client, name)
     began = time.thread_time()
-    session.run("{order}")
-    print(time.thread_time() - began, *spent.values())
+    opened.run("{order}")
+    print(time.thread_time() - began, spent["stepSimulation"], spent["getCameraImage"])
+"""
+NINE = """
+{session}
+took = []
+with session(llm="embedded") as opened:
+    for words in {commands!r}:
+        began = time.perf_counter()
+        opened.run(words)
+        took.append(time.perf_counter() - began)
+print(max(took), sum(took))
+"""
+LOOP = """
+{session}{watched}
+from executive.loop import Executive
+from trees.tree import MissionTree
+with session(world="fake", llm="none") as opened:
+    opened.run("{order}")
+    watch(Executive, "_tick"), watch(MissionTree, "tick")
+    for words in {commands!r}: opened.run(words)
+print(spent["_tick"] / spent["tick"])
+"""
+RANKING = """
+import time
+from contextlib import closing
+from executive.events import Inbox
+from kb.advice.ranker import Ranker
+from kb.llm.llama import LlamaCpp, embedded_model
+from kb.llm.options import ModelOptions
+from kb.ontology.ontology import Ontology
+from sim.home.home import load_home
+inbox, known = Inbox(), Ontology(load_home("four_rooms").places(), defaults=True)
+def now(): return time.process_time(), time.perf_counter()
+def since(before): return [now - then for now, then in zip(now(), before)]
+began = now()
+with closing(LlamaCpp(embedded_model(), inbox, ModelOptions())) as model:
+    model.count_tokens("wait until it is loaded")
+    loading, began = since(began), now()
+    model.rank(Ranker(known).ranking("{thing}", ()))
+    inbox.wait(None)
+    ranking = since(began)
+(ended,) = inbox.take_all()
+print(*ranking, *loading, ended.result.usage.evaluated_tokens)
 """
 IMPORTS = "import numpy, rdflib, lark, py_trees, pyarrow, cv2, mcap, rerun"
 
@@ -83,43 +144,15 @@ print(min(figure() for _ in range({times})))
 """Runs a program's `once`, or reads its `figure`, warm."""
 
 
-@dataclass(frozen=True)
-class Spent:
-    """What one process took: processor time (s), most memory (MiB), and what it printed."""
-
-    cpu_s: float
-    memory: float
-    printed: tuple[float, ...]
+def program(text: str, runs: str = "", **given: object) -> tuple[str, str]:
+    """The arguments for a program."""
+    parts = {"bench": BENCH, "session": SESSION.format(runs=runs), "watched": WATCHED}
+    return "-c", text.format(order=ORDER, commands=COMMANDS, **parts, **given)
 
 
-def spent(tree: Path, *arguments: str) -> Spent | None:
-    """Run this Python in a worktree, whose packages come before what is installed.
-
-    None if that does not work, as where the other commit has something elsewhere.
-    """
-    with tempfile.TemporaryFile("w+") as out:
-        environment = {**os.environ, "PYTHONPATH": str(tree)}
-        environment.pop("PYTHONDONTWRITEBYTECODE", None)  # nobody compiles each time
-        process = subprocess.Popen(
-            [sys.executable, *arguments],
-            cwd=tree,
-            env=environment,
-            stdout=out,
-            stderr=subprocess.DEVNULL,
-        )
-        _, status, used = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode:
-            return None
-        out.seek(0)
-        printed = out.read() if arguments[0] == "-c" else ""
-    numbers = tuple(float(word) for word in printed.split())
-    return Spent(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024, numbers)
-
-
-def repeated(program: str, times: int, **given: str) -> tuple[str, str]:
+def repeated(text: str, times: int, **given: object) -> tuple[str, str]:
     """The arguments for a program that is repeated in one process."""
-    filled = program.format(order=ORDER, bench=BENCH, **given)
+    _, filled = program(text, **given)
     return "-c", REPEAT.format(program=filled, times=times)
 
 
@@ -128,64 +161,30 @@ def command(runs: str, *options: str) -> tuple[str, ...]:
     return ("-m", "executive", "--user", "oracle", "--runs", runs, *options, ORDER)
 
 
-@dataclass(frozen=True)
-class Pair:
-    """Both sides of what was measured; no figures where it does not work."""
-
-    other: tuple[float, ...]
-    ours: tuple[float, ...]
-
-
-def paired(other: Path, rounds: int, *arguments: str, inside: bool = False) -> Pair:
-    """The least of several rounds: processor time and memory, or what was printed (`inside`)."""
-    found: dict[Path, list[tuple[float, ...]]] = {other: [], HERE: []}
-    for number in range(rounds):
-        for tree in (other, HERE) if number % 2 == 0 else (HERE, other):
-            if (one := spent(tree, *arguments)) is None:
-                continue
-            found[tree].append(one.printed if inside else (one.cpu_s, one.memory))
-    least = {tree: tuple(map(min, zip(*rows, strict=True))) for tree, rows in found.items()}
-    return Pair(least[other], least[HERE])
-
-
-def alone(program: str, rounds: int) -> float:
-    """Processor time (s) of a program that has nothing of ours in it."""
-    return min(one.cpu_s for _ in range(rounds) if (one := spent(HERE, "-c", program)))
-
-
-def row(what: str, pair: Pair, unit: str = "s", bound: str = "", index: int = 0) -> str:
-    """A line of the table."""
-    scale, digits = {"s": (1.0, 2), "ms": (1000.0, 2), "MiB": (1.0, 0)}[unit]
-    figures = [side[index] if side else None for side in (pair.other, pair.ours)]
-    told = " | ".join("-" if f is None else f"{f * scale:.{digits}f} {unit}" for f in figures)
-    other, ours = figures
-    ratio = f"{ours / other:.2f}" if ours and other else "-"
-    return f"| {what} | {told} | {ratio} | {bound} |"
-
-
 def rows(other: Path, rounds: int, runs: str) -> Iterator[str]:
-    """The table, a line at a time."""
-    yield f"| what | {name_of(other)} | {name_of(HERE)} | ratio | bounded by |"
-    yield "|---|---|---|---|---|"
+    """What commands and missions cost, a line at a time."""
+    yield head(("what", name_of(other), name_of(HERE), "ratio", "bounded by"))
     settings = alone("from pydantic import BaseModel", rounds)
     for door in DOORS:
         bound = "Python" if door in ("kb", "logs", "trees") else f"pydantic: {settings:.2f} s"
         helped = paired(other, rounds, "-m", door, "--help")
         yield row(f"`python -m {door} --help`", helped, "s", bound)
     libraries = alone(IMPORTS, rounds)
-    instant = paired(other, rounds, *command(runs, "--world", "fake", "--llm", "none"))
-    yield row("command, instant world, no model", instant, "s", f"imports: {libraries:.2f} s")
-    physics = paired(other, rounds, *command(runs, "--llm", "none"))
-    inside = paired(other, rounds, "-c", PHYSICS.format(runs=runs, order=ORDER), inside=True)
-    pure = sum(inside.ours[1:])
-    bound = f"imports and PyBullet: {libraries + pure:.2f} s"
-    yield row("command, physics, no model", physics, "s", bound)
-    bound = f"PyBullet's steps {inside.ours[1]:.2f} s, pictures {inside.ours[2]:.2f} s"
-    yield row("its mission, on the thread that ticks", inside, "s", bound)
-    thinking = paired(other, rounds, *command(runs))
-    yield row("command, physics, embedded model", thinking)
-    yield row("most memory of `command, physics, no model`", physics, "MiB", index=1)
-    yield row("most memory of `command, physics, embedded model`", thinking, "MiB", index=1)
+    inside = paired(other, rounds, *program(PHYSICS, runs), inside=True)
+    steps, pictures = inside.ours[1:]
+    bounds = {
+        "fake": f"imports: {libraries:.2f} s",
+        "physics": f"imports and PyBullet: {libraries + steps + pictures:.2f} s",
+    }
+    for world, bound in bounds.items():
+        for llm in ("none", "embedded"):
+            took = paired(other, rounds, *command(runs, "--world", world, "--llm", llm))
+            what = f"command, {world}, model: {llm}"
+            yield row(what, took, "s", bound)
+            yield row(f"{what}, wall time", took, index=1)
+            yield row(f"{what}, most memory of its processes", took, "MiB", index=2)
+    bound = f"PyBullet's steps {steps:.2f} s, pictures {pictures:.2f} s"
+    yield row("a mission in physics, on the thread that ticks", inside, "s", bound)
     yield from repeated_rows(other, rounds, runs)
 
 
@@ -203,23 +202,84 @@ def repeated_rows(other: Path, rounds: int, runs: str) -> Iterator[str]:
     yield row("mission of an ideal campaign, no model", ideal, "ms", "the mission above")
 
 
-def name_of(tree: Path) -> str:
-    """The commit that a worktree has."""
-    asked = ("git", "-C", str(tree), "describe", "--always", "--dirty")
-    return subprocess.run(asked, capture_output=True, text=True, check=True).stdout.strip()
+def session_rows(other: Path, runs: str) -> Iterator[str]:
+    """What a session and a campaign cost, measured once on each side, by the clock."""
+    nine = paired(other, 1, *program(NINE, runs), inside=True)
+    yield row("the paper's nine commands in one session, physics: the slowest", nine)
+    yield row("all nine", nine, index=1)
+    loop = paired(other, 1, *program(LOOP, runs), inside=True)
+    yield row("a tick with all about it, of the tree's own", loop, "", "1")
+    for world, seeds in (("physics", 1), ("ideal", 3)):
+        given = ("--systems", "okb+llm", "--seeds", str(seeds), "--workers", "2")
+        sides = []
+        for tree in (other, HERE):
+            out = Path(runs, f"{world}-{len(tree.parts)}-{tree.name}")
+            took = spent(tree, "-m", "executive.campaign", f"--{world}", *given, "--out", str(out))
+            number = len((out / "journal.jsonl").read_text("utf-8").splitlines()) if took else 0
+            sides.append((60 * number / took.wall_s,) if took else ())
+        yield row(f"missions a minute, {world}, two workers", Pair(*sides), "a minute")
+
+
+def own_rows(runs: str) -> Iterator[str]:
+    """What the other commit cannot be asked, or not so."""
+    things = Ontology(load_home("four_rooms").places(), defaults=True).objects()
+    cache = {"EXECUTIVE_CACHE": f"{runs}/cache"}
+    first, *later = (spent(HERE, *program(RANKING, thing=t), environment=cache) for t in things[:6])
+    costs = [one.printed for one in later if one]
+    if first and costs:
+        cpu_s, wall_s, loading_cpu_s, loading_s, tokens = map(min, zip(*costs, strict=True))
+        ranked = f"{cpu_s:.2f} s; {wall_s:.2f} s by the clock"
+        loaded = f"{loading_cpu_s:.2f} s; {loading_s:.2f} s by the clock"
+        what = "first ranking of a process, default locations"
+        yield line(what, "-", ranked, "-", f"{tokens:.0f} tokens")
+        yield line("loading the model before it", "-", loaded, "-", "")
+        yield line("first ranking of all", "-", told(first.printed[0], "s"), "-", "")
+
+
+def stop_row(stops: int, runs: str) -> str:
+    """From a stop until the robot is at rest."""
+    trials = [{"seed": seed} for seed in range(stops)]
+    found = measure(trials, bench_stop.stop_once, Path(runs, "stops.jsonl"))
+    rests = [one["rest_s"] for one in found if one["doing"] is not None]
+    what = f"stop to rest, worst of {len(rests)} random moments, wall time"
+    return line(what, "-", told(max(rests), "s"), "-", "braking")
+
+
+def test_row() -> str:
+    """All tests, as `./check` runs them."""
+    began = time.perf_counter()
+    ran = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-n", "4", "--dist", "worksteal"],
+        cwd=HERE,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    minutes = (time.perf_counter() - began) / 60
+    counted = re.findall(r"\d+ (?:passed|failed|skipped)", ran.stdout)
+    return line(f"all tests: {', '.join(counted)}", "-", f"{minutes:.1f} min", "-", "")
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the tables."""
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("worktree", type=Path, help="of the commit to compare with")
     arguments.add_argument("--rounds", type=int, default=5, help="of each figure (default: 5)")
+    arguments.add_argument("--stops", type=int, default=200, help="(default: 200; half an hour)")
+    arguments.add_argument("--tests", action="store_true", help="run all tests, too")
     given = arguments.parse_args()
-    for tree in (given.worktree, HERE):
+    other = given.worktree.resolve()
+    for tree in (other, HERE):
         compileall.compile_dir(tree, quiet=2)
     with tempfile.TemporaryDirectory() as runs:
-        for line in rows(given.worktree.resolve(), given.rounds, runs):
-            print(line, flush=True)
+        for text in rows(other, given.rounds, runs):
+            print(text, flush=True)
+        for text in (*session_rows(other, runs), *own_rows(runs)):
+            print(text, flush=True)
+        if given.stops:
+            print(stop_row(given.stops, runs), flush=True)
+    if given.tests:
+        print(test_row(), flush=True)
 
 
 if __name__ == "__main__":

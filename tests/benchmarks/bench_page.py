@@ -1,13 +1,15 @@
 """What the page costs: `python tests/benchmarks/bench_page.py`, with Debian's chromium.
 
 How long it takes from what happens to its being in the page; what an open page costs while nothing
-happens; how much slower missions in physics are while two pages show them.
+happens; what missions in physics take while pages show them, and the page's part of it.
 """
 
 import argparse
 import sys
+import threading
 import time
 from contextlib import ExitStack
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from statistics import median
@@ -18,12 +20,14 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 from browsing import chromium, opened
 from playwright.sync_api import Browser
 from playwright.sync_api import Page as Tab
+from stopwatch import Stopwatch
 
 from executive import Session, load_settings
 from executive.events import Inbox
 from executive.page.address import Address
 from executive.page.page import Page
 from executive.page.plan import plan
+from executive.page.sink import PageSink
 from executive.records import PlannedPath
 from logs.recorder import FanOut
 from sim.home.home_file import load_home
@@ -85,40 +89,85 @@ def idle(seconds: float) -> None:
     print(f"idle, two pages open: {share:.2%} of a core")
 
 
-def mission(page: Page | None, runs: Path, seed: int) -> tuple[float, float]:
-    """CPU time and time of one mission in physics (s), shown or not."""
+@dataclass(frozen=True)
+class Cost:
+    """What one mission took (s): wall time, processor time of this process, and the page's of it.
+
+    Attributes:
+        page: by part: its own thread, the log's thread while it writes what pages show, and the
+            threads in which pictures are made.
+    """
+
+    wall: float
+    process: float
+    page: dict[str, float]
+
+    @property
+    def share(self) -> float:
+        """The page's processor time, as a share of what the mission takes without it."""
+        spent = sum(self.page.values())
+        return spent / (self.process - spent)
+
+
+def mission(page: Page | None, runs: Path, seed: int) -> Cost:
+    """One mission in physics, shown or not."""
     settings = load_settings(
         llm="none", user="oracle", detector="simulated", runs=runs, seed=seed, world="physics"
     )
     shown = {"sinks": [page.sink]} if page else {}
+    watch = Stopwatch(time.thread_time)
     with Session(settings, **shown) as session:
         if page:
             page.follow(session)
-        cpu, began = time.process_time(), time.monotonic()
+            with_page(watch, page.sink)
+        serving, cpu, began = serving_s(), time.process_time(), time.monotonic()
         session.run(WORDS)
-        return time.process_time() - cpu, time.monotonic() - began
+        wall, process = time.monotonic() - began, time.process_time() - cpu
+        return Cost(wall, process, {"served": serving_s() - serving, **watch.seconds})
+
+
+def with_page(watch: Stopwatch, sink: PageSink) -> None:
+    """Have this watch, and no earlier one, time what the sink does in the threads of others."""
+    for name, part in (("write", "logged"), ("flush", "logged"), ("picture", "pictured")):
+        vars(sink).pop(name, None)
+        watch.around(sink, name, part)
+
+
+def serving_s() -> float:
+    """Processor time of the thread that serves the page (s)."""
+    (thread,) = (one for one in threading.enumerate() if one.name == "page")
+    assert thread.ident
+    return time.clock_gettime(time.pthread_getcpuclockid(thread.ident))
 
 
 def overhead(browser: Browser, page: Page, runs: Path, missions: int) -> None:
     """Missions in turn: without a page, with one that nobody has opened, with one open, with two.
 
-    The browser is a process of its own; what counts is this one.
+    Wall time tells of the browser, too, which draws on the same cores; from one mission to the next
+    it differs by more than the page takes. Processor time of the page's own parts does not.
     """
     mission(None, runs, 0)
     ways = {"without a page": None, "none open": 0, "one open": 1, "two open": 2}
-    took: dict[str, list[tuple[float, float]]] = {way: [] for way in ways}
+    took: dict[str, list[Cost]] = {way: [] for way in ways}
     for number in range(missions):
         for way, count in ways.items():
             with ExitStack() as stack:
                 for _ in range(count or 0):
                     stack.enter_context(opened(browser, page))
                 took[way].append(mission(None if count is None else page, runs, number))
-    for index, name in enumerate(("processor time of this process", "time")):
-        plain = [one[index] for one in took["without a page"]]
-        print(f"a mission, {name}: {median(plain):.2f} s without a page")
-        for way in list(ways)[1:]:
-            more = [one[index] / of - 1 for one, of in zip(took[way], plain, strict=True)]
-            print(f"  {way}: {median(more):+.1%}")
+    for way, costs in took.items():
+        pairs = zip(costs, took["without a page"], strict=True)
+        longer = median(one.wall / plain.wall - 1 for one, plain in pairs)
+        wall, process, share = (
+            median(getattr(one, name) for one in costs) for name in ("wall", "process", "share")
+        )
+        print(f"a mission, {way}: {wall:.2f} s ({longer:+.1%}), processor {process:.2f} s")
+        if way != "without a page":
+            parts = ", ".join(
+                f"{part} {median(one.page.get(part, 0.0) for one in costs):.3f} s"
+                for part in ("served", "logged", "pictured")
+            )
+            print(f"  the page's of it: {share:.2%} ({parts})")
 
 
 def main() -> None:

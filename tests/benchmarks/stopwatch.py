@@ -9,7 +9,8 @@ from typing import Any
 class Stopwatch:
     """Adds up the time spent in functions that do not call one another."""
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
+        self._clock = clock
         self.seconds: dict[str, float] = defaultdict(float)
 
     def around(self, owner: Any, name: str, part: str) -> None:
@@ -17,10 +18,10 @@ class Stopwatch:
         function: Callable[..., Any] = getattr(owner, name)
 
         def timed(*args: Any, **kwargs: Any) -> Any:
-            began = time.perf_counter()
+            began = self._clock()
             try:
                 return function(*args, **kwargs)
             finally:
-                self.seconds[part] += time.perf_counter() - began
+                self.seconds[part] += self._clock() - began
 
         setattr(owner, name, timed)

@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -41,6 +42,17 @@ def test_the_names_are_sorted_and_editors_see_the_same():
 def test_the_table_of_contents_names_everything():
     contents = executive.__doc__ or ""
     assert [name for name in executive.__all__ if name not in contents] == []
+
+
+@pytest.mark.parametrize("package", ["executive.types", "executive.interfaces"])
+def test_a_package_has_what_its_modules_define(package):
+    face = import_module(package)
+    for file in sorted(Path(face.__path__[0]).glob("[!_]*.py")):
+        module = import_module(f"{package}.{file.stem}")
+        own = [n.name for n in ast.parse(file.read_text()).body if isinstance(n, ast.ClassDef)]
+        for name in own:
+            assert getattr(face, name) is getattr(module, name)
+            assert name in face.__all__
 
 
 def test_importing_it_loads_nothing_heavy():

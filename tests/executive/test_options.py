@@ -42,6 +42,14 @@ def test_every_option_of_a_setting_is_read_as_the_setting_is() -> None:
     assert set(given) == with_option
 
 
+def test_a_thing_is_truly_at_one_place(capsys: pytest.CaptureFixture[str]) -> None:
+    again = ["--place", "mug=desk", "--place", "mug=desk", "--place", "apple=sofa"]
+    assert parsed(again).place == {"mug": "desk", "apple": "sofa"}
+    with pytest.raises(SystemExit):
+        parsed([*again, "--place", "mug=sofa"])
+    assert "--place mug=sofa: it is mug=desk, too; give one" in capsys.readouterr().err
+
+
 def test_words_need_no_quotes() -> None:
     assert parsed(["--seed", "1", "bring", "a", "mug"]).words == ["bring", "a", "mug"]
     assert parsed(["--", "-x"]).words == ["-x"]

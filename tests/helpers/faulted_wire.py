@@ -51,13 +51,11 @@ class Household:
 
     Attributes:
         faults: what should not have been, a line each.
-        late: which were not at rest soon enough after a stop, a line each.
         stops: of those that moved when they were told to stop, from that to rest (s).
         reconnections: if the link was lost meanwhile, from having one again to rest (s).
     """
 
     faults: list[str] = field(default_factory=list)
-    late: list[str] = field(default_factory=list)
     stops: list[float] = field(default_factory=list)
     reconnections: list[float] = field(default_factory=list)
 
@@ -92,7 +90,6 @@ def missions(seed: int, folder: Path) -> Household:
                 mission = _Mission(session, wire, there, watch, listener.witness, came)
                 mission.run(words, chance.uniform(0.1, 2.0) if stopped else None)
                 came.faults += [f"{seed}: {words}: {what}" for what in mission.wrong]
-                came.late += [f"{seed}: {words}: {what}" for what in mission.late]
                 wire.mischief = Mischief()
                 time.sleep(0.1)
     return came
@@ -134,7 +131,6 @@ class _Mission:
     witness: Witness
     came: Household
     wrong: list[str] = field(default_factory=list)
-    late: list[str] = field(default_factory=list)
 
     def run(self, words: str, stop_after_s: float | None) -> None:
         """Run it, and stop it then; whatever comes of it, the robot rests in the end."""
@@ -177,7 +173,7 @@ class _Mission:
         elif late > 0.0:
             self.came.stops.append(late)
         if late > STOPPED_S and since > RECONNECTED_S:
-            self.late.append(
+            self.wrong.append(
                 f"it ended {outcome.status} ({outcome.reason}), and moved {late:.2f} s after that "
                 f"or the stop, with a link for {since:.2f} s"
             )

@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-from second_robot import ACTIONS, EYE_M, SecondRobot
+from second_robot import ACTIONS, EYE_M, TOPICS, SecondRobot
+from websockets.asyncio.server import ServerConnection
 
-from executive.ros.protocol import GoalStatus
+from executive.ros.moveit import SEMANTICS, SEMANTICS_TYPE
+from executive.ros.protocol import GoalStatus, Operation, Publish, Subscribe, encode
 
 PROFILE = Path(__file__).with_name("motion_robot.toml")
 REACH_M, SHOULDER_M = 1.3, 0.8
@@ -24,6 +26,7 @@ NO_WAY = -31
 class MotionRobot(SecondRobot):
     """Besides driving: a head that follows trajectories, an arm, fingers."""
 
+    topics = {**TOPICS, SEMANTICS: SEMANTICS_TYPE}
     actions = {
         "/acme/go": ACTIONS["/acme/go"],
         "/acme/head": "control_msgs/action/FollowJointTrajectory",
@@ -41,6 +44,10 @@ class MotionRobot(SecondRobot):
         self.turned = Rotation.identity()
         self.grasp: tuple[np.ndarray, Rotation] | None = None
         """Where it is in the hand, if it is there."""
+        self.srdf = (
+            '<robot name="acme"><group name="arm"><joint name="elbow"/></group>'
+            '<group name="all"><group name="arm"/></group></robot>'
+        )
         self.is_blind = False
         self.squeezes_on = False
         """Whether closing the fingers has no end."""
@@ -50,6 +57,11 @@ class MotionRobot(SecondRobot):
     def drop(self) -> None:
         """Lose what is in the hand."""
         self.grasp, self.holds = None, ""
+
+    async def _take(self, client: ServerConnection, operation: Operation) -> None:
+        await super()._take(client, operation)
+        if isinstance(operation, Subscribe) and operation.topic == SEMANTICS:
+            await client.send(encode(Publish(SEMANTICS, {"data": self.srdf})))
 
     async def _pursue(self, action: str) -> None:
         _, goal = self._under_way[action]

@@ -27,6 +27,8 @@ from executive.page.study.page import StudyPage
 
 COMMAND = "Find the peach at the high_table"
 """What the robot does at once, and asks nothing."""
+FOUND = re.compile("The peach is on the|I hold the peach")
+"""What it says then; it has the peach in its hand if it was stopped as it brought it."""
 
 
 def study_of(conditions: int, tasks: int = 1, limit_s: float | None = None, **given: Any) -> Study:
@@ -106,7 +108,7 @@ def task_done(tab: Tab, chance: random.Random) -> None:
     before = len(said(tab))
     say(tab, COMMAND)
     after = tab.locator(f"#said > li.robot:nth-child(n+{before + 1})")
-    expect(after.filter(has_text="The peach is on the").first).to_be_visible()
+    expect(after.filter(has_text=FOUND).first).to_be_visible()
     wait_until_ready(tab)
     end_task(tab, "I have done it")
 

@@ -205,6 +205,11 @@ def test_an_ontology_without_properties_knows_names_only(tmp_path: Path) -> None
             "Mug has the shape Ball, which is no text: write it in words",
         ),
         (
+            '<household:color rdf:datatype="http://www.w3.org/2001/XMLSchema#integer">5'
+            "</household:color>",
+            "Mug has the color 5, which is no text: write it in words",
+        ),
+        (
             "<household:number>many</household:number>",
             "Mug has the number 'many', which is no number: write plural, or leave it out",
         ),

@@ -99,6 +99,12 @@ def test_a_thing_that_is_called_as_what_was_spoken_of_before_is_told(tmp_path, c
     assert told == f"Kettle is called '{pronoun}', which says what was spoken of before: rename it"
 
 
+@pytest.mark.parametrize("name", ["two kettles", "7 up", "All Spice"])
+def test_a_thing_whose_name_says_how_many_is_told(tmp_path, capsys, name):
+    [told] = checked(tmp_path, named(label(name)), capsys)
+    assert told == f"Kettle is called '{name}', which says how many: rename it"
+
+
 @pytest.mark.parametrize("content", ["", "skos:Kettle a skos:Concept ."])
 def test_a_file_that_adds_nothing_is_noted_when_it_is_checked(tmp_path, capsys, content):
     file = tmp_path / "guest.ttl"

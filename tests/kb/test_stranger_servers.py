@@ -76,6 +76,7 @@ EVENT = b"data: " + json.dumps(word("desk")).encode() + b"\r\n\r\n"
         chunks(EVENT),
         chunks(*(EVENT[at : at + 1] for at in range(len(EVENT)))),
         streams(word("desk"), {"choices": [], "usage": {"completion_tokens": 1}}),
+        streams("null", word("de"), "null", word("sk", "stop"), "[DONE]"),
         packed(gzip.compress(json.dumps(WHOLE).encode())),
         packed(gzip.compress(EVENT)),
         sends(

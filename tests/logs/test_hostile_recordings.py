@@ -112,6 +112,22 @@ def test_a_record_that_is_huge_is_not_read(run: Path, opcode: int) -> None:
         list(Run(run).ticks())
 
 
+def test_of_two_files_in_one_nobody_is_told_that_nothing_is_missing(
+    run: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, before = run / "mission.mcap", list(Run(run).ticks())
+    one = file.read_bytes()
+    file.write_bytes(one * 2)
+    assert main(["summary", str(run)]) == 2
+    assert (
+        f"another file begins here, which is not read: the file is damaged at byte {len(one)}"
+        in (capsys.readouterr().err)
+    )
+    assert list(Run(recover(file)).ticks()) == before
+    file.write_bytes(one + bytes(100))
+    assert list(Run(run).ticks()) == before
+
+
 def test_a_recording_packed_with_lz4_reads(run: Path) -> None:
     before = list(Run(run).ticks())
     repack(run, packing="lz4")

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +19,7 @@ from executive.records import Picture, Record, Scene, Seen, Shape
 from executive.types.perception import Box
 from logs.recorder import Stamp
 from logs.viewer import program
+from logs.viewer.display import DISPLAYS
 from logs.viewer.sink import RerunSink
 
 
@@ -215,6 +217,7 @@ def test_a_shape_of_unknown_kind_is_refused(tmp_path: Path) -> None:
 def test_a_viewer_that_cannot_start_is_said_in_a_sentence(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
+    monkeypatch.setenv("DISPLAY", ":0")
     monkeypatch.setattr(program, "COMMAND", ["false"])
     with pytest.raises(ExecutiveError, match="does not start"):
         RerunSink(tmp_path / "a.rrd", view=True)
@@ -222,12 +225,23 @@ def test_a_viewer_that_cannot_start_is_said_in_a_sentence(
         program.show(tmp_path / "a.rrd")
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere no variable names a display")
+def test_where_no_display_is_the_viewer_is_not_started(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(program, "COMMAND", ["true"])
+    for name in DISPLAYS:
+        monkeypatch.delenv(name, raising=False)
+    with pytest.raises(ExecutiveError, match="it needs a display"):
+        program.show(tmp_path / "a.rrd")
+    program.show(tmp_path / "a.rrd", web=True)
+
+
 @pytest.mark.viewer
 def test_closing_the_live_viewer_does_not_end_the_file(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(program, "COMMAND", [*program.COMMAND, "--headless"])
-    live = program.start()
+    live = program.start("--headless")
     monkeypatch.setattr(program, "start", lambda: live)
     sink = RerunSink(tmp_path / "a.rrd", view=True)
     try:

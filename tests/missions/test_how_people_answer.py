@@ -71,3 +71,40 @@ def test_an_answer_may_be_sloppy(answer: str) -> None:
 def test_nothing_is_put_on_the_floor() -> None:
     run = run_mission("Put the mug on the floor", answers=["on the desk"], llm=False, search="plan")
     assert run.user.asked[0].text == "I put nothing on the floor. Where shall I put the mug?"
+
+
+def test_an_answer_may_say_where_the_thing_is() -> None:
+    run = run_mission(
+        "Bring a fruit", answers=["the pear from the sofa"], llm=False, place={"pear": "sofa"}
+    )
+    assert (moved(run), run.outcome.visited) == ({"pear"}, ("sofa",))
+
+
+@pytest.mark.parametrize(
+    ("answer", "brought"),
+    [
+        ("the pear, the mug too", {"pear", "mug"}),
+        ("none of those, the mug", {"mug"}),
+        ("forget it, bring the mug", {"mug"}),
+        ("not sure, maybe the pear", {"pear"}),
+        ("whichever you like best", {"apple"}),
+    ],
+)
+def test_no_part_of_an_answer_is_lost(answer: str, brought: set[str]) -> None:
+    run = run_mission("Bring me a fruit", answers=[answer], llm=False, search="plan")
+    assert (run.outcome.status, moved(run)) == (MissionStatus.DONE, brought)
+
+
+def test_what_nothing_was_made_of_in_an_answer_is_told() -> None:
+    answers = ["the dining table but bring the apple first"]
+    run = run_mission("Put the mug on the table", answers=answers, llm=False, search="plan")
+    assert "I make nothing of 'apple'." in run.user.told
+    assert run.world.resting_place("mug") == "dining_table"
+
+
+@pytest.mark.parametrize("answer", ["on top of the fridge", "under the desk"])
+def test_nothing_is_put_where_it_cannot_be(answer: str) -> None:
+    answers = [answer, "the sofa"]
+    run = run_mission("Put the mug in the garage", answers=answers, llm=False, search="plan")
+    assert f"I can put things on furniture, or in it, but not '{answer}'." in run.user.told
+    assert run.world.resting_place("mug") == "sofa"

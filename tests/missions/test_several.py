@@ -320,3 +320,14 @@ def test_where_the_robot_saw_a_thing_nobody_has_said_it_is() -> None:
 def test_a_condition_holds_for_what_is_to_be_put_beside_something(place: str, put: bool) -> None:
     apple = run(f"If the apple is on the {place}, put it next to the mug")
     assert ("apple" in on(apple, "coffee_table")) is put
+
+
+def test_what_was_just_seen_is_what_is_brought_of_a_kind() -> None:
+    places = {"apple": "bed", "pear": "bed", "hammer": "bed"}
+    both = run("What is on the bed? Bring the fruits", place=places)
+    assert (both.outcome.status, on(both, "delivery")) == (DONE, {"apple", "pear"})
+
+
+def test_a_kind_of_which_nothing_was_just_seen_is_looked_for() -> None:
+    scissors = run("What is on the bed? Bring the scissors", place={"mug": "bed"})
+    assert on(scissors, "delivery") == {"scissors"}

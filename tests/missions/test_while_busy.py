@@ -522,3 +522,76 @@ def test_it_does_not_say_that_it_will_not_and_goes_on() -> None:
 def test_a_deed_that_begins_with_and_is_done_next() -> None:
     mission = run("Find the mug", "And bring it to me")
     assert [task[:2] for task in tasks(mission)] == [("find", "mug"), ("bring", "mug")]
+
+
+def test_what_waits_is_done_first_if_its_name_is_said_so() -> None:
+    mission = run("Bring the hammer, then the apple, then the mug", "The mug first, please")
+    assert [name for _, name, _ in tasks(mission)] == ["mug", "hammer", "apple"]
+
+
+def test_what_is_done_already_is_not_begun_anew_if_it_is_to_be_first() -> None:
+    mission = run("Bring the hammer, then the apple", "The hammer first")
+    assert sum(isinstance(goal, DriveTo) for goal in mission.goals) == 4
+
+
+@pytest.mark.parametrize("words", ["Bring the apple, the pear and the orange", "Bring the fruits"])
+@pytest.mark.parametrize("heard", ["Only two", "just two of them, please"])
+def test_of_several_only_so_many_are_brought(words: str, heard: str) -> None:
+    mission = run(words, heard)
+    assert len([at for at in mission.world.things.values() if at == "delivery"]) == 2
+
+
+def test_of_those_that_are_brought_already_there_are_enough() -> None:
+    mission = run("Bring all the fruit", "Only one", 8)
+    assert (mission.outcome.status, mission.outcome.reason) == (
+        DONE,
+        "Here is the apple from the dining table.",
+    )
+
+
+@pytest.mark.parametrize(
+    "words", ["Bring the apple, then the pear", "Bring the pear, then the apple"]
+)
+def test_another_place_is_for_all_but_what_is_not_meant(words: str) -> None:
+    mission = run(words, "To the desk, but not the pear")
+    assert mission.world.resting_place("apple") == "desk"
+    assert mission.world.resting_place("pear") == "high_table"
+
+
+def test_another_place_is_for_the_rest_of_a_kind() -> None:
+    mission = run("Bring all the fruit", "To the sofa, but not the pear")
+    assert mission.world.resting_place("pear") == "high_table"
+    assert list(mission.world.things.values()).count("sofa") == 5
+
+
+def test_what_is_told_of_a_place_takes_nothing_back() -> None:
+    mission = run("Bring the hammer", "It isn't on the shelf")
+    assert tasks(mission) == [("bring", "hammer", DONE)]
+
+
+def test_what_is_meant_instead_is_not_lost() -> None:
+    mission = run("Bring the hammer", "Not the hammer, I meant the wrench")
+    assert tasks(mission) == [("bring", "adjustable_wrench", DONE)]
+
+
+def test_what_is_named_beside_what_is_taken_back_is_told() -> None:
+    mission = run("Bring the hammer", "Don't bring the hammer now but maybe the pear later")
+    assert answers(mission) == [
+        "Then I do not bring the hammer. What is to be done with the pear I do not understand."
+    ]
+
+
+def test_what_waits_may_be_to_go_elsewhere_and_the_rest_is_done_as_before() -> None:
+    mission = run("Bring the apple and the pear", "No, the pear to the desk")
+    assert mission.world.resting_place("apple") == "delivery"
+    assert mission.world.resting_place("pear") == "desk"
+
+
+def test_a_place_to_go_to_is_not_struck_out_by_other_things() -> None:
+    mission = run("Bring the hammer, then go to the kitchen", "No, bring the apple and the pear")
+    assert [task[0] for task in tasks(mission)] == ["bring", "bring", "go"]
+
+
+def test_what_is_carried_is_put_down_at_once_if_that_is_said() -> None:
+    mission = run("Bring the hammer", "Drop it", 4)
+    assert tasks(mission) == [("put_down", "hammer", DONE)]

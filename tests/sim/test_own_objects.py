@@ -146,6 +146,11 @@ def test_nothing_of_the_package_is_too_much_for_the_hand() -> None:
         ("[objects.teapot]", "[objects.hand]", "this name has a meaning of its own"),
         ("[objects.teapot]", "[objects.Desk]", "object Desk: furniture desk is called the same"),
         ("[objects.teapot]", "[objects.den]", "object den: room den is called the same"),
+        (
+            "[objects.teapot]",
+            '[objects."two mugs"]',
+            "two mugs: its name says how many; give another",
+        ),
     ],
 )
 def test_what_cannot_be_is_refused_by_its_key_with_what_would_be_right(

@@ -24,4 +24,5 @@ class CheckWhether(Answer):
         """That there is none is known only if all was seen."""
         if found := context.situation.survey.found:
             return f"Yes: {found_where(found, context.say)}.", ""
-        return f"No, {nothing_there(context)}.", not_seen(context)
+        none, unseen = nothing_there(context), not_seen(context)
+        return (f"{none}." if unseen else f"No, {none}."), unseen

@@ -21,6 +21,7 @@ from executive.page.person import PagePerson
 from executive.types.results import Replied, Scored
 from logs.questions.difference import parting
 from logs.recording.reader import FILE_NAME, Run
+from logs.viewer.display import has_display
 
 MOST_LINES = 300
 MARKED = ("said", "model", "intervened", "mishap", "end")
@@ -28,7 +29,7 @@ MARKED = ("said", "model", "intervened", "mishap", "end")
 MOST_MARKS = 2000
 REPLAY_S = 900.0
 STARTED_S = 4.0
-"""A viewer that cannot be shown has ended by then."""
+"""A viewer that cannot be shown has ended by then, as a rule."""
 LONGEST_REPLAY = 20_000
 """Of what a replay says (characters)."""
 
@@ -191,27 +192,30 @@ class Desk:
     def view(self, name: str) -> dict[str, str]:
         """Open a run in the rerun viewer, on the machine where the robot's program runs.
 
+        It may take a while until the viewer is seen.
+
         Raises:
-            InputError: if it does not start.
+            InputError: if it does not start, as without a display.
         """
         folder = self._past.path(name)
         drawn = folder / "mission.rrd"
         recording = drawn if drawn.is_file() else folder / FILE_NAME
-        viewer = subprocess.Popen(
-            [sys.executable, "-m", "logs", "view", str(recording)],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,
-        )
-        self._viewers = [one for one in self._viewers if one.poll() is None]
-        try:
-            viewer.wait(STARTED_S)
-        except subprocess.TimeoutExpired:
-            self._viewers.append(viewer)
-            return {"shown": str(recording)}
-        what = "the rerun viewer does not start; it needs a display where the robot's program runs"
-        raise InputError("rerun", what, f"on another machine: python -m logs view {recording}")
+        if has_display():
+            viewer = subprocess.Popen(
+                [sys.executable, "-m", "logs", "view", str(recording)],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,
+            )
+            self._viewers = [one for one in self._viewers if one.poll() is None]
+            try:
+                viewer.wait(STARTED_S)
+            except subprocess.TimeoutExpired:
+                self._viewers.append(viewer)
+                return {"shown": str(recording)}
+        what = "the viewer does not start; it needs a display where the robot's program runs"
+        raise InputError("rerun", what, f"on a machine with one: python -m logs view {recording}")
 
     @property
     def _past(self) -> Runs:

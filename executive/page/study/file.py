@@ -23,13 +23,20 @@ from executive.toml_file import in_words, misread, read_toml
 
 RIGHT = "see docs/study.md"
 THANKS = "That was all. Thank you for taking part!"
+SPEECH = "participants speak by their browser, where the file says speech = true"
 NOT_OURS = {
     "user": "the participant is the person",
     "runs": "the study keeps recordings by participant",
     "memory": "what one participant said would be told to the next",
     "home_state": "what one participant had moved would be moved for the next",
+    "config": "all settings stand in the study's file",
+    "ears": SPEECH,
+    "voice": SPEECH,
+    "microphone": SPEECH,
 }
 """Settings that no condition has, and why."""
+KEEPING = ("memory", "home_state")
+"""Those that would outlive a participant, if the environment had them."""
 
 
 class Condition(Table):
@@ -146,10 +153,15 @@ def settings_of(study: Study, condition: Condition, where: str, **given: Any) ->
         if name in said:
             raise InputError(inside, f"{name} is not for a study: {why}", "leave it out")
     try:
-        return load_settings(**{**said, "user": "console", **given})
+        settings = load_settings(**{**said, "user": "console", **given})
     except InputError as error:
         which, what, right = error.args
         raise InputError(f"{inside}: {which}", what, right) from None
+    for name in KEEPING:
+        if getattr(settings, name) is not None:
+            what = f"is not for a study: {NOT_OURS[name]}"
+            raise InputError(f"EXECUTIVE_{name.upper()}", what, "take it out of the environment")
+    return settings
 
 
 def _wrong(file: Path, fault: ErrorDetails) -> InputError:

@@ -21,6 +21,8 @@ _THOUGHTS = ("reasoning_content", "reasoning", "thinking")
 _TOOLS = ("tool_calls", "function_call")
 _FIELDS = ("data", "event", "id", "retry", "")
 """Of an event; a comment has none."""
+_NOTHING = ("", "null")
+"""Data of an event that only keeps the connection alive."""
 _SIZED = ("Content-Length", "Transfer-Encoding")
 """Headers of a reply that cannot end too early unseen."""
 
@@ -135,7 +137,7 @@ class _Reader:
             return self._end_of_event()
         if self.whole or line.lstrip().startswith(("{", "[", "<")):
             self.whole.append(line)
-        elif colon and data and mark in ("data", "error"):
+        elif colon and data not in _NOTHING and mark in ("data", "error"):
             self._event.append(data if mark == "data" else f'{{"error": {data}}}')
         elif mark not in _FIELDS:
             self._strange = self._strange or line

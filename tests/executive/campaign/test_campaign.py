@@ -300,6 +300,14 @@ def test_two_homes_of_one_name_are_refused(
     assert "--home" in capsys.readouterr().err
 
 
+def test_policies_that_would_not_be_run_are_refused(
+    grid: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*grid, "--systems", "okb", "--policy", "plan", "--policy", "nearest"]) == 2
+    assert "--policy: okb asks no model" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 def test_a_campaign_of_no_seeds_is_refused() -> None:
     with pytest.raises(SystemExit):
         parser().parse_args(["--seeds", "0"])

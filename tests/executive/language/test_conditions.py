@@ -71,3 +71,24 @@ def test_if_so_and_otherwise_are_both_read_after_a_question() -> None:
 def test_there_are_other_words_for_if(word: str) -> None:
     command = one(f"Bring the mug {word} it is on the desk")
     assert (command.target, command.source, command.conditional) == ("mug", "desk", True)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Put the mug on the shelf unless the pear is there",
+        "Put the mug on the shelf if the pear is not on the shelf",
+        "If the pear is not on the shelf, put the mug there",
+    ],
+)
+def test_there_is_the_place_that_the_same_sentence_names(words: str) -> None:
+    command = one(words, HAMMER)
+    assert (command.target, command.source) == ("pear", "shelf")
+    assert command.unless
+    assert (command.unless.target, command.unless.goal) == ("mug", "shelf")
+
+
+def test_it_is_done_otherwise_with_what_was_to_be_done_something_with() -> None:
+    command = one("If the pear is on the shelf, put the mug there, otherwise put it on the desk")
+    assert command.unless
+    assert (command.goal, command.unless.target, command.unless.goal) == ("shelf", "mug", "desk")

@@ -55,7 +55,7 @@ def test_not_only_this_is_both(words: str) -> None:
 
 
 def test_what_is_to_be_gone_from_a_place_is_not_put_there() -> None:
-    [[command]] = read.commands("Get rid of the mug on the desk")
+    [[command]] = read.commands("Remove the mug on the desk")
     assert (command.kind, command.target) == ("clear", "mug")
     assert (command.source, command.goal) == ("desk", "")
 

@@ -38,8 +38,8 @@ def certain(*names: str) -> Things:
     return Things(tuple(Thing(name, definite=True) for name in names))
 
 
-def asks(*tasks: Task, in_order: bool = False) -> Request:
-    return Request(tasks, in_order)
+def asks(*tasks: Task) -> Request:
+    return Request(tasks)
 
 
 DESK, KITCHEN = Where("desk", Relation.ON), Where("kitchen", Relation.IN)
@@ -133,7 +133,6 @@ IT = Things((Thing("it", pronoun=True, definite=True),))
                 Task(CommandKind.GO, goal=Where("kitchen")),
                 Task(CommandKind.FIND, certain("mug")),
                 Task(CommandKind.BRING, IT, goal=ME),
-                in_order=True,
             ),
         ),
         (

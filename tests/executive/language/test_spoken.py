@@ -150,3 +150,20 @@ def test_what_was_brought_and_is_to_go_elsewhere_is_put_there() -> None:
 )
 def test_what_was_asked_about_is_what_was_spoken_of(asked: str, then: str, meant: str) -> None:
     assert command(then, asked_before(asked)) == meant
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Find the mug and the apple and put one on the desk and the other on the sofa",
+        "Bring the mug and the apple, then put the apple on the desk and the other one on the sofa",
+    ],
+)
+def test_the_other_of_two_is_that_which_was_not_named_since(words: str) -> None:
+    [*_, apple, mug] = [one for group in read.commands(words) for one in group]
+    assert (apple.target, apple.goal, mug.target, mug.goal) == ("apple", "desk", "mug", "sofa")
+
+
+def test_things_with_a_then_between_them_are_in_order_and_others_in_any() -> None:
+    assert len(read.commands("Bring the hammer, then the apple, then the mug")) == 3
+    assert len(read.commands("Bring the hammer, the apple and the mug")) == 1

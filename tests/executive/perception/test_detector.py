@@ -95,6 +95,7 @@ def test_classes_that_the_ontology_does_not_know_are_ignored_and_named(
         (v8([]), None, "says nothing of its classes; put a name a line into .*tiny.names"),
         (v8([]), "5 +", "its metadata's names are '5 \\+'"),
         (v8([]), "['zebra', 'yak']", r"knows none of its classes \(zebra, yak"),
+        (v8([]), "['mug', 'mug']", "has several classes that are called 'mug'; give each a name"),
     ],
 )
 def test_what_is_wrong_with_a_model_is_said_with_what_would_be_right(

@@ -13,8 +13,10 @@ from scipy.spatial.transform import Rotation
 
 from executive.app.handling import KnownThings
 from executive.events import Inbox
+from executive.ros import checking
 from executive.ros.__main__ import main as look
 from executive.ros.connection import Connection
+from executive.ros.moveit import SEMANTICS
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench, RobotContract
 from executive.types.goals import DriveTo, Halt, LookAt, Pick, PutDown
@@ -289,6 +291,28 @@ def test_joints_that_the_robot_does_not_have_are_told(
     assert look(["check", linked.there.url, "--profile", str(file)]) == 2
     said = capsys.readouterr().err
     assert "arm.carry: the robot has no joint elbow; /acme/fingers tells of finger" in said
+
+
+def test_a_planning_group_that_moveit_does_not_have_is_told(
+    linked: Linked, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "group.toml"
+    file.write_text(PROFILE.read_text().replace('group = "arm"', 'group = "manipulator"'))
+    assert look(["check", linked.there.url, "--profile", str(file)]) == 2
+    said = capsys.readouterr().err
+    assert (
+        f"arm.group: MoveIt has no planning group manipulator; {SEMANTICS} tells of arm, all"
+        in said
+    )
+
+
+@pytest.mark.parametrize("srdf", ["", "<robot", 5])
+def test_a_robot_that_does_not_tell_its_groups_is_believed_to_have_it(
+    linked: Linked, srdf: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(checking, "HEARING_S", 0.5)
+    linked.there.srdf = srdf
+    assert look(["check", linked.there.url, "--profile", str(PROFILE)]) == 0
 
 
 def test_look_proposes_its_arm_and_gripper(

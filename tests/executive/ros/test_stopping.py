@@ -1,37 +1,85 @@
 """How a robot over the wire is stopped, whatever the wire does."""
 
 import asyncio
+import math
+from collections import Counter
 from typing import Any
 
+import pytest
+
+from executive.ros import stopping
+from executive.ros.link import LinkError
 from executive.ros.profile import load_profile
 from executive.ros.stopping import Brake
 
+DRIVE = "/navigate_to_pose"
+
 
 class Robot:
-    """A link to a robot that moves until it is told to stop, and what is sensed of it."""
+    """A link to a robot that drives until it is told to stop, and what is sensed of it."""
 
     loss = ""
 
     def __init__(self) -> None:
-        self.cancels = 0
+        self.cancels: Counter[str] = Counter()
+        self.deaf_to = 0.0
+        """So many cancels of a drive come before it begins."""
+        self.answers_only_at_rest: set[str] = set()
 
     def greet_with(self, greeting: Any) -> None:
         pass
 
-    async def call(self, service: str, *_: Any, **__: Any) -> dict[str, Any]:
-        self.cancels += service.endswith("/cancel_goal")
+    async def call(self, service: str, *_: Any, within_s: float, **__: Any) -> dict[str, Any]:
+        action, hidden, _ = service.partition("/_action/cancel_goal")
+        assert hidden
+        self.cancels[action] += 1
+        if action in self.answers_only_at_rest:
+            await self._rest(within_s)
         return {"return_code": 0}
+
+    async def _rest(self, within_s: float) -> None:
+        try:
+            async with asyncio.timeout(within_s):
+                while self.unrest:
+                    await asyncio.sleep(0.01)
+        except TimeoutError:
+            raise LinkError("it does not answer") from None
 
     def feel_motion_anew(self) -> None:
         pass
 
     @property
     def unrest(self) -> str:
-        return "" if self.cancels else "my base moves"
+        return "" if self.cancels[DRIVE] > self.deaf_to else "my base moves"
+
+
+def stopped(robot: Any) -> tuple[dict[str, str], str]:
+    async def stop() -> tuple[dict[str, str], str]:
+        return await Brake(robot, load_profile("served"), robot).stop()
+
+    return asyncio.run(stop())
 
 
 def test_what_moves_on_is_cancelled_again() -> None:
     robot: Any = Robot()
-    brake = Brake(robot, load_profile("served"), robot)
-    assert asyncio.run(brake.rest()) == ""
-    assert robot.cancels
+    robot.deaf_to = 1
+    assert stopped(robot) == ({}, "")
+    assert robot.cancels[DRIVE] >= 2
+
+
+def test_what_begins_after_it_was_cancelled_is_cancelled_before_all_is_answered() -> None:
+    robot: Any = Robot()
+    robot.deaf_to = 1
+    robot.answers_only_at_rest.add("/pick")
+    assert stopped(robot) == ({}, "")
+
+
+def test_what_cannot_be_stopped_is_told_with_what_moves(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stopping, "REST_S", 0.1)
+    monkeypatch.setattr(stopping, "CANCELLING_S", 0.1)
+    robot: Any = Robot()
+    robot.deaf_to = math.inf
+    robot.answers_only_at_rest.add("/pick")
+    failures, unrest = stopped(robot)
+    assert failures == {"pick": "it does not answer"}
+    assert unrest == "my base moves"

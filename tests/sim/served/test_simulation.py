@@ -149,7 +149,8 @@ def test_a_port_that_is_taken_is_told_of() -> None:
 
 @pytest.fixture
 def process() -> Iterator["subprocess.Popen[str]"]:
-    command = [sys.executable, "-m", "sim", "serve", "--world", "fake", "--port", "0"]
+    options = ["--world", "fake", "--port", "0", "--fault", "moved=mug:desk@1"]
+    command = [sys.executable, "-m", "sim", "serve", *options]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as started:
         yield started
@@ -166,3 +167,12 @@ def test_it_is_served_from_the_command_line_until_somebody_says_stop(
     )
     process.send_signal(signal.SIGINT)
     assert process.wait(PATIENCE_S) == 130
+
+
+def test_it_goes_on_when_nobody_reads_what_it_tells(process: "subprocess.Popen[str]") -> None:
+    assert process.stdout is not None
+    address = next(word for word in process.stdout.readline().split() if "://" in word)
+    process.stdout.close()
+    with Raw(address) as client:
+        assert client.do(DRIVE, place_goal("desk"))["status"] == 4
+        assert client.told("/rosapi/nodes")

@@ -1,6 +1,7 @@
 """What the experimenter's page is told, and who may ask."""
 
 import json
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ import pytest
 from paging import TOKEN, Robot, ask, heard, page_alone, post, robot
 
 from executive.page.page import Page
+from logs.viewer.display import DISPLAYS
 
 PATHS = ["", "/runs", "/run", "/step", "/lines", "/node", "/call", "/parting", "/events"]
 
@@ -101,6 +103,20 @@ def test_a_run_does_not_part_from_itself_and_is_replayed(ran: Robot) -> None:
     body = json.dumps({"run": name}).encode()
     replayed = told(ran.page, "replay", method="POST", body=body)
     assert replayed["same"], replayed["text"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere no variable names a display")
+def test_without_a_display_nobody_is_told_that_the_viewer_opens(
+    ran: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in DISPLAYS:
+        monkeypatch.delenv(name, raising=False)
+    name = told(ran.page, "runs")["runs"][0]["run"]
+    body = json.dumps({"run": name}).encode()
+    path = "/experiment/view"
+    answer = ask(ran.page, path, token=token_of(ran.page), method="POST", body=body)
+    assert answer.status == 404
+    assert "needs a display" in json.loads(answer.body)["error"]
 
 
 @pytest.mark.parametrize("run", ["..", "/etc", "a/b", "nothing", ""])

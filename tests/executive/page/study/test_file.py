@@ -96,6 +96,8 @@ UNSURE = {"name": "a", "text": "A?", "needed": 0}
         ({"settings": {"user": "oracle"}}, "user is not for a study: the participant is"),
         ({"conditions": [{"name": "a", "settings": {"memory": "m"}}]}, "memory is not for a study"),
         ({"settings": {"home_state": "h.toml"}}, "home_state is not for a study: what one"),
+        ({"settings": {"config": "c.toml"}}, "config is not for a study: all settings stand in"),
+        ({"settings": {"ears": "pocketsphinx"}}, "ears is not for a study: participants speak by"),
         ({"after_each": "sus"}, "after_each is 'sus'; input should be a valid list"),
         ({"settings": 3}, "settings is 3; input should be a valid table"),
     ],
@@ -119,6 +121,8 @@ def test_what_is_wrong_is_said_with_where_and_what_would_be_right(
         ("world", "no.such:thing", "--world no.such:thing: there is no module no"),
         ("detector", "nowhere.onnx", "nowhere.onnx: cannot be read"),
         ("llm", "nowhere.gguf", "setting 'llm': model nowhere.gguf cannot be read"),
+        ("fault", ["slip=2"], "--fault slip=2: should be a probability"),
+        ("ycb", "nowhere", "--ycb nowhere: has no model"),
     ],
 )
 def test_what_a_later_condition_reads_is_tried_before_anyone_sits_down(
@@ -129,6 +133,15 @@ def test_what_a_later_condition_reads_is_tried_before_anyone_sits_down(
     with pytest.raises(InputError) as raised:
         try_conditions(study, "study.toml")
     assert str(raised.value).startswith(f"study.toml: settings of condition 'b': {said}")
+
+
+@pytest.mark.parametrize("name", ["MEMORY", "HOME_STATE"])
+def test_what_would_outlive_a_participant_is_not_taken_from_the_environment_either(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.setenv(f"EXECUTIVE_{name}", str(tmp_path / "kept"))
+    with pytest.raises(InputError, match=f"EXECUTIVE_{name}: is not for a study"):
+        read_study(written(tmp_path))
 
 
 KEYS = st.sampled_from([*LEAST, "settings", "after_each", "questionnaires", "order", "x"])
