@@ -221,7 +221,7 @@ def let_no_reader_hold_the_robot() -> None:
 class _OneLine(logging.Formatter):
     """What a message quotes cannot forge another one."""
 
-    def formatMessage(self, record: logging.LogRecord) -> str:  # noqa: N802 - logging's name
+    def formatMessage(self, record: logging.LogRecord) -> str:  # logging's name
         return printable(super().formatMessage(record))
 
 

@@ -182,7 +182,7 @@ class _Writer:
             sink.write(stamp, record)
         except OSError:
             raise
-        except Exception as error:  # noqa: BLE001 - whatever is wrong is wrong with this record
+        except Exception as error:  # whatever is wrong is wrong with this record
             if note := self._unwritten[id(sink)].note(type(record).__name__, error):
                 self._write(stamp, note)
 

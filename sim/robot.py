@@ -30,12 +30,12 @@ log = logging.getLogger(__name__)
 
 FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
 """Where the robot looks for what fell to the floor: to the left of where it faces (radians)."""
+FLOOR_AHEAD_M = 0.9
+"""How far from its middle it looks there."""
 REST_S = 1.5
 """The longest that anything moves on when the base stands."""
 ROLLING_S = 1.5
 """How long the robot waits for what fell to come to rest before it says so."""
-FLOOR_AHEAD_M = 0.9
-"""How far from its middle."""
 
 
 class SimulatedRobot:

@@ -4,40 +4,13 @@ All slow work has one shape: a method that starts it returns a request number at
 comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
 """
 
-from executive.interfaces.dialogue import (
-    Interpreter,
-    User,
-)
-from executive.interfaces.knowledge import (
-    Experience,
-    Facts,
-    Knowledge,
-    PlaceSource,
-)
-from executive.interfaces.llm import (
-    Advice,
-    CommandReader,
-    LanguageModel,
-    PlaceLister,
-    PlaceRanker,
-)
-from executive.interfaces.perception import (
-    Camera,
-    Detector,
-    Perception,
-)
-from executive.interfaces.robot import (
-    Robot,
-)
-from executive.interfaces.runtime import (
-    Clock,
-    Recorder,
-    Tree,
-)
-from executive.interfaces.simulation import (
-    SimulatedHome,
-    World,
-)
+from executive.interfaces.dialogue import Interpreter, User
+from executive.interfaces.knowledge import Experience, Facts, Knowledge, PlaceSource
+from executive.interfaces.llm import Advice, CommandReader, LanguageModel, PlaceLister, PlaceRanker
+from executive.interfaces.perception import Camera, Detector, Perception
+from executive.interfaces.robot import Robot
+from executive.interfaces.runtime import Clock, Recorder, Tree
+from executive.interfaces.simulation import SimulatedHome, World
 
 __all__ = [
     "Advice",

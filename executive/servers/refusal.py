@@ -21,7 +21,7 @@ _NAMES = ("param", "loc", "parameter", "field")
 _HTML = re.compile(r"\s*<(?:!doctype|html|head|body|\?xml)", re.IGNORECASE)
 
 
-class Refused(Exception):  # noqa: N818 - the server's word
+class Refused(Exception):
     """The server will not have this request.
 
     Attributes:

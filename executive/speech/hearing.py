@@ -72,7 +72,7 @@ class Hearing:
     def _hear_one(self, said: _Said) -> None:
         try:
             reading = self._ears.hear(said.sound)
-        except Exception as error:  # noqa: BLE001 - ears of others must not end all hearing
+        except Exception as error:  # ears of others must not end all hearing
             log.warning("%s failed: %r", self._ears.name, error)
             reading = Reading(self._ears.name, "", problem="the ears failed")
         if said.turn == self._turn:

@@ -134,5 +134,5 @@ def main() -> None:
     noise = np.random.default_rng(0).normal(0, 300, RATE_HZ).astype(np.int16)
     try:
         heard(recognizer(files, given["language"]), noise)
-    except Exception as error:  # noqa: BLE001 - whatever it is, it is told in a line
+    except Exception as error:  # whatever it is, it is told in a line
         sys.exit(printable(error))

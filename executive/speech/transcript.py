@@ -18,7 +18,7 @@ _ASIDE = re.compile(r"\[[^\]]*\]|\([^)]*\)|\*[^*]*\*|♪")
 """What no one said: [BLANK_AUDIO], (music), *coughs*."""
 
 
-class NotATranscript(Exception):  # noqa: N818 - what it is
+class NotATranscript(Exception):
     """The reply has no words in it, nor does it say that there were none."""
 
 

@@ -5,32 +5,10 @@ home, `base_link` to the robot, `camera_optical` to the camera (x right, y down,
 Quaternions are (x, y, z, w).
 """
 
-from executive.types.commands import (
-    ALL,
-    HELD,
-    SEARCHING,
-    Command,
-    CommandKind,
-    Commands,
-    Meaning,
-)
-from executive.types.dialogue import (
-    Question,
-    QuestionKind,
-)
-from executive.types.geometry import (
-    Pose,
-    Quaternion,
-    Vector3,
-)
-from executive.types.goals import (
-    DriveTo,
-    Goal,
-    Halt,
-    LookAt,
-    Pick,
-    PutDown,
-)
+from executive.types.commands import ALL, HELD, SEARCHING, Command, CommandKind, Commands, Meaning
+from executive.types.dialogue import Question, QuestionKind
+from executive.types.geometry import Pose, Quaternion, Vector3
+from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
 from executive.types.home import (
     DELIVERY,
     FLOOR,
@@ -42,38 +20,11 @@ from executive.types.home import (
     Place,
     Thing,
 )
-from executive.types.knowledge import (
-    Candidate,
-    Source,
-    Verdict,
-)
-from executive.types.llm import (
-    ChatRequest,
-    Message,
-    Precedent,
-    RankRequest,
-    Usage,
-)
-from executive.types.outcome import (
-    MissionStatus,
-    Outcome,
-    TaskOutcome,
-)
-from executive.types.perception import (
-    Box,
-    Detection,
-    Frame,
-    Intrinsics,
-)
-from executive.types.results import (
-    Answered,
-    Failed,
-    Replied,
-    Result,
-    Saw,
-    Scored,
-    Succeeded,
-)
+from executive.types.knowledge import Candidate, Source, Verdict
+from executive.types.llm import ChatRequest, Message, Precedent, RankRequest, Usage
+from executive.types.outcome import MissionStatus, Outcome, TaskOutcome
+from executive.types.perception import Box, Detection, Frame, Intrinsics
+from executive.types.results import Answered, Failed, Replied, Result, Saw, Scored, Succeeded
 
 __all__ = [
     "ALL",

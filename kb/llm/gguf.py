@@ -133,7 +133,7 @@ def _goes_on(checkpoint: Checkpoint) -> Callable[[float, ctypes.c_void_p], bool]
     def goes_on(progress: float, user_data: ctypes.c_void_p) -> bool:
         try:
             checkpoint()
-        except Exception:  # noqa: BLE001 - through C nothing can be raised
+        except Exception:  # through C nothing can be raised
             return False
         return True
 

@@ -55,7 +55,7 @@ def _is_packaged(path: Path) -> bool:
         return False
 
 
-class Cancelled(Exception):  # noqa: N818 - it is no error
+class Cancelled(Exception):
     """The request was called off."""
 
 
@@ -186,7 +186,7 @@ class LlamaCpp:
             result = work(checkpoint)
         except Cancelled:
             return
-        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+        except Exception as error:  # a request must never be left without an end
             result = Failed(str(error) or repr(error))
         self._stops.pop(request, None)
         self._inbox.end(request, result)

@@ -67,5 +67,5 @@ class _Work:
             return
         try:
             self.future.set_result(self._task())
-        except BaseException as error:  # noqa: BLE001 - whoever waits is told
+        except BaseException as error:  # whoever waits is told
             self.future.set_exception(error)

@@ -111,7 +111,7 @@ def _resized(color: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _batch(crops: list[Example], noise: Tensor, chance: Generator) -> Batch:
-    """Crops with the camera's flaws, as `sim.decor.through_the_lens` draws them."""
+    """Crops with the camera's flaws, as `sim.learning.decor.through_the_lens` draws them."""
     size = len(crops)
     colors = torch.from_numpy(np.stack([one.color for one in crops]))
     gain = chance.uniform(0.72, 1.22, (size, 1)) * chance.uniform(0.94, 1.06, (size, 3)) / 255

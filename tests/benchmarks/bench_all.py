@@ -22,7 +22,7 @@ from progress import measure
 
 from executive.campaign.report.paper import COMMANDS
 from kb.ontology.ontology import Ontology
-from sim.home.home import load_home
+from sim.home.home_file import load_home
 
 ORDER = "Bring a sugar_box"
 DOORS = ("executive", "executive.campaign", "kb", "kb.benchmark", "logs", "sim", "trees")

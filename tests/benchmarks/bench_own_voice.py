@@ -23,7 +23,7 @@ from executive.speech.spotting import StopSpotter
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
-from speaking import VOICES, four_rooms, say  # noqa: E402
+from speaking import VOICES, four_rooms, say
 
 OWN_VOICE = "en"
 """The one of espeak-ng's that speaks if none is named."""

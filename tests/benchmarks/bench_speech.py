@@ -20,15 +20,15 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
-from dialogue import Spoken, Told  # noqa: E402
-from speaking import VOICES, four_rooms, say  # noqa: E402
+from dialogue import Spoken, Told
+from speaking import VOICES, four_rooms, say
 
-from executive.language.control import control  # noqa: E402
-from executive.language.grammar import EnglishInterpreter  # noqa: E402
-from executive.speech.jsgf import LITTLE  # noqa: E402
-from executive.speech.sound import Sound  # noqa: E402
-from executive.speech.sphinx import PocketsphinxEars  # noqa: E402
-from executive.speech.spotting import StopSpotter  # noqa: E402
+from executive.language.control import control
+from executive.language.grammar import EnglishInterpreter
+from executive.speech.jsgf import LITTLE
+from executive.speech.sound import Sound
+from executive.speech.sphinx import PocketsphinxEars
+from executive.speech.spotting import StopSpotter
 
 THINGS = [
     "apple",

@@ -11,8 +11,6 @@ from executive.types.goals import DriveTo, LookAt, Pick
 from executive.types.knowledge import Source
 from executive.types.outcome import MissionStatus
 
-HAMMER_AT = "shelf_lobby"
-
 
 @dataclass(frozen=True)
 class Case:

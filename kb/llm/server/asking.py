@@ -103,7 +103,7 @@ class Asking:
                 await self._look()
         except TimeoutError:
             return f"{self._shown} is silent"
-        except Exception as error:  # noqa: BLE001 - this is no more than a look
+        except Exception as error:  # this is no more than a look
             return self._sentence(error)
         return ""
 
@@ -118,7 +118,7 @@ class Asking:
             return Failed(f"{self._shown} did not answer within {self._timeout_s:g} s")
         except (Refused, BrokenOff, NotJson, httpx2.HTTPError) as error:
             return Failed(self._sentence(error))
-        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+        except Exception as error:  # a request must never be left without an end
             return Failed(f"{self._shown} failed: {self._shortly(repr(error))}")
         text = self._key.hidden_in(writable(got.text))
         got.finish_reason = self._shortly(got.finish_reason)

@@ -14,7 +14,7 @@ MOST_BYTES = 8 << 20
 _ENDS = re.compile(rb"\r\n|\r|\n")
 
 
-class TooLong(Exception):  # noqa: N818 - what it is
+class TooLong(Exception):
     """There is no end to it."""
 
 

@@ -10,7 +10,7 @@ MOST_AT_ONCE = 1 << 16
 _KNOWN = ("gzip", "x-gzip", "deflate")
 
 
-class NotUnpacked(Exception):  # noqa: N818 - what it is
+class NotUnpacked(Exception):
     """It is packed in a way that is not known, or not as it says."""
 
 

@@ -153,7 +153,7 @@ class Server:
         asked = await self._asking.ask(request)
         try:
             result = asked if isinstance(asked, Failed) else self._result(request, asked)
-        except Exception as error:  # noqa: BLE001 - a request must never be left without an end
+        except Exception as error:  # a request must never be left without an end
             result = Failed(f"its reply cannot be taken in: {printable(type(error).__name__)}")
         self._inbox.end(number, result)
 

@@ -27,11 +27,11 @@ _SIZED = ("Content-Length", "Transfer-Encoding")
 """Headers of a reply that cannot end too early unseen."""
 
 
-class BrokenOff(Exception):  # noqa: N818 - what happened
+class BrokenOff(Exception):
     """The server did not get to its end; trying again may help."""
 
 
-class NotJson(Exception):  # noqa: N818 - what it is
+class NotJson(Exception):
     """What came is no reply."""
 
 

@@ -8,8 +8,8 @@ from executive.testing.contracts.ears import EarsContract
 
 pytest.importorskip("pocketsphinx", reason="needs the extra speech")
 
-from executive.speech.sphinx import PocketsphinxEars  # noqa: E402
-from executive.speech.spotting import StopSpotter  # noqa: E402
+from executive.speech.sphinx import PocketsphinxEars
+from executive.speech.spotting import StopSpotter
 
 RIGHT = ("find the tennis ball", "what is on the bed", "put it on the sideboard")
 DENIED = ("do not bring the mug", "don't find the hammer", "nobody should take the pitcher")
