@@ -29,50 +29,22 @@ FRAME_S = 1.0
 LINK_S = 5.0
 
 
-class WireCamera:
-    """Implements `Camera`; `capture` takes tens of milliseconds, and never longer than it may."""
+class Shutter:
+    """Takes pictures; belongs to the thread of the wire."""
 
-    def __init__(
-        self, wire: WireThread, link: Link, profile: Profile, senses: Senses, losses: Losses
-    ) -> None:
+    def __init__(self, link: Link, profile: Profile, senses: Senses) -> None:
         """Take no picture yet."""
-        self._wire = wire
         self._link = link
         self._profile = profile
         self._senses = senses
-        self._losses = losses
         self._numbers = count()
 
-    def capture(self) -> Frame:
-        """A picture of now; not called on the thread that ticks.
+    async def take(self) -> Frame:
+        """A picture of now, within the time that it may take.
 
         Raises:
-            NoLinkError: if the link was lost, and does not come back.
             LinkError: if none comes, or not such as can be used.
-            GivenUpError: if it is part of a computation that was given up.
         """
-        taking = self._wire.start(self._losses.outlived(self._take))
-        try:
-            while True:
-                try:
-                    return taking.result(0.05)
-                except TimeoutError:
-                    if taking.done():
-                        raise
-                    still_wanted()
-        except CancelledError:
-            raise LinkError("the link to the robot was closed") from None
-        finally:
-            taking.cancel()
-
-    async def points(self) -> Floats:
-        """What it sees now, as points (n, 3) in `map`; called on the thread of the wire."""
-        frame = await self._take()
-        rows, columns = np.mgrid[: frame.intrinsics.height, : frame.intrinsics.width]
-        points: Floats = back_project(frame, rows.ravel(), columns.ravel()).astype(np.float64)
-        return points
-
-    async def _take(self) -> Frame:
         await self._link.ready(LINK_S)
         color, depth, lens = await self._pair()
         try:
@@ -128,6 +100,45 @@ class WireCamera:
         if pose is None:
             raise LinkError(f"nobody tells where {camera} is in {within}: is the robot localised?")
         return pose
+
+
+class WireCamera:
+    """Implements `Camera`; `capture` takes tens of milliseconds, and never longer than it may."""
+
+    def __init__(self, wire: WireThread, shutter: Shutter, losses: Losses) -> None:
+        """Take no picture yet."""
+        self._wire = wire
+        self._shutter = shutter
+        self._losses = losses
+
+    def capture(self) -> Frame:
+        """A picture of now; not called on the thread that ticks.
+
+        Raises:
+            NoLinkError: if the link was lost, and does not come back.
+            LinkError: if none comes, or not such as can be used.
+            GivenUpError: if it is part of a computation that was given up.
+        """
+        taking = self._wire.start(self._losses.outlived(self._shutter.take))
+        try:
+            while True:
+                try:
+                    return taking.result(0.05)
+                except TimeoutError:
+                    if taking.done():
+                        raise
+                    still_wanted()
+        except CancelledError:
+            raise LinkError("the link to the robot was closed") from None
+        finally:
+            taking.cancel()
+
+    async def points(self) -> Floats:
+        """What it sees now, as points (n, 3) in `map`; called on the thread of the wire."""
+        frame = await self._shutter.take()
+        rows, columns = np.mgrid[: frame.intrinsics.height, : frame.intrinsics.width]
+        points: Floats = back_project(frame, rows.ravel(), columns.ravel()).astype(np.float64)
+        return points
 
 
 class _Collector:

@@ -130,14 +130,17 @@ async def _heard(profile: Profile, senses: Senses, where: str) -> list[InputErro
 
 
 def _unknown_joints(profile: Profile, senses: Senses, where: str) -> list[InputError]:
-    """Joints of the arm that are not among those that the robot tells of."""
-    if profile.arm is None or profile.joints is None or not senses.joints:
+    """Joints of arm and head that are not among those that the robot tells of."""
+    if profile.joints is None or not senses.joints:
         return []
+    arm, look = profile.arm, profile.look
+    named = [("arm.carry", name) for name in (arm.carry if arm else ())]
+    named += [("look.joints", name) for name in ((look.joints if look else None) or ())]
     told = ", ".join(sorted(senses.joints)[:20])
     right = f"{profile.joints.topic} tells of {told}"
     return [
-        InputError(where, f"arm.carry: the robot has no joint {name[:80]}", right)
-        for name in profile.arm.carry
+        InputError(where, f"{key}: the robot has no joint {name[:80]}", right)
+        for key, name in named
         if name not in senses.joints
     ]
 
@@ -147,6 +150,9 @@ def _unheard(profile: Profile, senses: Senses, where: str) -> list[InputError]:
     if senses.unrest.startswith("nobody"):
         right = "name a topic on which something is published"
         found.append(InputError(where, f"odometry, joints: {senses.unrest}", right))
+    if (hand := profile.hand) and hand.joint and senses.holding is None:
+        what = f"hand: nobody tells on {hand.topic} where {hand.joint[:80]} is"
+        found.append(InputError(where, what, "name a topic, and a joint that it tells of"))
     frames = profile.frames
     needed = [frames.base, frames.camera] if profile.camera.in_map else []
     needed += [profile.arm.tip] if profile.arm else []

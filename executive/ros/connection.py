@@ -11,7 +11,7 @@ from executive.guards import in_words
 from executive.interfaces.runtime import Clock
 from executive.ros.address import ROS2, Address
 from executive.ros.arm import Hands, NoHands
-from executive.ros.camera import WireCamera
+from executive.ros.camera import Shutter, WireCamera
 from executive.ros.checking import faults
 from executive.ros.clock import GoalClock, RobotClock
 from executive.ros.link import Link, LinkError
@@ -128,7 +128,7 @@ def connect(
         inbox.post(BodyTold(words))
 
     losses = Losses(line.link, profile.link_wait_s, brake.settled, tell_the_person)
-    camera = WireCamera(line.wire, line.link, profile, senses, losses)
+    camera = WireCamera(line.wire, Shutter(line.link, profile, senses), losses)
     robot = WireRobot(
         line.wire,
         line.link,
@@ -147,7 +147,7 @@ def connect(
 
 
 def check(address: Address, profile: Profile, where: str) -> list[InputError]:
-    """All that is wrong with a profile for the robot at an address.
+    """All that is wrong with a profile for the robot at an address; a picture is taken, too.
 
     Raises:
         InputError: if nobody answers there.
@@ -155,7 +155,14 @@ def check(address: Address, profile: Profile, where: str) -> list[InputError]:
     line = dial(address)
 
     async def hold() -> list[InputError]:
-        return await faults(line.link, profile, Senses(line.link, profile), where)
+        senses = Senses(line.link, profile)
+        if found := await faults(line.link, profile, senses, where):
+            return found
+        try:
+            await Shutter(line.link, profile, senses).take()
+        except LinkError as error:
+            return [InputError(where, f"camera: {in_words(error)}")]
+        return []
 
     try:
         return line.wire.run(hold())

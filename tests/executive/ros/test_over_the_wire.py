@@ -165,6 +165,28 @@ def test_check_says_that_a_profile_fits(
     assert "fits the robot" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("then", "now", "said"),
+    [
+        ('color = "/acme/rgb"', 'color = "/acme/range"', "a colour picture with encoding '16UC1'"),
+        ('depth = "/acme/range"', 'depth = "/acme/rgb"', "a depth picture with encoding 'bgr8'"),
+        ('joint = "finger"', 'joint = "thumb"', "nobody tells on /acme/fingers where thumb is"),
+    ],
+)
+def test_check_says_what_only_messages_tell(
+    there: SecondRobot,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    then: str,
+    now: str,
+    said: str,
+) -> None:
+    file = tmp_path / "slip.toml"
+    file.write_text(PROFILE.read_text().replace(then, now))
+    assert look(["check", there.url, "--profile", str(file)]) == 2
+    assert said in capsys.readouterr().err
+
+
 def test_profiles_that_come_along_can_be_read(capsys: pytest.CaptureFixture[str]) -> None:
     assert look(["profiles"]) == 0
     assert "nav2  a robot with Nav2" in capsys.readouterr().out
