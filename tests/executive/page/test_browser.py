@@ -6,7 +6,7 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
-from browsing import PHONE, answer, opened, said, say, wait_until_ready
+from browsing import DESKTOP, PHONE, answer, opened, said, say, wait_until_ready
 from paging import TOKEN, Robot, heard, page_alone, robot
 from playwright.sync_api import Browser, Route, expect
 
@@ -237,6 +237,18 @@ def test_the_end_of_the_conversation_stays_in_sight(browser: Browser, talking: R
         expect(tab.locator("#last")).to_have_text("Last time: done.")
         expect(tab.locator("#said > li").last).to_contain_text("Here is the peach")
         expect(tab.locator("#said > li").last).to_be_in_viewport(ratio=0.95)
+
+
+@pytest.mark.parametrize("size", [PHONE, DESKTOP], ids=["phone", "desk"])
+def test_a_long_conversation_does_not_lengthen_the_page(
+    browser: Browser, size: dict[str, int]
+) -> None:
+    with page_alone() as page, opened(browser, page, viewport=size) as tab:
+        for number in range(40):
+            who = ("robot", "person")[number % 2]
+            page.board.say({"who": who, "text": f"Sentence {number}", "at": 0.0})
+        expect(tab.locator("#said > li")).to_have_count(40)
+        assert tab.evaluate("document.documentElement.scrollHeight") == size["height"]
 
 
 def test_a_choice_that_was_lost_on_the_way_is_told_until_its_question_is_over(
