@@ -245,7 +245,8 @@ def test_a_long_conversation_does_not_lengthen_the_page(
 ) -> None:
     with page_alone() as page, opened(browser, page, viewport=size) as tab:
         for number in range(40):
-            page.board.say({"who": "robot", "text": f"Sentence {number}", "at": 0.0})
+            who = ("robot", "person")[number % 2]
+            page.board.say({"who": who, "text": f"Sentence {number}", "at": 0.0})
         expect(tab.locator("#said > li")).to_have_count(40)
         assert tab.evaluate("document.documentElement.scrollHeight") == size["height"]
 
