@@ -106,6 +106,7 @@ def test_what_failed_on_the_way_to_a_decision_says_why(tmp_path: Path) -> None:
         ("it was there", "it was not there"),
         ("person may help", "person may not help"),
         ("perhaps it is", "perhaps it is not"),
+        ("something is left", "nothing is left"),
     ],
 )
 def test_a_condition_that_did_not_hold_reads_as_a_sentence(condition: str, contrary: str) -> None:
