@@ -151,6 +151,17 @@ def test_the_chain_ends_with_the_outcome(run_dir: Path) -> None:
     assert why(Run(run_dir))[-1].question == "outcome"
 
 
+def test_why_says_that_the_recording_of_a_killed_mission_ends_early(
+    run_dir: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["why", str(run_dir)]) == 0
+    assert "ends early" not in capsys.readouterr().out
+    file = run_dir / "mission.mcap"
+    file.write_bytes(file.read_bytes()[:-20])
+    assert main(["why", str(run_dir)]) == 0
+    assert capsys.readouterr().out.endswith("\nthe recording ends early\n")
+
+
 # --- ticks and summary ---
 
 
