@@ -144,8 +144,10 @@ def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> "Iterator[T | Ro
 def _why(options: argparse.Namespace) -> Answer:
     from logs.questions.why import why, why_text
 
-    decisions = why(_opened(options.run))
-    return Answer([asdict(decision) for decision in decisions], why_text(decisions))
+    run = _opened(options.run)
+    decisions = why(run)
+    early = "" if run.whole else "\nthe recording ends early"
+    return Answer([asdict(decision) for decision in decisions], why_text(decisions) + early)
 
 
 def _ticks(options: argparse.Namespace) -> Answer:

@@ -43,6 +43,7 @@ LOOK_OR_ASK = "look or ask"
 MOST_TOLD, LEAST = 5, 0.005
 """So many places that are less likely are told of, if they are as likely as this."""
 NOT_NEEDED = "not needed"
+SOMETHING = "something"
 _VERB = re.compile(r"\b(is|was|may)\b")
 
 
@@ -459,6 +460,8 @@ def _outranked(call: LlmCall) -> list[Alternative]:
 
 def denied(condition: str) -> str:
     """The contrary of a condition, named as it reads when true: `in my hand`, `it was there`."""
+    if condition.startswith(SOMETHING):
+        return f"nothing{condition.removeprefix(SOMETHING)}"
     contrary, verbs = _VERB.subn(r"\1 not", condition, count=1)
     return contrary if verbs else f"not {condition}"
 

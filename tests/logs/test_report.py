@@ -106,6 +106,7 @@ def test_what_failed_on_the_way_to_a_decision_says_why(tmp_path: Path) -> None:
         ("it was there", "it was not there"),
         ("person may help", "person may not help"),
         ("perhaps it is", "perhaps it is not"),
+        ("something is left", "nothing is left"),
     ],
 )
 def test_a_condition_that_did_not_hold_reads_as_a_sentence(condition: str, contrary: str) -> None:
@@ -148,6 +149,17 @@ def test_what_the_model_prepared_for_a_call_is_told_with_it(tmp_path: Path) -> N
 
 def test_the_chain_ends_with_the_outcome(run_dir: Path) -> None:
     assert why(Run(run_dir))[-1].question == "outcome"
+
+
+def test_why_says_that_the_recording_of_a_killed_mission_ends_early(
+    run_dir: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["why", str(run_dir)]) == 0
+    assert "ends early" not in capsys.readouterr().out
+    file = run_dir / "mission.mcap"
+    file.write_bytes(file.read_bytes()[:-20])
+    assert main(["why", str(run_dir)]) == 0
+    assert capsys.readouterr().out.endswith("\nthe recording ends early\n")
 
 
 # --- ticks and summary ---
