@@ -1,6 +1,6 @@
 """What the robot says to what asks for no deed: questions about itself, and what it is told."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from executive.interfaces import Facts, Knowledge
@@ -52,6 +52,7 @@ class Standing:
         holds: what the hand holds; None: nothing.
         doing: what the robot is doing, as a sentence; empty if nothing.
         visits: where it went to look, and who had named the place, the last one at the end.
+        been: all the places where it was.
         reason: how the last mission ended, in words; empty if there was none.
         stands: where it is, at rest; empty if it was stopped on its way.
         asked: what the person asked for last; empty if nothing.
@@ -60,6 +61,7 @@ class Standing:
     holds: str | None = None
     doing: str = ""
     visits: Sequence[Candidate] = ()
+    been: Collection[str] = ()
     reason: str = ""
     stands: str = ""
     asked: str = ""
@@ -225,8 +227,12 @@ def _why(words: str, standing: Standing, knowledge: Knowledge) -> str:
     named = knowledge.places_named(words)
     visits = [visit for visit in standing.visits if not named or visit.place in named]
     if named or any(word in _WAYS for word in words.split()):
+        if not visits and named and not {*named} & {*standing.been}:
+            return standing.doing or "I was not there."
+        if not visits and not named:
+            return standing.doing or "I did not go anywhere."
         if not visits:
-            return "I was not there." if named else standing.doing or "I did not go anywhere."
+            return standing.reason or standing.doing
         visit = visits[-1]
         says = SAYS.get(visit.source, f"so says the {visit.source}")
         return f"I went to {Wording(knowledge.called).the(visit.place)} to look there: {says}."

@@ -88,7 +88,10 @@ class Nouns(Transformer[Token, Said]):
     def every_pronoun(self, parts: list[Part]) -> Thing:
         """As in "all of them", "them both"."""
         word = next(str(p) for p in parts if is_a(p, "PRONOUN"))
-        return Thing(word, number=ALL, pronoun=True, definite=True, said=said_of(parts))
+        both = any(is_a(p, "BOTH", "EVERY_OF") and p.startswith("both") for p in parts)
+        return Thing(
+            word, number=2 if both else ALL, pronoun=True, definite=True, said=said_of(parts)
+        )
 
     def some_of_them(self, parts: list[Part]) -> Thing:
         """As in "two of them", "any of those"."""
