@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from executive.belief import ANYWHERE
 from executive.interfaces import Facts, Knowledge
 from executive.language.commands import in_words
 from executive.language.meaning import (
@@ -25,6 +26,7 @@ SAYS: Mapping[str, str] = {
     Source.USER: "as you said",
     Source.MEMORY: "I remember it there",
     Source.HABITS: "it is often there at this time",
+    ANYWHERE: "it may be anywhere",
 }
 """How the person is told who names a place to look at; other sources say it themselves."""
 IDLE = "Nothing: I wait for what you say."
@@ -35,6 +37,7 @@ SAYS_OF_SEVERAL: Mapping[str, str] = {
     Source.ONTOLOGY: "that is their place",
     Source.MEMORY: "I remember them there",
     Source.HABITS: "they are often there at this time",
+    ANYWHERE: "they may be anywhere",
 }
 _WAYS = ("go", "drive", "look", "move", "search", "there")
 """Words of a question about where the robot went."""

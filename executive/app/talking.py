@@ -43,9 +43,10 @@ def _standing(before: Before) -> Standing:
     last = before.last
     if last is None:
         return Standing(before.in_hand, stands=before.stands)
+    visited = last.tasks[-1].visited if last.tasks else last.visited
     return Standing(
         before.in_hand,
-        visits=[one for one in last.candidates if one.place in last.visited],
+        visits=[one for one in last.candidates if one.place in visited],
         been={*last.visited, *chain.from_iterable(map(_put_at, last.tasks)), before.at},
         reason=last.reason,
         stands=before.stands,

@@ -170,7 +170,7 @@ class Nouns(Transformer[Token, Said]):
         """As in "it", as in "next to it"."""
         return Where(parts[0], pronoun=True)
 
-    def where(self, parts: list[Part]) -> Where:
+    def where(self, parts: list[Part]) -> Where | From:
         """As in "on the desk": where it is or where it is to go, as the verb says."""
         places, relation = [], Relation.AT
         for part in parts:
@@ -178,7 +178,8 @@ class Nouns(Transformer[Token, Said]):
                 relation = self._relations[part]
             elif isinstance(part, Where):
                 places.append(replace(part, relation=relation))
-        return either_of(places)
+        either = either_of(places)
+        return From(either, told=True) if is_a(parts[0], "THAT_IS") else either
 
     def between(self, parts: list[Part]) -> Where:
         """As in "between the sofa and the desk"."""

@@ -208,3 +208,9 @@ def test_it_does_not_deny_where_it_was(
     with session_of(tmp_path) as session:
         session.run(command)
         assert session.run(f"Why did you go to the {place}?").reason.startswith(answer)
+
+
+def test_who_named_a_place_is_not_made_up(tmp_path: Path) -> None:
+    with session_of(tmp_path, place={"mug": "sofa"}) as session:
+        session.run("Find the mug")
+        assert "it may be anywhere" in session.run("Why did you go to the sofa?").reason
