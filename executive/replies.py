@@ -1,9 +1,10 @@
 """What the robot says to what asks for no deed: questions about itself, and what it is told."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from executive.interfaces.knowledge import Facts, Knowledge
+from executive.belief import ANYWHERE
 from executive.language.commands import in_words
 from executive.language.meaning import (
     About,
@@ -27,6 +28,7 @@ SAYS: Mapping[str, str] = {
     Source.USER: "as you said",
     Source.MEMORY: "I remember it there",
     Source.HABITS: "people may have taken it there",
+    ANYWHERE: "it may be anywhere",
 }
 """How the person is told who names a place to look at; other sources say it themselves."""
 IDLE = "Nothing: I wait for what you say."
@@ -37,6 +39,7 @@ SAYS_OF_SEVERAL: Mapping[str, str] = {
     Source.ONTOLOGY: "that is their place",
     Source.MEMORY: "I remember them there",
     Source.HABITS: "people may have taken them there",
+    ANYWHERE: "they may be anywhere",
 }
 _WAYS = ("go", "drive", "look", "move", "search", "there")
 """Words of a question about where the robot went."""
@@ -54,6 +57,7 @@ class Standing:
         holds: what the hand holds; None: nothing.
         doing: what the robot is doing, as a sentence; empty if nothing.
         visits: where it went to look, and who had named the place, the last one at the end.
+        been: all the places where it was.
         reason: how the last mission ended, in words; empty if there was none.
         stands: where it is, at rest; empty if it was stopped on its way.
         asked: what the person asked for last; empty if nothing.
@@ -62,6 +66,7 @@ class Standing:
     holds: str | None = None
     doing: str = ""
     visits: Sequence[Candidate] = ()
+    been: Collection[str] = ()
     reason: str = ""
     stands: str = ""
     asked: str = ""
@@ -227,8 +232,12 @@ def _why(words: str, standing: Standing, knowledge: Knowledge) -> str:
     named = knowledge.places_named(words)
     visits = [visit for visit in standing.visits if not named or visit.place in named]
     if named or any(word in _WAYS for word in words.split()):
+        if not visits and named and not {*named} & {*standing.been}:
+            return standing.doing or "I was not there."
+        if not visits and not named:
+            return standing.doing or "I did not go anywhere."
         if not visits:
-            return "I was not there." if named else standing.doing or "I did not go anywhere."
+            return standing.reason or standing.doing
         visit = visits[-1]
         says = SAYS.get(visit.source, f"so says the {visit.source}")
         return f"I went to {Wording(knowledge.called).the(visit.place)} to look there: {says}."

@@ -191,7 +191,7 @@ def _reply(context: MissionContext, said: Question | Statement | Request, now: s
     visited = situation.search.looks.visited
     visits = [one for one in situation.search.candidates if one.place in visited]
     asked = situation.request.words
-    standing = Standing(situation.hand.in_hand, now, visits, asked=asked)
+    standing = Standing(situation.hand.in_hand, now, visits, visited, asked=asked)
     answer = reply(meant, standing, context.knowledge, context.facts)
     is_it = about(meant, context.knowledge) == (situation.request.object,)
     searches = situation.search.found is None and not situation.has_it

@@ -123,7 +123,7 @@ class SourceIsKnown(Step):
         assert request.object
         named = places_in(self.context, request.command.source)
         if not named or not is_place(self.context, request.command.source):
-            return self.fail(f"I know no '{self.context.as_said(request.command.source)}'")
+            return self.fail(f"I know no place '{self.context.as_said(request.command.source)}'")
         likely = (
             *self.context.facts.places_of(request.object),
             *usual_places(self.context),
@@ -154,7 +154,7 @@ class AskFromWhere(AskWhere):
     def unresolved(self) -> str:
         """The place is unknown."""
         assert self.situation.request.command
-        return f"I know no '{self.context.as_said(self.situation.request.command.source)}'"
+        return f"I know no place '{self.context.as_said(self.situation.request.command.source)}'"
 
 
 class SearchAnyway(Step):
@@ -164,7 +164,7 @@ class SearchAnyway(Step):
         """Nothing that was said is passed over in silence."""
         request = self.situation.request
         assert request.command
-        said = f"I know no '{self.context.as_said(request.command.source)}'"
+        said = f"I know no place '{self.context.as_said(request.command.source)}'"
         say, name = self.context.say, request.object or ""
         where = f"where {say.agree(name, 'it', 'they')} may be"
         tell(self.context, f"{said}; I look for {say.the(name)} {where}.")

@@ -7,7 +7,7 @@ from math import inf, isfinite, sqrt
 
 from py_trees.common import Status
 
-from executive.belief import ANYWHERE, PLAN, Belief, Likely, Statement, in_order
+from executive.belief import PLAN, Belief, Likely, Statement, in_order
 from executive.plan import Chance, Plan, Prices, best_plan
 from executive.records import Planned, WaysTold
 from executive.situation import Leg
@@ -327,8 +327,6 @@ class TellWhere(Step):
             tell(self.context, f"I look for {the} {where}, and think about {may_be} meanwhile.")
             return
         usually = self.situation.search.default_locations
-        others = {ANYWHERE: NOBODY_SAYS, EXPERIMENTER: NOBODY_SAYS} | (
-            {Source.ONTOLOGY: USUALLY} if usually else {}
-        )
+        others = {EXPERIMENTER: NOBODY_SAYS} | ({Source.ONTOLOGY: USUALLY} if usually else {})
         why = who_says(self.context, source, **others)
         tell(self.context, f"I look for {the} {where}: {why}.")

@@ -161,7 +161,7 @@ class KnowsWhereToLook(Step):
         assert command
         places = places_in(context, command.source) if command.source else ()
         if command.source and not (places and is_place(context, command.source)):
-            return self.fail(f"I know no '{context.as_said(command.source)}'")
+            return self.fail(f"I know no place '{context.as_said(command.source)}'")
         everywhere = tuple(place.name for place in context.knowledge.places())
         anywhere = whereabouts(context, replace(command, source=""))
         order = seen_soonest(context, [anywhere.of(place) for place in places or everywhere])

@@ -5,6 +5,7 @@ from dataclasses import replace
 from itertools import chain
 
 from executive.app.parts import Parts
+from executive.language.meaning import Correction
 from executive.language.phrases import spoken
 from executive.language.pronouns import resolved
 from executive.language.spoken import after
@@ -28,8 +29,11 @@ def answer(words: str, parts: Parts, before: Before) -> tuple[str, Before]:
 
 def remember(words: str, outcome: Outcome, parts: Parts, before: Before) -> Before:
     """How things stand after a mission, with what was spoken of in it."""
-    said = resolved(parts.interpreter.read(words), before.spoken)
-    things = tuple(dict.fromkeys(chain.from_iterable(map(_things_of, outcome.tasks))))
+    said = parts.interpreter.read(words)
+    goes_on = isinstance(said, Correction) and said.adds  # "and the pear": "both" are spoken of
+    known = before.spoken.things if goes_on else ()
+    said = resolved(said, before.spoken)
+    things = tuple(dict.fromkeys((*known, *chain.from_iterable(map(_things_of, outcome.tasks)))))
     place = outcome.goals[0] if outcome.goals else outcome.location or ""
     return replace(before, spoken=after(said, before.spoken, things=things, place=place))
 
@@ -39,13 +43,23 @@ def _standing(before: Before) -> Standing:
     last = before.last
     if last is None:
         return Standing(before.in_hand, stands=before.stands)
+    visited = last.tasks[-1].visited if last.tasks else last.visited
     return Standing(
         before.in_hand,
-        visits=[one for one in last.candidates if one.place in last.visited],
+        visits=[one for one in last.candidates if one.place in visited],
+        been={*last.visited, *chain.from_iterable(map(_put_at, last.tasks)), before.at},
         reason=last.reason,
         stands=before.stands,
         asked=last.command,
     )
+
+
+def _put_at(task: TaskOutcome) -> Iterator[str]:
+    """Where things were put down."""
+    for part in task.parts:
+        yield from _put_at(part)
+    if task.put_at:
+        yield task.put_at
 
 
 def _things_of(task: TaskOutcome) -> Iterator[str]:

@@ -14,6 +14,7 @@ from executive.language.meaning import (
     Courtesy,
     Question,
     Refusal,
+    Relation,
     Request,
     Said,
     Statement,
@@ -44,6 +45,8 @@ COURTESIES = {
     Courtesy.GOODBYE: "Goodbye!",
 }
 THING = "thing"
+_NOT_SEEN = (Relation.UNDER, Relation.BEHIND, Relation.IN_FRONT_OF, Relation.ABOVE)
+"""Sides of furniture where nothing is looked for."""
 _LOOKING = (CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL)
 
 
@@ -201,6 +204,8 @@ def _why_not(task: Task) -> str:
     for place in (task.source, task.goal):
         if place and place.pronoun:
             return f"I do not know where '{place.words}' is; say the name of the place"
+    if task.verb in _QUESTIONS and task.source and task.source.relation in _NOT_SEEN:
+        return f"I can look on furniture, or in it, but not '{in_words(task.source)}'"
     if task.verb == CommandKind.PUT_DOWN and task.source:
         return "I put down only what I hold"
     if task.verb in (CommandKind.TELL, CommandKind.CLEAR) and not (

@@ -82,7 +82,10 @@ class Deeds(Nouns):
         return Left(self.left_alone([*things.members]))
 
     def wish(self, parts: list[Part]) -> Task:
-        """As in "I need the mug"."""
+        """As in "I need the mug"; where it is to be, or is, "I want it on the desk" leaves open."""
+        there = next((p.words for p in parts if isinstance(p, Where)), None)
+        if there is not None and parts[0].startswith(("i want", "i need", "i would like")):
+            raise Unfit(there)
         return _task(CommandKind.BRING, parts)
 
     def further(self, parts: list[Part]) -> Further:
@@ -310,12 +313,13 @@ def _task(verb: CommandKind, parts: list[Part], *, goes: bool = False) -> Task:
     places: dict[str, Where] = {}
     last, inner = "", 0
     for part in parts:
-        if isinstance(part, From):
+        if isinstance(part, From) and not (part.told and last):
             role, place = "source", part.place
         elif isinstance(part, To):
             role, place = "goal", part.place
-        elif isinstance(part, Where):
-            role, place = ("goal" if goes else "source"), part
+        elif isinstance(part, Where | From):
+            role = "goal" if goes else "source"
+            place = part if isinstance(part, Where) else part.place
             if last and (role in places or last == "goal"):
                 places[last] = replace(places[last], within=_inner(places[last].within, place))
                 inner += 1

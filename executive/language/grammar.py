@@ -17,7 +17,7 @@ from executive.language.meaning import (
 )
 from executive.language.pronouns import resolved
 from executive.language.reader import AT_A_TIME, Reader, english
-from executive.language.slips import brought, without_slips
+from executive.language.slips import brought, put_there, without_slips
 from executive.language.spoken import NOTHING, Spoken
 from executive.types.commands import Command, CommandKind, Commands
 
@@ -107,7 +107,8 @@ class EnglishInterpreter:
             likely := commands_in(said, words), tuple
         ):
             return likely
-        for likely in (*without_slips(self._reader, words), *brought(self._reader, words)):
+        ways = (without_slips, brought, put_there)
+        for likely in chain.from_iterable(way(self._reader, words) for way in ways):
             if commands := self.commands(likely):
                 return commands
         return ()

@@ -89,7 +89,10 @@ class Nouns(Transformer[Token, Said]):
     def every_pronoun(self, parts: list[Part]) -> Thing:
         """As in "all of them", "them both"."""
         word = next(str(p) for p in parts if is_a(p, "PRONOUN"))
-        return Thing(word, number=ALL, pronoun=True, definite=True, said=said_of(parts))
+        both = any(is_a(p, "BOTH", "EVERY_OF") and p.startswith("both") for p in parts)
+        return Thing(
+            word, number=2 if both else ALL, pronoun=True, definite=True, said=said_of(parts)
+        )
 
     def some_of_them(self, parts: list[Part]) -> Thing:
         """As in "two of them", "any of those"."""
@@ -168,7 +171,7 @@ class Nouns(Transformer[Token, Said]):
         """As in "it", as in "next to it"."""
         return Where(parts[0], pronoun=True)
 
-    def where(self, parts: list[Part]) -> Where:
+    def where(self, parts: list[Part]) -> Where | From:
         """As in "on the desk": where it is or where it is to go, as the verb says."""
         places, relation = [], Relation.AT
         for part in parts:
@@ -176,7 +179,8 @@ class Nouns(Transformer[Token, Said]):
                 relation = self._relations[part]
             elif isinstance(part, Where):
                 places.append(replace(part, relation=relation))
-        return either_of(places)
+        either = either_of(places)
+        return From(either, told=True) if is_a(parts[0], "THAT_IS") else either
 
     def between(self, parts: list[Part]) -> Where:
         """As in "between the sofa and the desk"."""

@@ -20,6 +20,8 @@ class From:
     """Where a thing is to be taken from."""
 
     place: Where
+    told: bool = False
+    """Whether it says more of what is named before it: "that is on the desk"."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,6 +81,8 @@ class Reader:
         self._only = re.compile(rf"^(?:no,? )?(?:please )?(?:{_any_of(words['only'])})(?= )")
         self._conditions = re.compile(rf"\b(?:{_any_of(words['conditions'])})\b")
         self._numbers: dict[str, int] = words["numbers"]
+        self.wish = re.compile(rf"(?:{_any_of(words['wishes'])}) ")
+        """How a wish begins that may be to have something, or to have it put somewhere."""
         self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
         self._builder = _builder(words)
         grammar = (ASSETS / f"{language}.lark").read_text("utf-8")

@@ -38,6 +38,12 @@ def brought(reader: Reader, words: str) -> Iterator[str]:
         yield f"bring {reader.plain(words)}"
 
 
+def put_there(reader: Reader, words: str) -> Iterator[str]:
+    """What was probably meant, if a thing is wished to be somewhere: "I want it on the desk"."""
+    if isinstance(reader.read(words), Unread) and (wish := reader.wish.match(reader.plain(words))):
+        yield f"put {reader.plain(words)[wish.end() :]}"
+
+
 def _near(word: str, deeds: tuple[str, ...]) -> str:
     """The deed that a word is a slip of; empty if it is of none, or is one."""
     most = 0 if len(word) < SHORTEST else 1 if len(word) < LONG else 2

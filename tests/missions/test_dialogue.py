@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from talking import session_in, told
+from talking import session_in, session_of, told
 
 from executive.app.session import Session
 from executive.replay.replaying import replay
@@ -193,3 +193,25 @@ def test_answers_questions_about_itself_without_a_mission(
     runs = os.listdir(session.settings.runs)
     assert (session.run(question).reason, told(session)[-1]) == (answer, answer)
     assert os.listdir(session.settings.runs) == runs
+
+
+@pytest.mark.parametrize(
+    ("command", "place", "answer"),
+    [
+        ("Put the mug on the sofa", "sofa", "I put the mug on the sofa."),
+        ("Go to the sofa", "sofa", "I am at the sofa."),
+        ("Find the hammer, then find the mug", "shelf in the lobby", "1. The hammer is"),
+    ],
+)
+def test_it_does_not_deny_where_it_was(
+    command: str, place: str, answer: str, tmp_path: Path
+) -> None:
+    with session_of(tmp_path) as session:
+        session.run(command)
+        assert session.run(f"Why did you go to the {place}?").reason.startswith(answer)
+
+
+def test_who_named_a_place_is_not_made_up(tmp_path: Path) -> None:
+    with session_of(tmp_path, place={"mug": "sofa"}) as session:
+        session.run("Find the mug")
+        assert "it may be anywhere" in session.run("Why did you go to the sofa?").reason

@@ -68,7 +68,7 @@ def test_where_the_robot_could_not_look_it_does_not_say_that_nothing_is_there(
 def test_a_place_that_is_not_known_is_asked_for(tmp_path: Path, place: str) -> None:
     session, _ = session_in(tmp_path, ["on the coffee table"])
     outcome = session.run(f"Bring the mug from the {place}")
-    assert f"I know no '{place}'. Where is the mug?" in told(session)
+    assert f"I know no place '{place}'. Where is the mug?" in told(session)
     assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ("coffee_table",))
     session.close()
     assert session.folder
@@ -78,7 +78,7 @@ def test_a_place_that_is_not_known_is_asked_for(tmp_path: Path, place: str) -> N
 def test_a_place_that_nobody_knows_does_not_end_the_search(tmp_path: Path) -> None:
     session, _ = session_in(tmp_path, ["I don't know"])
     outcome = session.run("Bring the hammer from the attic")
-    assert "I know no 'attic'; I look for the hammer where it may be." in told(session)
+    assert "I know no place 'attic'; I look for the hammer where it may be." in told(session)
     assert (outcome.status, outcome.visited) == (MissionStatus.DONE, ("shelf_lobby",))
     session.close()
 

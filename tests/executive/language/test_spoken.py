@@ -167,3 +167,8 @@ def test_the_other_of_two_is_that_which_was_not_named_since(words: str) -> None:
 def test_things_with_a_then_between_them_are_in_order_and_others_in_any() -> None:
     assert len(read.commands("Bring the hammer, then the apple, then the mug")) == 3
     assert len(read.commands("Bring the hammer, the apple and the mug")) == 1
+
+
+def test_both_of_one_that_was_spoken_of_are_two() -> None:
+    [[both]] = read.commands("Bring both", Spoken(("pear",), "pear"))
+    assert (both.target, both.number) == ("pear", 2)
