@@ -3,8 +3,8 @@
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from executive.interfaces.knowledge import Facts, Knowledge
 from executive.belief import ANYWHERE
+from executive.interfaces.knowledge import Facts, Knowledge
 from executive.language.commands import in_words
 from executive.language.meaning import (
     About,
