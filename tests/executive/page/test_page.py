@@ -78,14 +78,15 @@ def test_each_sentence_in_a_mission_says_why(tmp_path: Path) -> None:
         answer = ask(made.page, "/why", run=said["run"], time_s=said["time_s"])
         chain = json.loads(answer.body)
     assert chain[0]["question"] == "known object"
-    assert chain[-1] == {
+    assert chain[-2] == {
         "time_s": 0.0,
         "question": "understand",
         "answer": "find fruit",
         "source": "person",
-        "by": chain[-1]["by"],
+        "by": chain[-2]["by"],
         "alternatives": [],
     }
+    assert chain[-1]["answer"] == "'Find a fruit'"
 
 
 @pytest.mark.parametrize("run", ["", "..", "../..", "/etc", "nothing", "a/b"])
