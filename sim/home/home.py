@@ -17,7 +17,7 @@ from pydantic_core import ErrorDetails
 from executive.errors import InputError
 from executive.files import decoded, read_bytes
 from executive.geometry import heading
-from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml
+from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml, shown
 from executive.types import DELIVERY, PERSON, Place, Pose, Thing, Vector3
 from sim.home.arrangement import Spot, Standing, arrange
 from sim.home.floorplan import FARTHEST_M, Door, Length, Room, Wall, walls
@@ -278,7 +278,9 @@ def _inspect(
     try:
         home = Home.model_validate(data)
     except ValidationError as error:
-        found = islice(error.errors(include_url=False), MOST_TOLD)
+        faults = error.errors(include_url=False)
+        around = {fault["loc"][:depth] for fault in faults for depth in range(len(fault["loc"]))}
+        found = islice((fault for fault in faults if fault["loc"] not in around), MOST_TOLD)
         return None, tuple(_input_error(where, data, fault) for fault in found)
     home._folder, home._file = folder, where
     flaws = list(islice(home_flaws(home), MOST_TOLD)) or list(islice(mesh_flaws(home), MOST_TOLD))
@@ -322,7 +324,7 @@ def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
         return InputError(where, f"there is no key {key}", example)
     if fault["type"] == "missing":
         return InputError(where, f"{key} is missing", example)
-    return InputError(where, f"{key} is {_shown(fault['input'])}", _right(fault))
+    return InputError(where, f"{key} is {shown(fault['input'])}", _right(fault))
 
 
 def _key(data: Any, path: tuple[str | int, ...]) -> str:
@@ -342,8 +344,3 @@ def _right(fault: ErrorDetails) -> str:
     said = in_words(fault["msg"].lower())
     is_point = any(bound in (-FARTHEST_M, FARTHEST_M) for bound in fault.get("ctx", {}).values())
     return f"{said} (metres)" if is_point else said
-
-
-def _shown(value: Any) -> str:
-    text = str(value).lower() if isinstance(value, bool) else repr(value)
-    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
