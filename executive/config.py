@@ -4,6 +4,7 @@
 imported and built when the first settings are made.
 """
 
+import json
 import os
 import re
 from collections.abc import Iterable
@@ -28,6 +29,7 @@ from pydantic_core import ErrorDetails
 from executive.cache import VARIABLE as CACHE
 from executive.errors import InputError
 from executive.servers.key import EARS_KEY, LLM_KEY
+from executive.text import writable
 from executive.toml_file import misread, read_toml
 
 PREFIX = "EXECUTIVE_"
@@ -59,6 +61,10 @@ class KnowledgeSystem(StrEnum):
     OKB = "okb"
     OKB_LLM = "okb+llm"
     OKB_LLM_MEM = "okb+llm+mem"
+
+
+Whole = Annotated[int, Field(lt=2**63)]
+"""A whole number that fits into a TOML file, such as that of a run's settings."""
 
 
 class Settings(BaseModel):
@@ -173,7 +179,7 @@ class Settings(BaseModel):
     ycb: Annotated[Path | None, Option("DIR")] = Field(
         None, description="folder of YCB models to see instead of the packaged meshes"
     )
-    seed: Annotated[int, Option("N")] = Field(
+    seed: Annotated[Whole, Option("N")] = Field(
         0, ge=0, description="of the world, the model and the simulated person"
     )
     memory: Annotated[Path | None, Option("FILE")] = Field(
@@ -199,15 +205,15 @@ class Settings(BaseModel):
 
     temperature: float = Field(0.6, ge=0, description="of the language model (paper: 0.6)")
     top_p: float = Field(0.9, gt=0, le=1, description="of the language model (paper: 0.9)")
-    context_tokens: int = Field(4096, ge=512, description="of the language model (paper: 4096)")
-    max_tokens: int = Field(256, ge=1, description="longest reply of the language model")
-    threads: int | None = Field(
+    context_tokens: Whole = Field(4096, ge=512, description="of the language model (paper: 4096)")
+    max_tokens: Whole = Field(256, ge=1, description="longest reply of the language model")
+    threads: Whole | None = Field(
         None, ge=1, description="of the language model (default: by the number of cores)"
     )
-    gpu_layers: int = Field(
+    gpu_layers: Whole = Field(
         0, ge=-1, description="of the language model, if llama.cpp was built for a GPU; -1: all"
     )
-    top: int = Field(5, ge=1, description="places of a ranking that are worth a visit")
+    top: Whole = Field(5, ge=1, description="places of a ranking that are worth a visit")
     answer_timeout_s: float = Field(120.0, gt=0, description="how long to wait for the person")
     llm_timeout_s: float = Field(60.0, gt=0, description="how long to wait for the model")
     action_timeout_s: float = Field(120.0, gt=0, description="how long an action may take")
@@ -332,6 +338,10 @@ def load_settings(config: Path | None = None, **given: Any) -> Settings:
         in_file = fault["loc"] and fault["loc"][0] in from_file
         where = f"{config}: {name}" if in_file else f"setting '{name}'"
         raise InputError(where, in_words(fault), right) from None
+    for name, value in settings.model_dump(mode="json", exclude_unset=True).items():
+        if (text := json.dumps(value, ensure_ascii=False)) != writable(text):
+            right = "give a name that is; a run's settings are written down"
+            raise InputError(f"setting '{name}'", f"is {ascii(value)}, which is no UTF-8", right)
     for other in misread(said, settings):
         if isinstance(other.value, bool):
             where = f"{config}: {other.key}" if other.key in from_file else f"setting '{other.key}'"

@@ -28,6 +28,8 @@ _LONG_KEY = re.compile(rf"(?:\.[ \t]*+[\w-]++[ \t]*+){{{DEEPEST},}}")
 """`a.a.a. ...`: the reader takes time with the square of the parts of such a key."""
 _SHOWN = 60
 """So many characters of a key that is wrong are told."""
+_MOST_SHOWN = 80
+"""Likewise of a value."""
 _PYTHONS = re.compile(
     r"\btuple\b|\bdictionary( or instance of \w+)?\b| after validation|Value error, ", re.IGNORECASE
 )
@@ -82,6 +84,12 @@ def in_words(said: str) -> str:
     return _PYTHONS.sub(lambda found: _TOMLS.get(found[0].lower(), "table"), said)
 
 
+def shown(value: object) -> str:
+    """A value, or its beginning, as messages have it: `true`, `5`, `'desk'`."""
+    text = str(value).lower() if isinstance(value, bool) else repr(value)
+    return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
+
+
 class Misread(NamedTuple):
     """A value that was taken for one of another kind: `true` for 1, `"5"` for 5.
 
@@ -103,9 +111,7 @@ class Misread(NamedTuple):
     @property
     def shown(self) -> str:
         """What, as the file has it."""
-        return (
-            str(self.value).lower() if isinstance(self.value, bool) else repr(self.value)[:_SHOWN]
-        )
+        return shown(self.value)
 
 
 def misread(tables: Mapping[str, Any], read: object) -> Iterator[Misread]:

@@ -20,6 +20,7 @@ from executive.toml_file import (
     packaged,
     parse_toml,
     refuse_misread_bools,
+    shown,
 )
 
 EXAMPLE = "see docs/own-robot.md"
@@ -393,4 +394,4 @@ def _input_error(where: str, fault: ErrorDetails) -> InputError:
             return InputError(where, f"{key}: {said}" if key else said)
         case kind:
             right = said if kind == "value_error" else said.lower()
-            return InputError(where, f"{key} is {str(fault['input'])[:80]!r}", right)
+            return InputError(where, f"{key} is {shown(fault['input'])}", right)

@@ -71,7 +71,8 @@ def refusal(status: int, headers: Mapping[str, str], body: bytes) -> Refused:
 
 def refusal_in(value: dict[str, Any]) -> Refused | None:
     """The refusal in an object of a reply whose status was good; None if it has none."""
-    error = value.get("error") or (value.get("object") == "error" and value)
+    is_one = value.get("object") == "error" or isinstance(value.get("message"), str)
+    error = value.get("error") or (is_one and value)
     if not error:
         return None
     code = error.get("code") if isinstance(error, dict) else None

@@ -29,6 +29,7 @@ from executive.toml_file import (
     parse_toml,
     read_toml,
     refuse_misread_bools,
+    shown,
 )
 from sim.home.furniture import FORM_OF_KIND
 from sim.home.home import Home
@@ -153,9 +154,8 @@ def _input_error(where: str, error: ValidationError) -> InputError:
         return InputError(where, f"there is no key {key}", f"known are {known}")
     if fault["type"] == "missing":
         return InputError(where, f"{key} is missing", _EXAMPLE)
-    shown = printable(repr(fault["input"]))[:_SHOWN]
     right = in_words(fault["msg"]).lower()
-    return InputError(where, f"{key} is {shown}", right)
+    return InputError(where, f"{key} is {shown(fault['input'])}", right)
 
 
 def _fit_to(home: Home, habit: Habit, where: str) -> None:

@@ -11,7 +11,7 @@ from pydantic_core import ErrorDetails
 
 from executive.errors import InputError
 from executive.files import decoded, read_bytes
-from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml
+from executive.toml_file import MOST_BYTES, in_words, packaged, parse_toml, shown
 from sim.home.floorplan import FARTHEST_M
 from sim.home.home import Home
 from sim.home.naming import usable
@@ -79,7 +79,9 @@ def _inspect(
     try:
         home = Home.from_file(data, where, folder)
     except ValidationError as error:
-        found = islice(error.errors(include_url=False), MOST_TOLD)
+        faults = error.errors(include_url=False)
+        around = {fault["loc"][:depth] for fault in faults for depth in range(len(fault["loc"]))}
+        found = islice((fault for fault in faults if fault["loc"] not in around), MOST_TOLD)
         return None, tuple(_input_error(where, data, fault) for fault in found)
     flaws = list(islice(home_flaws(home), MOST_TOLD)) or list(islice(mesh_flaws(home), MOST_TOLD))
     return home, tuple(InputError(where, *flaw) for flaw in flaws)
@@ -122,7 +124,7 @@ def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
         return InputError(where, f"there is no key {key}", example)
     if fault["type"] == "missing":
         return InputError(where, f"{key} is missing", example)
-    return InputError(where, f"{key} is {_shown(fault['input'])}", _right(fault))
+    return InputError(where, f"{key} is {shown(fault['input'])}", _right(fault))
 
 
 def _key(data: Any, path: tuple[str | int, ...]) -> str:
@@ -142,8 +144,3 @@ def _right(fault: ErrorDetails) -> str:
     said = in_words(fault["msg"].lower())
     is_point = any(bound in (-FARTHEST_M, FARTHEST_M) for bound in fault.get("ctx", {}).values())
     return f"{said} (metres)" if is_point else said
-
-
-def _shown(value: Any) -> str:
-    text = str(value).lower() if isinstance(value, bool) else repr(value)
-    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."

@@ -94,6 +94,9 @@ def test_any_text_like_toml_is_tables_or_a_sentence(text: str) -> None:
     ("name", "value", "sentence"),
     [
         ("SEED", "many", "EXECUTIVE_SEED: .*valid integer"),
+        ("SEED", str(2**63), "EXECUTIVE_SEED: .*less than 9223372036854775808"),
+        ("MEMORY", "a\udcff.db", r"setting 'memory': is 'a\\udcff.db', which is no UTF-8"),
+        ("KB", '["a\\ud800.owl"]', r"setting 'kb': is \['a\\ud800.owl'\], which is no UTF-8"),
         ("TEMPERATURE", "inf", "EXECUTIVE_TEMPERATURE: .*finite"),
         ("PLACE", '{"mug":', "EXECUTIVE_PLACE: is not JSON"),
         ("PLACE", "9" * 5000, "EXECUTIVE_PLACE: is not JSON"),

@@ -152,13 +152,13 @@ def test_a_server_that_dies_in_its_reply_has_failed() -> None:
         assert "broke off in the middle of its reply" in talk.reason()
 
 
-@pytest.mark.parametrize("chunk", ["{garbage", "[1]", "5", "[" * 100_000, "1" * 5000])
+@pytest.mark.parametrize("chunk", ["{garbage", "[1]", "5", "true", "[" * 100_000, "1" * 5000])
 def test_a_stream_of_something_else_has_failed(chunk: str) -> None:
     with talking(streams(chunk)) as talk:
-        assert "is not JSON: " + chunk[:50] in talk.reason()
+        assert "is no JSON object in UTF-8: " + chunk[:50] in talk.reason()
 
 
-@pytest.mark.parametrize("mark", ['data: {"error": %s}', "error: %s"])
+@pytest.mark.parametrize("mark", ['data: {"error": %s}', "error: %s", "event: error\ndata: %s"])
 def test_an_error_in_a_stream_is_told(mark: str) -> None:
     with talking(sends((mark % r'{"message": "out of\nmemory"}' + "\n\n").encode())) as talk:
         assert talk.reason() == "out of memory"
@@ -166,7 +166,7 @@ def test_an_error_in_a_stream_is_told(mark: str) -> None:
 
 def test_a_page_instead_of_a_reply_is_told() -> None:
     with talking(sends(b"<!doctype html><html>Sign in</html>")) as talk:
-        assert "is not JSON: <!doctype html>" in talk.reason()
+        assert "is no JSON object in UTF-8: <!doctype html>" in talk.reason()
 
 
 @pytest.mark.parametrize("unit", [b"x", b"data: {}\n\n"])

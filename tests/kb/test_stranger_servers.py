@@ -153,7 +153,7 @@ def test_a_redirection_to_nowhere_is_a_refusal() -> None:
 
 def test_a_text_that_is_no_reply_is_told() -> None:
     with talking(sends(b"hello\nworld\n")) as talk:
-        assert "is not JSON: hello" in talk.reason()
+        assert "is no JSON object in UTF-8: hello" in talk.reason()
 
 
 @pytest.mark.parametrize("status", [400, 422, 500])

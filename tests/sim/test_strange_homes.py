@@ -74,6 +74,11 @@ def test_what_no_furniture_can_be_called_is_refused_with_what_would_be_right(
     assert all(line.isprintable() for line in found.split("\n"))
 
 
+def test_of_a_list_with_a_fault_in_it_nobody_is_told_that_it_is_empty(said) -> None:
+    [found] = said(("[0, 0, 5, 5]", "[0, 0, 1e12, 5]")).splitlines()
+    assert "rooms.den.rectangle.2 is 1000000000000.0; input should be less" in found
+
+
 @pytest.mark.parametrize("key", ["room", "kind", "home"])
 def test_rooms_kinds_and_homes_have_names_too(said, key: str) -> None:
     change = {

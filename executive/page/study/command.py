@@ -52,7 +52,11 @@ def run(options: argparse.Namespace) -> int:
         try_conditions(study, str(options.file))
     if options.check:
         return check(study)
-    data = StudyData(options.data or Path("studies") / options.file.stem, study)
+    folder = options.data or Path("studies") / options.file.stem
+    if (options.report or options.withdraw) and not folder.exists():
+        right = "lead a participant first, or name the folder of this study"
+        raise InputError(f"--data {folder}", "there is no such folder", right)
+    data = StudyData(folder, study)
     if options.withdraw:
         return erase(data, options.withdraw)
     if options.report:

@@ -19,7 +19,7 @@ from executive.page.study.questionnaire import (
     Table,
     templates,
 )
-from executive.toml_file import in_words, misread, read_toml
+from executive.toml_file import in_words, misread, read_toml, shown
 
 RIGHT = "see docs/study.md"
 THANKS = "That was all. Thank you for taking part!"
@@ -174,20 +174,13 @@ def _wrong(file: Path, fault: ErrorDetails) -> InputError:
         case "missing":
             return InputError(str(file), f"{key} is missing", RIGHT)
         case "string_pattern_mismatch":
-            what = f"{key} is {_shown(fault['input'])}"
+            what = f"{key} is {shown(fault['input'])}"
             return InputError(str(file), what, "use up to 40 letters, digits, - and _")
         case "string_type":
-            what = f"{key} is {_shown(fault['input'])}"
+            what = f"{key} is {shown(fault['input'])}"
             return InputError(str(file), what, "should be text, in quotes")
         case "value_error":
             return InputError(str(file), f"{key} {said}".strip(), RIGHT)
         case _:
-            what = f"{key} is {_shown(fault['input'])}"
+            what = f"{key} is {shown(fault['input'])}"
             return InputError(str(file), what, said[:1].lower() + said[1:])
-
-
-def _shown(value: Any) -> str:
-    """A value as the file has it, or about so."""
-    if isinstance(value, str):
-        return repr(value[:80])
-    return (str(value).lower() if isinstance(value, bool) else str(value))[:80]

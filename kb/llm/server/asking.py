@@ -236,7 +236,8 @@ class Asking:
             case BrokenOff():
                 return f"{self._shown} {error}"
             case NotJson():
-                return f"the reply of {self._shown} is not JSON: {self._shortly(str(error))}"
+                said = self._shortly(str(error))
+                return f"the reply of {self._shown} is no JSON object in UTF-8: {said}"
             case _:
                 return f"{self._shown} cannot be reached: {self._shortly(why(error))}"
 

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.errors import InputError
+from executive.page.__main__ import main
 from executive.page.study.command import try_conditions
 from executive.page.study.file import read_study, settings_of
 from executive.page.study.steps import Kind, steps
@@ -31,6 +32,16 @@ def written(folder: Path, **changed: Any) -> Path:
     file = folder / "study.toml"
     file.write_text(tomli_w.dumps({**LEAST, **changed}), encoding="utf-8")
     return file
+
+
+@pytest.mark.parametrize("ask", [["--report"], ["--withdraw", "P01"]])
+def test_who_asks_about_a_folder_that_there_is_not_makes_none(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], ask: list[str]
+) -> None:
+    data = tmp_path / "data"
+    assert main(["study", str(written(tmp_path)), "--data", str(data), *ask]) == 2
+    assert "data: there is no such folder; lead a participant first" in capsys.readouterr().err
+    assert not data.exists()
 
 
 def test_the_example_of_the_docs_is_whole() -> None:
