@@ -1,6 +1,7 @@
 """What the experimenter's page is told, and who may ask."""
 
 import json
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -106,11 +107,12 @@ def test_a_run_does_not_part_from_itself_and_is_replayed(ran: Robot) -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere no variable names a display")
-def test_without_a_display_nobody_is_told_that_the_viewer_opens(
+def test_without_a_display_no_viewer_is_started_and_it_is_told(
     ran: Robot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in DISPLAYS:
         monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(subprocess, "Popen", None)
     name = told(ran.page, "runs")["runs"][0]["run"]
     body = json.dumps({"run": name}).encode()
     path = "/experiment/view"
