@@ -77,6 +77,6 @@ def test_what_is_seen_and_what_is_gone_is_remembered() -> None:
 
 def test_a_place_or_a_thing_that_nobody_knows_is_told() -> None:
     unknown = run_mission("What is on the moon?", llm=False)
-    assert (unknown.outcome.status, unknown.outcome.reason) == (NOT_DONE, "I know no 'moon'")
+    assert (unknown.outcome.status, unknown.outcome.reason) == (NOT_DONE, "I know no place 'moon'")
     thing = run_mission("How many unicorns are on the desk?", llm=False)
     assert thing.outcome.reason.startswith("I know no 'unicorns'")
