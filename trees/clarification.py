@@ -131,24 +131,24 @@ class AskWhichObject(Ask):
             request.options = rest
             return True
         if isinstance(said, Answer) and (number := how_many_of(said)):
-            said = Correction(Things((Thing(number=number, said=str(number)),)))
-            tell(self.context, correct(self.context, said, words, f"I {self.doing()}."))
-            return True
+            number_so = Correction(Things((Thing(number=number, said=str(number)),)))
+            return self._correct(number_so, words)
         if self._to_another_place(said):  # "put the pear on the desk"
             assert isinstance(said, Request)
-            now = f"I {self.doing()}."
-            tell(self.context, correct(self.context, Correction(said), words, now))
-            return True
+            return self._correct(Correction(said), words)
         if there := _from_where(said):
-            now = f"I {self.doing()}."
-            tell(self.context, correct(self.context, there, words, now, instead=""))
-            return True
+            return self._correct(there, words, instead="")
         nearest = isinstance(said, Answer) and said.choice == Choice.NEAREST
         several = request.options if nearest else self._several(said)
         if not several or not request.options:
             return super()._attend_to(said, words)
         names = tuple(dict.fromkeys(one for name in several for one in find(name)))
         tell(self.context, all_of(self.context, names, words, one_of=nearest))
+        return True
+
+    def _correct(self, said: Correction, words: str, instead: str = " instead") -> bool:
+        """Do this in place of what was asked about: there is nothing left to be answered."""
+        tell(self.context, correct(self.context, said, words, f"I {self.doing()}.", instead))
         return True
 
     def _names_others_too(self, said: Said) -> bool:

@@ -12,7 +12,7 @@ from executive.types.knowledge import Source
 from trees.asking import Ask
 from trees.context import MissionContext
 from trees.nodes import Step
-from trees.place_words import not_to_be_put, places_in
+from trees.place_words import not_to_be_put, only_on_furniture, places_in
 from trees.telling import sentence, tell
 
 
@@ -27,14 +27,15 @@ class AskForPlace(Ask):
 
     def _attend_to(self, said: Said, words: str) -> bool:
         """Say so, if nothing can be put there."""
-        puts = self.question().kind == QuestionKind.WHERE_TO_PUT
-        if not puts or not (goal := not_to_be_put(self.context, words)):
+        if not (goal := self._not_to_be_put(words)):
             return super()._attend_to(said, words)
-        tell(
-            self.context,
-            f"I can put things on furniture, or in it, but not '{as_said(words, goal)}'.",
-        )
+        tell(self.context, f"{only_on_furniture(as_said(words, goal))}.")
         return True
+
+    def _not_to_be_put(self, answer: str) -> str:
+        """Where it would have the thing put, if nothing can be put so; empty if it can."""
+        puts = self.question().kind == QuestionKind.WHERE_TO_PUT
+        return not_to_be_put(self.context, answer) if puts else ""
 
 
 class AskWhere(AskForPlace):
@@ -84,8 +85,8 @@ class AskWhereToPut(AskForPlace):
 
     def understood(self, answer: str) -> bool:
         """Any furniture that exists will do."""
-        beside = not_to_be_put(self.context, answer)
-        self.situation.hand.surfaces = () if beside else places_in(self.context, answer)
+        unfit = self._not_to_be_put(answer)
+        self.situation.hand.surfaces = () if unfit else places_in(self.context, answer)
         return bool(self.situation.hand.surfaces)
 
     def unresolved(self) -> str:

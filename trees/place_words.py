@@ -119,6 +119,16 @@ def chosen_of(context: MissionContext, answer: str, options: Sequence[str]) -> t
     return tuple(place for place in named if place in options)
 
 
+def unknown_place(context: MissionContext, words: str) -> str:
+    """That nobody knows a place that was named, as a clause."""
+    return f"I know no place '{context.as_said(words)}'"
+
+
+def only_on_furniture(goal: str) -> str:
+    """That nothing is put where it was said to go, as a clause; `goal` as the person said it."""
+    return f"I can put things on furniture, or in it, but not '{goal}'"
+
+
 def unknown_goal(context: MissionContext) -> str:
     """Why nobody knows where to, as a clause."""
     request, goal = context.situation.request, goal_words(context)
@@ -128,7 +138,7 @@ def unknown_goal(context: MissionContext) -> str:
     if goes and goal.startswith(BETWEEN):
         return f"I can go to furniture, but not '{context.as_said(goal)}'"
     if cannot_be_put(context, goal) and not goes:
-        return f"I can put things on furniture, or in it, but not '{context.as_said(goal)}'"
+        return only_on_furniture(context.as_said(goal))
     if FLOOR in goal.split():
         return "I put nothing on the floor"
     if goal:

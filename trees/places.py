@@ -26,10 +26,10 @@ from trees.place_words import (
     known_at,
     may_be,
     neighbours,
-    not_to_be_put,
     options_in,
     places_in,
     unknown_goal,
+    unknown_place,
 )
 from trees.telling import TO_THE_PERSON, tell
 
@@ -123,7 +123,7 @@ class SourceIsKnown(Step):
         assert request.object
         named = places_in(self.context, request.command.source)
         if not named or not is_place(self.context, request.command.source):
-            return self.fail(f"I know no place '{self.context.as_said(request.command.source)}'")
+            return self.fail(unknown_place(self.context, request.command.source))
         likely = (
             *self.context.facts.places_of(request.object),
             *usual_places(self.context),
@@ -154,7 +154,7 @@ class AskFromWhere(AskWhere):
     def unresolved(self) -> str:
         """The place is unknown."""
         assert self.situation.request.command
-        return f"I know no place '{self.context.as_said(self.situation.request.command.source)}'"
+        return unknown_place(self.context, self.situation.request.command.source)
 
 
 class SearchAnyway(Step):
@@ -164,7 +164,7 @@ class SearchAnyway(Step):
         """Nothing that was said is passed over in silence."""
         request = self.situation.request
         assert request.command
-        said = f"I know no place '{self.context.as_said(request.command.source)}'"
+        said = unknown_place(self.context, request.command.source)
         say, name = self.context.say, request.object or ""
         where = f"where {say.agree(name, 'it', 'they')} may be"
         tell(self.context, f"{said}; I look for {say.the(name)} {where}.")
@@ -276,8 +276,7 @@ class AskWhereTo(AskForPlace):
 
     def understood(self, answer: str) -> bool:
         """One place, or one room; of those that were offered, if any were."""
-        puts = self.question().kind == QuestionKind.WHERE_TO_PUT
-        if puts and not_to_be_put(self.context, answer):
+        if self._not_to_be_put(answer):
             return False
         if options := options_in(self.context):
             named = chosen_of(self.context, answer, options) or self._another(answer)

@@ -19,7 +19,7 @@ from trees.expected import seen_soonest, whereabouts
 from trees.looking import LookAtCandidate, SeeTarget
 from trees.meant import things_meant
 from trees.nodes import EachOf, Optionally, Step, sequence
-from trees.place_words import is_place, places_in
+from trees.place_words import is_place, places_in, unknown_place
 from trees.telling import tell
 from trees.unknown import nearest, unresolved
 
@@ -161,7 +161,7 @@ class KnowsWhereToLook(Step):
         assert command
         places = places_in(context, command.source) if command.source else ()
         if command.source and not (places and is_place(context, command.source)):
-            return self.fail(f"I know no place '{context.as_said(command.source)}'")
+            return self.fail(unknown_place(context, command.source))
         everywhere = tuple(place.name for place in context.knowledge.places())
         anywhere = whereabouts(context, replace(command, source=""))
         order = seen_soonest(context, [anywhere.of(place) for place in places or everywhere])

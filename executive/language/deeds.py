@@ -84,7 +84,7 @@ class Deeds(Nouns):
     def wish(self, parts: list[Part]) -> Task:
         """As in "I need the mug"; where it is to be, or is, "I want it on the desk" leaves open."""
         there = next((p.words for p in parts if isinstance(p, Where)), None)
-        if there is not None and parts[0].startswith(("i want", "i need", "i would like")):
+        if there is not None and parts[0].startswith(self._wishes):
             raise Unfit(there)
         return _task(CommandKind.BRING, parts)
 

@@ -26,6 +26,7 @@ class Nouns(Transformer[Token, Said]):
         numbers: what words for numbers and ordinals stand for.
         relations: which relation a preposition says.
         superlatives: which measure a word like "biggest" is about.
+        wishes: how a wish begins that may be to have a thing, or to have it put somewhere.
     """
 
     def __init__(
@@ -33,12 +34,14 @@ class Nouns(Transformer[Token, Said]):
         numbers: dict[str, int],
         relations: dict[str, Relation],
         superlatives: dict[str, str],
+        wishes: tuple[str, ...],
     ) -> None:
         """Take the words that have a value."""
         super().__init__()
         self._numbers = numbers
         self._relations = relations
         self._superlatives = superlatives
+        self._wishes = wishes
 
     # --- things ---
 

@@ -227,7 +227,8 @@ def english(names: tuple[str, ...] = ()) -> Reader:
 def _builder(words: dict[str, Any]) -> Builder:
     relations = {said: Relation(name) for name, all_ in words["relations"].items() for said in all_}
     most = {said: name for name, all_ in words["superlatives"].items() for said in all_}
-    return Builder(words["numbers"] | words["ordinals"], relations, most)
+    numbers = words["numbers"] | words["ordinals"]
+    return Builder(numbers, relations, most, tuple(words["wishes"]))
 
 
 def _parser(grammar: str, **terminals: str) -> Lark:

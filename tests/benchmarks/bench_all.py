@@ -8,6 +8,7 @@ docs/performance.md, with what bounds each figure from below.
 
 import argparse
 import compileall
+import os
 import re
 import subprocess
 import sys
@@ -249,9 +250,10 @@ def stop_row(stops: int, runs: str) -> str:
 
 def test_row() -> str:
     """All tests, as `./check` runs them."""
+    workers = str(2 * (os.cpu_count() or 1))
     began = time.perf_counter()
     ran = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-n", "4", "--dist", "worksteal"],
+        [sys.executable, "-m", "pytest", "-q", "-n", workers, "--dist", "worksteal"],
         cwd=HERE,
         capture_output=True,
         text=True,
