@@ -71,9 +71,7 @@ class Beside:
         if self._painter is None:
             return None
         pose, lens = camera.pose(), camera.lens
-        pixels = self._painter.paint(
-            Asked(view_from(pose, lens), self._actors.where()), awaited=awaited
-        )
+        pixels = self._painter.paint(Asked(view_from(pose, lens), self._actors.where(), awaited))
         if pixels is not None:
             return ComingFrame(next(camera.numbers), lens, pose, pixels)
         if self._painter.failure:

@@ -55,13 +55,13 @@ class Painter:
         """Why it draws no more; empty while it does."""
         self._thread.submit(self._say, stage)
 
-    def paint(self, asked: Asked, *, awaited: bool = False) -> "Future[Pixels] | None":
+    def paint(self, asked: Asked) -> "Future[Pixels] | None":
         """Ask for a picture; None if it draws no more, or too many others wait already.
 
         One that is awaited is drawn in any case: who asks for it asks for one at a time.
         """
         self._waiting = [coming for coming in self._waiting if not coming.done()]
-        if self.failure or (len(self._waiting) >= MOST_WAITING and not awaited):
+        if self.failure or (len(self._waiting) >= MOST_WAITING and not asked.awaited):
             return None
         coming = self._thread.submit(self._painted, asked)
         self._waiting.append(coming)

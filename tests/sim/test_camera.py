@@ -15,11 +15,14 @@ from sim.bullet.bodies import build_home, frame_pose, place_objects
 from sim.bullet.camera import (
     GLANCING,
     KEPT_SEGMENTATIONS,
+    LOOKING,
     SimulatedCamera,
     SimulatedDetector,
     render,
+    view_from,
 )
 from sim.bullet.client import connect
+from sim.bullet.rendering import draw, draw_part, parts
 from sim.home.home_file import load_home
 from sim.objects.objects import load_objects
 
@@ -103,6 +106,17 @@ def test_depth_is_infinite_where_nothing_is(scene: Scene):
     seen = render(scene.client, up, GLANCING)
     assert np.isinf(seen.depth).all()
     assert (seen.segmentation == -1).all()
+
+
+@pytest.mark.parametrize("place", ["counter_wagon", "shelf_lobby"])
+def test_a_large_picture_drawn_in_two_parts_is_the_one_drawn_in_one(scene: Scene, place: str):
+    wanted = view_from(view(place, HOME.view_targets(place)[0]), LOOKING)
+    assert [part.width for part in parts(wanted)] == [320, 320]
+    whole, seen = draw_part(scene.client, wanted), draw(scene.client, wanted)
+    assert np.array_equal(seen.color, whole.color)
+    assert np.array_equal(seen.segmentation, whole.segmentation)
+    assert np.array_equal(seen.depth[:, ::2], whole.depth[:, ::2])
+    assert np.allclose(seen.depth, whole.depth, rtol=0, atol=2e-5)  # that of a column in a column
 
 
 def test_pictures_are_numbered(scene: Scene):

@@ -2,9 +2,11 @@
 
 import multiprocessing
 import os
+import signal
 import subprocess
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -212,6 +214,27 @@ def test_what_the_robot_looks_at_is_drawn_beside_however_many_pictures_wait(
     assert all(type(frame) is Frame for frame in world.film(1.0))
     assert world.eyes.capture().coming
     world.close()
+
+
+@physics
+def test_what_the_robot_looks_at_is_the_same_when_one_of_the_two_that_draw_it_is_gone():
+    world = Filmed()
+    before = world.eyes.capture().color
+    (painter,) = children(os.getpid())
+    (twin,) = children(painter)
+    os.kill(twin, signal.SIGKILL)
+    after = world.eyes.capture()
+    assert after.coming
+    assert np.array_equal(after.color, before)
+    assert not world.warnings()
+    world.close()
+
+
+def children(process: int) -> list[int]:
+    """The processes that draw, of those that a process has started."""
+    tasks = Path(f"/proc/{process}/task").glob("*/children")
+    started = [int(id) for task in tasks for id in task.read_text().split()]
+    return [id for id in started if b"painter" in Path(f"/proc/{id}/cmdline").read_bytes()]
 
 
 def test_the_process_ends_when_whoever_asks_is_gone():
