@@ -130,7 +130,7 @@ class PhysicsWorld:
         """The same camera, for who needs no more than the picture: it need not be drawn here."""
         self._beside: Beside | None = None
         if blueprint:
-            actors = Actors(self._client, movable, self._hardware.body)
+            actors = Actors(self._client, list(movable), self._hardware.body)
             self._beside = Beside(actors, blueprint, recorder)
             self._log_camera = CameraBeside(glancing, self._beside)
             self.eyes = CameraBeside(camera, self._beside, awaited=True)

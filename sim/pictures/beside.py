@@ -1,9 +1,10 @@
 """Pictures that are drawn beside the physics, by a process with its own copy of the world.
 
 A world has one such process at most, for those of the log and for what the robot looks at. What it
-draws is the same to the bit: a frame's pixels come later. For those of the log nobody waits; for
-what the robot looks at the mission waits, but a stop is heard meanwhile. Where there is no such
-process, or too much waits for it, pictures are drawn here and at once.
+draws is the same, but for a pixel now and then in which two surfaces are equally far: a frame's
+pixels come later. For those of the log nobody waits; for what the robot looks at the mission waits,
+but a stop is heard meanwhile. Where there is no such process, or too much waits for it, pictures
+are drawn here and at once.
 """
 
 import logging
@@ -51,7 +52,7 @@ class Beside:
         self._painter: Painter | None = None
         self._untold = ""
         """Why there is no painter, until that is told."""
-        stage = Stage(blueprint.steps, actors.bodies, actors.robot)
+        stage = Stage(blueprint.looks, actors.bodies, actors.robot)
         try:
             self._painter = Painter(stage)
         except (OSError, RuntimeError) as error:  # no process, or no thread, is to be had

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from sim.bullet.client import connect
 from sim.bullet.rendering import View, draw, draw_part, interleaved, parts
 from sim.engine import BulletClient
-from sim.pictures.scene import Actors, Moment, Step, build
+from sim.pictures.scene import Actors, Looks, Moment, build
 
 PROTOCOL = 5
 """Of pickle: arrays are sent as they are."""
@@ -31,9 +31,9 @@ PROTOCOL = 5
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """What there is in the world, and what of it moves."""
+    """What there is in the world, and what of it moves, by its ids there."""
 
-    steps: Sequence[Step]
+    looks: Looks
     bodies: Sequence[int]
     robot: int
 
@@ -81,9 +81,9 @@ class _Easel:
     """Where pictures are drawn by one process."""
 
     def __init__(self, client: BulletClient, stage: Stage) -> None:
-        build(client, stage.steps)
+        here = build(client, stage.looks)
         self._client = client
-        self._actors = Actors(client, stage.bodies, stage.robot)
+        self._actors = Actors(client, [here[body] for body in stage.bodies], here[stage.robot])
 
     def draw(self, wanted: Asked) -> Pixels:
         """All of it."""

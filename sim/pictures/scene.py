@@ -4,16 +4,18 @@ Of ours it imports the engine alone, for it is also used by a process that does 
 """
 
 import tempfile
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from sim.engine import BulletClient
 from sim.engine import pybullet as p
 
-Step = tuple[str, tuple[Any, ...], dict[str, Any], int]
-"""One of PyBullet's functions, what it was given, and the id that it returned."""
+Step = tuple[str, tuple[Any, ...], dict[str, Any]]
+"""One of PyBullet's functions, and what it was given beside what the step before had made."""
+Looks = Mapping[int, Sequence[Step]]
+"""How each body of a world came to look as it does, by its id, in the order they were built."""
 Placed = tuple[tuple[float, ...], tuple[float, ...]]
 """Position and orientation of a body."""
 
@@ -28,20 +30,20 @@ class Blueprint:
 
     def __init__(self, client: BulletClient) -> None:
         """Nothing is in that world yet."""
-        self.steps: list[Step] = []
-        """In the order in which they were done: ids and what is drawn over what depend on it."""
-        self._watch(client, "createVisualShape")
-        self._watch(client, "createVisualShapeArray")
-        self._watch(client, "changeVisualShape")
+        self.looks: dict[int, list[Step]] = {}
+        self._shapes: dict[int, Step] = {}
+        for name in ("createVisualShape", "createVisualShapeArray"):
+            self._watch_shapes(client, name)
         self._watch_bodies(client)
         self._watch_files(client)
+        self._watch_changes(client)
 
-    def _watch(self, client: BulletClient, name: str) -> None:
+    def _watch_shapes(self, client: BulletClient, name: str) -> None:
         do = getattr(client, name)
 
-        def watched(*given: Any, **named: Any) -> Any:
-            made = do(*given, **named)
-            self.steps.append((name, given, named, made))
+        def watched(*given: Any, **named: Any) -> int:
+            made: int = do(*given, **named)
+            self._shapes[made] = (name, given, named)
             return made
 
         setattr(client, name, watched)
@@ -51,7 +53,7 @@ class Blueprint:
 
         def watched(mass: float, touched: int, seen: int, *given: Any, **named: Any) -> int:
             made: int = do(mass, touched, seen, *given, **named)
-            self.steps.append(("createMultiBody", (_STAYS, _NO_SHAPE, seen, *given), named, made))
+            self.looks[made] = [self._shapes[seen], ("createMultiBody", given, named)]
             return made
 
         client.createMultiBody = watched
@@ -61,25 +63,46 @@ class Blueprint:
 
         def watched(path: str, **named: Any) -> int:
             made: int = do(path, **named)
-            self.steps.append(("loadURDF", (Path(path).read_text(),), named, made))
+            self.looks[made] = [("loadURDF", (Path(path).read_text(),), named)]
             return made
 
         client.loadURDF = watched
 
+    def _watch_changes(self, client: BulletClient) -> None:
+        do = client.changeVisualShape
 
-def build(client: BulletClient, steps: Iterable[Step]) -> None:
-    """Build what looks like the world in which the steps were done; nothing in it can be touched.
+        def watched(body: int, *given: Any, **named: Any) -> None:
+            do(body, *given, **named)
+            self.looks[body].append(("changeVisualShape", given, named))
 
-    Raises:
-        RuntimeError: if it turns out otherwise.
+        client.changeVisualShape = watched
+
+
+def build(client: BulletClient, looks: Looks) -> dict[int, int]:
+    """Build what looks like the world that was written down; nothing in it can be touched.
+
+    It is built in reverse, for what is built first is drawn first. So things come before furniture,
+    and that before walls and floors: of what something nearer hides no colours are worked out.
+
+    Returns:
+        The bodies' ids, by those in that world.
     """
-    for name, given, named, expected in steps:
-        if name == "loadURDF":
-            made = _load(client, *given, **named)
-        else:
-            made = getattr(client, name)(*given, **named)
-        if made != expected:
-            raise RuntimeError(f"{name} made {made}, and not {expected}")
+    return {body: _build(client, steps) for body, steps in reversed([*looks.items()])}
+
+
+def _build(client: BulletClient, steps: Sequence[Step]) -> int:
+    made = _NO_SHAPE
+    for name, given, named in steps:
+        match name:
+            case "loadURDF":
+                made = _load(client, *given, **named)
+            case "createMultiBody":
+                made = client.createMultiBody(_STAYS, _NO_SHAPE, made, *given, **named)
+            case "changeVisualShape":
+                client.changeVisualShape(made, *given, **named)
+            case _:
+                made = getattr(client, name)(*given, **named)
+    return made
 
 
 def _load(client: BulletClient, description: str, **named: Any) -> int:
@@ -95,43 +118,42 @@ class Moment:
     """Where everything is that moves.
 
     Attributes:
-        bodies: by id.
-        joints: of the robot, by number.
+        bodies: in the order of the Actors.
+        joints: those of the robot that can move, in its order.
     """
 
-    bodies: dict[int, Placed] = field(default_factory=dict)
-    joints: dict[int, float] = field(default_factory=dict)
+    bodies: tuple[Placed, ...] = ()
+    joints: tuple[float, ...] = ()
 
 
 class Actors:
     """All that moves in a world: bodies, and one robot with joints."""
 
-    def __init__(self, client: BulletClient, bodies: Iterable[int], robot: int) -> None:
+    def __init__(self, client: BulletClient, bodies: Sequence[int], robot: int) -> None:
         """Of bodies the whole moves, of the robot each joint that can."""
         self._client = client
-        self.bodies = tuple(bodies)
+        self.bodies = bodies
         self.robot = robot
         self._joints = _movable(client, robot)
-        self._now = Moment()
+        self._places: dict[int, Placed] = {}
+        self._positions: dict[int, float] = {}
 
     def where(self) -> Moment:
         """Where they are."""
         place = self._client.getBasePositionAndOrientation
         states = self._client.getJointStates(self.robot, self._joints)
-        return Moment(
-            {body: place(body) for body in self.bodies},
-            {joint: state[0] for joint, state in zip(self._joints, states, strict=True)},
-        )
+        return Moment(tuple(map(place, self.bodies)), tuple(state[0] for state in states))
 
     def put(self, moment: Moment) -> None:
-        """Have them be where they were in a world that this one looks like."""
-        for body, placed in moment.bodies.items():
-            if self._now.bodies.get(body) != placed:
+        """Have them be where those were of a world that this one looks like."""
+        for body, placed in zip(self.bodies, moment.bodies, strict=True):
+            if self._places.get(body) != placed:
                 self._client.resetBasePositionAndOrientation(body, *placed)
-        for joint, position in moment.joints.items():
-            if self._now.joints.get(joint) != position:
+                self._places[body] = placed
+        for joint, position in zip(self._joints, moment.joints, strict=True):
+            if self._positions.get(joint) != position:
                 self._client.resetJointState(self.robot, joint, position)
-        self._now = moment
+                self._positions[joint] = position
 
 
 def _movable(client: BulletClient, robot: int) -> Sequence[int]:

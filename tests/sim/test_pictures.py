@@ -245,7 +245,7 @@ def test_the_process_ends_when_whoever_asks_is_gone():
 
 def test_a_process_that_does_not_answer_is_given_up(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(process, "PATIENCE_S", 0.01)
-    painter = process.Painter(Stage((), (), 0), ["sleep", "60"])
+    painter = process.Painter(Stage({}, (), 0), ["sleep", "60"])
     asked = Asked(view_from(Pose(), GLANCING), Moment())
     coming = painter.paint(asked)
     assert coming is not None
