@@ -1,6 +1,7 @@
 """The same thing done in two worktrees in turn, by this Python, and what each time of it cost."""
 
 import os
+import select
 import subprocess
 import sys
 import tempfile
@@ -12,7 +13,7 @@ from pathlib import Path
 import psutil
 
 HERE = Path(__file__).parents[2]
-LOOK_S = 0.03
+LOOK_S = 0.1
 """How often memory is looked at (s)."""
 SCALES = {"s": (1.0, 2), "ms": (1000.0, 2), "MiB": (1.0, 0), "a minute": (1.0, 0), "": (1.0, 2)}
 """By unit: what a figure is multiplied with, and its digits."""
@@ -26,7 +27,7 @@ class Spent:
     """Processor time, user and system, of it and of those that it waited for."""
     wall_s: float
     memory: float
-    """The most that it and its processes had at a time (resident, MiB)."""
+    """The most that it and its processes had at a time (MiB); what they share is counted once."""
     printed: tuple[float, ...]
 
 
@@ -57,12 +58,12 @@ def spent(
             stdout=out,
             stderr=subprocess.DEVNULL,
         )
-        memory = 0.0
-        while not (ended := os.wait4(process.pid, os.WNOHANG))[0]:
-            memory = max(memory, _resident(process.pid))
-            time.sleep(LOOK_S)
+        memory, end = 0.0, os.pidfd_open(process.pid)
+        while not select.select([end], [], [], LOOK_S)[0]:
+            memory = max(memory, _memory(process.pid))
         wall_s = time.perf_counter() - began
-        _, status, used = ended
+        os.close(end)
+        _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode:
             return None
@@ -72,13 +73,13 @@ def spent(
     return Spent(used.ru_utime + used.ru_stime, wall_s, memory, numbers)
 
 
-def _resident(pid: int) -> float:
-    """What a process and its processes have in memory (MiB)."""
+def _memory(pid: int) -> float:
+    """What a process and its processes have in memory, each its share of what is shared (MiB)."""
     found = 0
     try:
         process = psutil.Process(pid)
         for one in (process, *process.children(recursive=True)):
-            found += one.memory_info().rss
+            found += one.memory_full_info().pss
     except psutil.NoSuchProcess:  # it ended meanwhile
         pass
     return found / 2**20
