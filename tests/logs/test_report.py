@@ -19,9 +19,10 @@ from executive.records import NodeShape, NodeState, Picture, Record, Tick, TreeS
 from logs.__main__ import main
 from logs.questions import report
 from logs.questions.comparison import compare
+from logs.questions.decision import Alternative, why_text
 from logs.questions.difference import Aspect, aspects_text, parting
 from logs.questions.pictures import write_video
-from logs.questions.why import Alternative, denied, why, why_text
+from logs.questions.why import denied, why
 from logs.recorder import Stamp
 from logs.recording.reader import At, Run
 from logs.recording.recovery import first_damage, recover
