@@ -14,9 +14,8 @@ from matplotlib import get_data_path
 from PIL import Image, ImageDraw, ImageFont
 
 HERE = Path(__file__).parent
-PORT = 9090
-SERVE = f"python -m sim serve --home four_rooms --port {PORT}"
-DRIVE = f'python -m executive --robot ws://127.0.0.1:{PORT} --profile served "Bring a sugar_box"'
+SERVE = "python -m sim serve --home four_rooms"
+DRIVE = 'python -m executive --robot ws://127.0.0.1:9090 --profile served "Bring a sugar_box"'
 WIDTH, SIZE, PAD, COLUMNS = 1180, 18, 18, 104
 DARK, BAR, TEXT, TYPED = "#1d2229", "#323a45", "#d7dde5", "#8fd18f"
 
@@ -31,7 +30,11 @@ def windows() -> tuple[list[str], list[str]]:
             words = [*DRIVE.partition(' "')[0].split()[1:], "Bring a sugar_box"]
             quiet = ("--user", "none", "--runs", runs)
             driven = subprocess.run(
-                [sys.executable, *words, *quiet], capture_output=True, text=True, check=True
+                [sys.executable, "-u", *words, *quiet],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,  # there the robot speaks
+                text=True,
+                check=True,
             )
             served.send_signal(signal.SIGINT)
     shown = driven.stdout.replace(runs, "runs")

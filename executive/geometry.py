@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from executive.types.geometry import Pose, Quaternion
+from executive.types.geometry import Pose, Quaternion, Vector3
 from executive.types.perception import Frame, Intrinsics
 
 if TYPE_CHECKING:
@@ -114,11 +114,16 @@ def _product(after: Quaternion, first: Quaternion) -> Quaternion:
     )
 
 
-def pose_from(position: Floats, turn: "Rotation") -> Pose:
+def vector3(values: Sequence[float] | Floats) -> Vector3:
+    """Three numbers that are no NumPy numbers any more: records hold only those."""
+    x, y, z = (float(one) for one in values)
+    return x, y, z
+
+
+def pose_from(position: Sequence[float] | Floats, turn: "Rotation") -> Pose:
     """A pose at this position (3,; metres), turned so."""
-    x, y, z = (float(one) for one in position)
-    a, b, c, d = (float(one) for one in turn.as_quat())
-    return Pose((x, y, z), (a, b, c, d))
+    x, y, z, w = (float(one) for one in turn.as_quat())
+    return Pose(vector3(position), (x, y, z, w))
 
 
 def seen_from(one: Pose, other: Pose) -> Pose:

@@ -119,13 +119,13 @@ def best_plan(
         prices: of a question and of a visit.
         elsewhere: how likely the thing is at none of these places, or at one that was looked at.
     """
-    task = _Task.of(chances, first_s, between_s, prices, elsewhere)
-    asking = task.expectation((), 0) if task.may_ask else None
-    if not task.open:
-        return Plan((), 0 if task.may_ask else None, asking or _NOTHING, asking, None)
-    order = _ordered(task)
-    moments = [*range(1, len(order) + 1)] if task.may_ask else [None]
-    told = [(task.expectation(order, moment), moment) for moment in moments]
+    problem = _Problem.of(chances, first_s, between_s, prices, elsewhere)
+    asking = problem.expectation((), 0) if problem.may_ask else None
+    if not problem.open:
+        return Plan((), 0 if problem.may_ask else None, asking or _NOTHING, asking, None)
+    order = _ordered(problem)
+    moments = [*range(1, len(order) + 1)] if problem.may_ask else [None]
+    told = [(problem.expectation(order, moment), moment) for moment in moments]
     looking, ask_after = min(told, key=lambda pair: pair[0].cost)
     names = tuple(chances[i].place for i in order)
     if asking and asking.cost <= looking.cost + GAIN:
@@ -137,7 +137,7 @@ _NOTHING = Expectation(0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Task:
+class _Problem:
     """The numbers: `first` (n,) and `between` (n, n) are seconds with the price of a visit."""
 
     chance: Floats
@@ -154,7 +154,7 @@ class _Task:
         between_s: Sequence[Sequence[float]],
         prices: Prices,
         elsewhere: float,
-    ) -> "_Task":
+    ) -> "_Problem":
         n = len(chances)
         weights = np.array([c.probability for c in chances], dtype=float).reshape(n)
         total = float(weights.sum()) + elsewhere
@@ -198,45 +198,47 @@ class _Task:
         return Expectation(seconds, visits, questions, cost + asked)
 
 
-def _ordered(task: _Task) -> list[int]:
+def _ordered(problem: _Problem) -> list[int]:
     """The best order of all places that can be reached, if the first thing to do is a look."""
-    order = _greedy(task)
+    order = _greedy(problem)
     if len(order) <= EXACT:
-        return _stretch(task, order, 0, len(order))
+        return _stretch(problem, order, 0, len(order))
     last = min(len(order), FIRST) - EXACT
     for _ in range(SWEEPS):
         before = order
         for start in [*range(last, 0, -STEP), 0]:
-            order = _stretch(task, order, start, EXACT)
+            order = _stretch(problem, order, start, EXACT)
         if order == before:
             break
     return order
 
 
-def _greedy(task: _Task) -> list[int]:
+def _greedy(problem: _Problem) -> list[int]:
     """Always on to where most is found by the second."""
-    ways, left, order = task.first, task.open, list[int]()
+    ways, left, order = problem.first, problem.open, list[int]()
     while left:
-        by_the_second = task.chance[left] / np.clip(ways[left], GAIN, FAR_S)
+        by_the_second = problem.chance[left] / np.clip(ways[left], GAIN, FAR_S)
         order.append(left.pop(int(by_the_second.argmax())))
-        ways = task.between[order[-1]]
+        ways = problem.between[order[-1]]
     return order
 
 
-def _stretch(task: _Task, order: list[int], start: int, length: int) -> list[int]:
+def _stretch(problem: _Problem, order: list[int], start: int, length: int) -> list[int]:
     """The order, with so many places from `start` on arranged as well as can be."""
     places = order[start : start + length]
     head, tail = order[:start], order[start + length :]
     k = len(places)
-    before = 1.0 - float(task.chance[head].sum())
-    ways = np.vstack([task.between[places], task.first if not head else task.between[head[-1]]])
+    before = 1.0 - float(problem.chance[head].sum())
+    ways = np.vstack(
+        [problem.between[places], problem.first if not head else problem.between[head[-1]]]
+    )
     inside = np.minimum(ways[:, places], FAR_S)
     members, layers = _subsets(k)
-    chance = task.chance[places]
+    chance = problem.chance[places]
     left = np.maximum(before - members @ chance, 0.0)
-    end = _ends(task, ways, places, tail, members, left)
+    end = _ends(problem, ways, places, tail, members, left)
     value = end.copy()
-    value[-1] = np.minimum(end[-1], _going_on(task, ways, tail, float(left[-1])))
+    value[-1] = np.minimum(end[-1], _going_on(problem, ways, tail, float(left[-1])))
     for layer in reversed(layers):
         looked = _looked(value, layer, left[layer], inside)
         value[layer] = np.minimum(value[layer], looked)
@@ -269,7 +271,7 @@ def _followed(
 
 
 def _ends(
-    task: _Task,
+    problem: _Problem,
     ways: Floats,
     places: list[int],
     tail: list[int],
@@ -277,31 +279,31 @@ def _ends(
     left: Floats,
 ) -> Floats:
     """(subsets, starts) what it costs to ask, once these were looked at, from each start."""
-    if not task.may_ask:
+    if not problem.may_ask:
         end = np.full((len(members), len(ways)), inf)
         if not tail:
             end[-1] = 0.0
         return end
-    reached = np.where(np.isfinite(ways), ways, 0.0) * task.chance
+    reached = np.where(np.isfinite(ways), ways, 0.0) * problem.chance
     inside = ~members @ reached[:, places].T
     return np.asarray(
-        inside + reached[:, tail].sum(axis=1) + left[:, None] * task.prices.question_s
+        inside + reached[:, tail].sum(axis=1) + left[:, None] * problem.prices.question_s
     )
 
 
-def _going_on(task: _Task, ways: Floats, tail: list[int], left: float) -> Floats:
+def _going_on(problem: _Problem, ways: Floats, tail: list[int], left: float) -> Floats:
     """(starts,) what looking on along the tail costs from each start; infinite if there is none."""
     if not tail:
         return np.full(len(ways), inf)
     value = 0.0
-    chance = task.chance[tail]
+    chance = problem.chance[tail]
     lefts = np.maximum(left - np.concatenate([[0.0], np.cumsum(chance)]), 0.0)
-    between, ask_s = np.minimum(task.between, FAR_S), task.prices.question_s
-    reached = np.where(np.isfinite(task.between), task.between, 0.0) * task.chance
+    between, ask_s = np.minimum(problem.between, FAR_S), problem.prices.question_s
+    reached = np.where(np.isfinite(problem.between), problem.between, 0.0) * problem.chance
     for index in range(len(tail) - 1, -1, -1):
         here, rest = tail[index], tail[index + 1 :]
         on = lefts[index + 1] * between[here, rest[0]] + value if rest else inf
-        if task.may_ask:
+        if problem.may_ask:
             value = min(on, float(reached[here, rest].sum()) + lefts[index + 1] * ask_s)
         else:
             value = on if rest else 0.0

@@ -142,7 +142,8 @@ def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> "Iterator[T | Ro
 
 
 def _why(options: argparse.Namespace) -> Answer:
-    from logs.questions.why import why, why_text
+    from logs.questions.decision import why_text
+    from logs.questions.why import why
 
     run = _opened(options.run)
     decisions = why(run)

@@ -106,7 +106,7 @@ class FakeWorld:
         self.spots = spots
         self.things: dict[str, str] = dict(home.placement)
         self.held: str | None = None
-        self.at: str | None = "person"
+        self.at: str | None = PERSON
         self.pose = home.robot_start
         self.looking_at: str | None = None
         self.drive: Drive | None = None

@@ -6,6 +6,7 @@ from itertools import count
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from executive.clock import HANGING_S
 from executive.events import Inbox
 from executive.geometry import Floats
 from executive.interfaces.perception import Camera
@@ -55,8 +56,6 @@ RESTING_M_S = 0.01
 """A thing slower than this is at rest."""
 SETTLING_PERIODS = 60
 """The longest that the world goes on after the robot is done, for what it let go of."""
-HANGING_S = 60.0
-"""The longest wait (real seconds) for what is computed, until someone may look at the clock."""
 _SHIFT_M, _TURN = 0.015, 0.2
 """How far the seed moves things from their spots (metres, radians)."""
 

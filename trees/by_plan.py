@@ -18,9 +18,9 @@ from trees.planning import (
     PlanNext,
     PlanStands,
     TellWhere,
-    Ways,
 )
 from trees.search import GiveUpSearch, look_over, look_where_the_words_say, search_by_stages
+from trees.ways import Ways
 
 
 def search(context: MissionContext) -> Behaviour:

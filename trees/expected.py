@@ -11,7 +11,7 @@ from trees.context import MissionContext
 from trees.hearing import MEMORY_TRUST, ONTOLOGY_TRUST, PERSON_TRUST
 from trees.meant import things_meant
 from trees.place_words import best_first, places_in
-from trees.planning import Ways
+from trees.ways import Ways
 
 LIKELIEST = 4
 """Of the places where a thing may be, so many count: their best order is found in no time."""

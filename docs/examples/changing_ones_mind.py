@@ -3,7 +3,8 @@
     python docs/examples/changing_ones_mind.py [RUNS]   # about 20 s; then: python -m logs view RUNS
 
 What a person says in between is an event like any other: `inbox.hear` posts it, from any thread.
-Here they watch, and say it when the robot has gone two metres.
+Here they watch, and say it when they have seen the robot move. A sink is told twice a second, by a
+thread of its own; in that time the simulated robot drives some metres.
 """
 
 import math
@@ -30,7 +31,7 @@ class Watching:
         for one in record.transforms:
             if one.child == "base_link":
                 self._start = self._start or one.pose.position
-                if math.dist(self._start, one.pose.position) > 2.0:
+                if math.dist(self._start, one.pose.position) > 0.5:  # metres
                     self._inbox.hear(self._words)
                     self._words = ""
 

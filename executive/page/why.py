@@ -7,8 +7,9 @@ from typing import Any
 
 from executive.errors import InputError
 from executive.records import Tick, Utterance
+from logs.questions.decision import NOT_NEEDED
 from logs.questions.interventions import EXPERIMENTER
-from logs.questions.why import NOT_NEEDED, why
+from logs.questions.why import why
 from logs.recording.reader import Run
 
 EPSILON_S = 0.002

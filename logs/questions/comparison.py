@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 
 from executive.text import printable
+from logs.questions.decision import Decision
 from logs.questions.difference import Aspect, Parting, aspects_text, parting
-from logs.questions.why import Decision, why
+from logs.questions.why import why
 from logs.recording.reader import Run
 
 

@@ -16,6 +16,8 @@ OF_THE_RUN = ("mission_time_s", "thinking_time_s", "wall_time_s", "run_dir")
 MEASURED = ("deadlines", "sighting", "doubtful", "unreached", "unplaced", "model_failure", "reason")
 """What a situation holds of measured times and places: no two runs share them to a digit."""
 ENDED = "has ended"
+LONGEST_SHOWN = 150
+"""Characters of a value that are shown: a belief names every place of a home."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,13 +124,17 @@ def _plain(value: Any) -> Any:
 
 
 def aspects_text(aspects: Iterable[Aspect], names: tuple[str, str]) -> str:
-    """Three lines for each aspect: what it is, and how it is on either side."""
+    """Three lines for each aspect: what it is, and how it is on either side, or how that begins."""
     width = max(len(name) for name in names)
     return "\n".join(
         f"  {printable(aspect.what)}\n"
         + "\n".join(
-            f"    {name:{width}}  {printable(value or '-')}"
+            f"    {name:{width}}  {_begin(printable(value or '-'))}"
             for name, value in zip(names, (aspect.one, aspect.other), strict=True)
         )
         for aspect in aspects
     )
+
+
+def _begin(text: str) -> str:
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]} ... (all: --json)"

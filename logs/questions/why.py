@@ -6,11 +6,10 @@ was taken, those before it failed and said why, those after it were not needed.
 
 import re
 from collections import defaultdict
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from heapq import merge
 from itertools import islice
-from typing import Any
 
 from executive.belief import PLAN
 from executive.events import Heard, Started
@@ -27,54 +26,25 @@ from executive.records import (
     Utterance,
     Verified,
 )
-from executive.situation import TAKEN_BACK
-from executive.text import printable
-from executive.types.knowledge import Candidate
 from executive.types.results import Scored
+from logs.questions.changes import (
+    is_under_way,
+    parts_ended,
+    split,
+    tasks_ended,
+    visits,
+    where_to_look,
+)
+from logs.questions.decision import NOT_NEEDED, PERSON, WORLD, Alternative, Decision
 from logs.questions.interventions import EXPERIMENTER, done
 from logs.recording.reader import At, Run
 
-WORLD = "world"
-"""Whose doing an ordered fault is."""
-PERSON, EYES = "person", "eyes"
-"""Who says what was heard, and what was looked at."""
 LOOK_OR_ASK = "look or ask"
 """What a plan settles."""
 MOST_TOLD, LEAST = 5, 0.005
 """So many places that are less likely are told of, if they are as likely as this."""
-NOT_NEEDED = "not needed"
 SOMETHING = "something"
 _VERB = re.compile(r"\b(is|was|may)\b")
-
-
-@dataclass(frozen=True, slots=True)
-class Alternative:
-    """What could have been instead, and why it was not."""
-
-    what: str
-    why_not: str
-
-
-@dataclass(frozen=True, slots=True)
-class Decision:
-    """One link of the chain.
-
-    Attributes:
-        time_s: mission time at which it was settled.
-        question: what was to be settled, as the tree names it.
-        answer: what came of it.
-        source: as the behaviour declares it: `person`, `ontology`, `llm`, `user`; or `eyes`,
-            `world` or `experimenter`; empty where the tree itself decides.
-        by: the behaviour that settled it.
-        alternatives: what was not taken.
-    """
-
-    time_s: float
-    question: str
-    answer: str
-    source: str
-    by: str
-    alternatives: tuple[Alternative, ...] = ()
 
 
 def why(run: Run) -> list[Decision]:
@@ -149,18 +119,18 @@ class _Chain:
                 continue
             at = At(thought.time_s, thought.value)
             states = {node.path: node for node in at.value.nodes}
-            yield from _visits(before, at, self._searches)
-            ended = [*_parts_ended(before, at), *_tasks_ended(before, at)]
-            goes_on = bool(ended) and _goes_on(at)
+            yield from visits(before, at, self._searches)
+            ended = [*parts_ended(before, at), *tasks_ended(before, at)]
+            goes_on = bool(ended) and is_under_way(at)
             if goes_on:  # what is settled in this tick is so for the next task
                 yield from ended
                 self._reasons.clear()
                 self._thoughts.clear()
             anew = goes_on or before is None
-            yield from _split(before, at)
+            yield from split(before, at)
             settled = list(_outermost(self._settled(at, states, None if anew else before)))
             yield from settled
-            yield from _where_to_look(before, at, {d.answer for d in settled})
+            yield from where_to_look(before, at, {d.answer for d in settled})
             if not goes_on:
                 yield from ended
             self._remember(states)
@@ -290,147 +260,6 @@ def _failed(decision: Decision) -> bool:
     return any(a.why_not != NOT_NEEDED for a in decision.alternatives)
 
 
-def _split(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
-    """That the task at hand is done in parts, and which of them is the first."""
-    was, now = _before_and_now(before, at)
-    wholes = now.get("wholes") or []
-    if len(wholes) > len(was.get("wholes") or ()) and now.get("command"):
-        first = f"{_named(wholes[-1])}: first {_named(now['command'])}"
-        yield Decision(at.time_s, "in parts", first, "", at.value.tip)
-
-
-def _where_to_look(
-    before: At[Tick] | None, at: At[Tick], told: Container[str]
-) -> Iterator[Decision]:
-    """The places that somebody named, unless that was told, or a plan tells it."""
-    was, now = _before_and_now(before, at)
-    places = now.get("candidates") or ()
-    if not places or places == was.get("candidates") or now.get("plan"):
-        return
-    named = ", ".join(str(Candidate(**place)) for place in places)
-    if named not in told:
-        yield Decision(at.time_s, "which places", named, places[0]["source"], at.value.tip)
-
-
-def _visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> Iterator[Decision]:
-    """Where the thing was looked for, told when the robot is through with the place.
-
-    `searches` are the paths of what serves to look for it.
-    """
-    was, now = _before_and_now(before, at)
-    if before is None or not was.get("candidate"):
-        return
-    place = was["candidate"]["place"]
-    tip = before.value.tip
-    is_left = now.get("candidate") != was.get("candidate") or not _runs(searches, at)
-    for lost, why_not in (now.get("unreached") or {}).items():
-        if lost not in (was.get("unreached") or {}):
-            yield Decision(at.time_s, f"look at {lost}", f"not reached: {why_not}", "", tip)
-    if now.get("found"):
-        if not was.get("found"):
-            yield Decision(at.time_s, f"look at {place}", "seen there", EYES, tip)
-    elif _runs(searches, before) and place in (was.get("visited") or ()) and is_left:
-        if _is_given_up(before, at):
-            yield Decision(at.time_s, f"look at {place}", "given up", PERSON, tip)
-            return
-        yield Decision(at.time_s, f"look at {place}", _seen(before, at, place), EYES, tip)
-
-
-def _seen(before: At[Tick], at: At[Tick], place: str) -> str:
-    """What came of a look at a place: for the thing, or all around."""
-    was, now = before.value.situation, at.value.situation
-    if why_not := (now.get("unseen") or {}).get(place):
-        return f"not all of it seen: {why_not}"
-    ended = next(iter(_ended(before, at)), None)
-    if place not in (was.get("seen") or {}):
-        return "seen there" if ended and ended["location"] == place else "not seen there"
-    if place in (now.get("seen") or {}):
-        there = now["seen"][place]
-    elif ended:
-        there = ended.get("things") or ()
-    else:  # each thing there is a part of the task now
-        parts = (now["command"], *(now.get("tasks") or ()))
-        there = [part["target"] for part in parts if part.get("source") == place]
-    return f"seen there: {', '.join(there)}" if there else "not seen there"
-
-
-def _is_given_up(before: At[Tick], at: At[Tick]) -> bool:
-    """Whether the task was, for what the person said meanwhile."""
-    was, now = before.value.situation, at.value.situation
-    for task in _ended(before, at):
-        return bool(task["reason"] == TAKEN_BACK)
-    wholes = now.get("wholes") or []
-    if len(wholes) > len(was.get("wholes") or ()) and wholes[-1] == was.get("command"):
-        return False  # it goes on in parts
-    return now.get("command") != was.get("command") or not now.get("visited")
-
-
-def _before_and_now(
-    before: At[Tick] | None, at: At[Tick]
-) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    return before.value.situation if before else {}, at.value.situation
-
-
-def _ended(before: At[Tick] | None, at: At[Tick]) -> list[Mapping[str, Any]]:
-    """What came of the tasks and parts that have ended since."""
-    was, now = _before_and_now(before, at)
-    known = len(was.get("ended") or ())
-    return [*_parts(now)[len(_parts(was)) :], *(now.get("ended") or [])[known:]]
-
-
-def _parts(situation: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """What came of parts of tasks, in the order in which they ended."""
-    ended = [part for task in situation.get("ended") or () for part in _within(task)]
-    under_way = [part for whole in situation.get("parts") or () for part in whole]
-    return [*ended, *(inner for part in under_way for inner in (*_within(part), part))]
-
-
-def _within(task: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
-    for part in task.get("parts") or ():
-        yield from _within(part)
-        yield part
-
-
-def _parts_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
-    """How each part of a task ended that has ended since."""
-    was, now = _before_and_now(before, at)
-    for part in _parts(now)[len(_parts(was)) :]:
-        yield Decision(at.time_s, f"part: {_named(part)}", _came_of(part), "", at.value.tip)
-
-
-def _tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
-    """How each task ended that has ended since; nothing if there was but one."""
-    ended = at.value.situation.get("ended") or ()
-    if len(ended) < 2 and not _goes_on(at):
-        return
-    known = len(before.value.situation.get("ended") or ()) if before else 0
-    for number, task in enumerate(ended[known:], start=known + 1):
-        what = f"task {number}: {_named(task)}"
-        yield Decision(at.time_s, what, _came_of(task), "", at.value.tip)
-
-
-def _named(task: Mapping[str, Any]) -> str:
-    """A command, or what came of one: "bring 2 fruits from desk", "put mug"."""
-    number = task.get("number") or 0
-    source = f"from {task['source']}" if task.get("source") else ""
-    goal = f"to {task['goal']}" if task.get("goal") else ""
-    kind, several = task["kind"].replace("_", " "), str(number) if number > 0 else ""
-    return " ".join(filter(None, (kind, several, task["target"], source, goal)))
-
-
-def _came_of(task: Mapping[str, Any]) -> str:
-    return f"{task['status'].replace('_', ' ')}: {task['reason']}"
-
-
-def _goes_on(at: At[Tick]) -> bool:
-    """Whether the mission did not end with this tick."""
-    return any(node.status == "RUNNING" for node in at.value.nodes)
-
-
-def _runs(paths: Container[str], at: At[Tick]) -> bool:
-    return any(node.status == "RUNNING" and node.path in paths for node in at.value.nodes)
-
-
 def _less_likely(planned: Planned) -> Iterator[Alternative]:
     """The likeliest of the places that are not next, who says so of each, and how far it is."""
     away = dict(zip(planned.places, planned.away, strict=False))
@@ -464,20 +293,3 @@ def denied(condition: str) -> str:
         return f"nothing{condition.removeprefix(SOMETHING)}"
     contrary, verbs = _VERB.subn(r"\1 not", condition, count=1)
     return contrary if verbs else f"not {condition}"
-
-
-def why_text(decisions: Iterable[Decision]) -> str:
-    """A paragraph for each decision: what was settled, by whom, and what was not taken."""
-    return "\n".join(map(_text, decisions)) or "nothing was decided: the recording has no ticks"
-
-
-def _text(decision: Decision) -> str:
-    says = f"  [{decision.source}]" if decision.source else ""
-    lines = [f"{decision.time_s:9.3f}  {decision.question}: {decision.answer}{says}"]
-    lines += [
-        f"{'':13}- {a.what}: {a.why_not}" for a in decision.alternatives if a.why_not != NOT_NEEDED
-    ]
-    spare = [a.what for a in decision.alternatives if a.why_not == NOT_NEEDED]
-    if spare:
-        lines.append(f"{'':13}- not needed: {', '.join(spare)}")
-    return "\n".join(map(printable, lines))

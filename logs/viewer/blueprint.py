@@ -5,10 +5,9 @@ from collections.abc import Iterable
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
-from numpy.typing import NDArray
 
+from executive.geometry import vector3
 from executive.records import Entity
-from executive.types.geometry import Vector3
 from logs.viewer import candidates, scene, tree
 from logs.viewer.timelines import MISSION_TIME
 
@@ -87,7 +86,7 @@ def _birds_eye(entities: Iterable[Entity]) -> rrb.EyeControls3D | None:
     low, high = (centers - sizes / 2).min(axis=0), (centers + sizes / 2).max(axis=0)
     middle = (low + high) / 2
     away = np.linalg.norm((high - low)[:2]) * np.array([0.0, -0.39, 0.58])
-    return rrb.EyeControls3D(position=_vector(middle + away), look_target=_vector(middle))
+    return rrb.EyeControls3D(position=vector3(middle + away), look_target=vector3(middle))
 
 
 def _camera() -> rrb.Spatial2DView:
@@ -118,8 +117,3 @@ def _words() -> rrb.Vertical:
         ),
         row_shares=[5, 6, 3],
     )
-
-
-def _vector(array: NDArray[np.float64]) -> Vector3:
-    x, y, z = (float(value) for value in array)
-    return x, y, z

@@ -12,6 +12,7 @@ import pybullet_data
 from scipy.spatial.transform import Rotation
 
 from executive.colors import Color
+from executive.geometry import pose_from
 from executive.records import Entity, Shape
 from executive.types.geometry import Pose, Vector3
 
@@ -108,8 +109,8 @@ def _shape(visual: ElementTree.Element, colors: dict[str | None, Color]) -> Shap
 def _pose(origin: ElementTree.Element | None) -> Pose:
     if origin is None:
         return Pose()
-    x, y, z, w = Rotation.from_euler("xyz", _vector(origin.get("rpy"))).as_quat()
-    return Pose(_vector(origin.get("xyz")), (float(x), float(y), float(z), float(w)))
+    turn = Rotation.from_euler("xyz", _vector(origin.get("rpy")))
+    return pose_from(_vector(origin.get("xyz")), turn)
 
 
 def _vector(text: str | None) -> Vector3:

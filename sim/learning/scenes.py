@@ -14,6 +14,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from executive.geometry import pose_from
 from executive.records import Shape
 from executive.types.geometry import Pose, Vector3
 from executive.types.perception import Box, Frame
@@ -256,8 +257,7 @@ def looking_at(eye: Vector3, target: Vector3, roll: float = 0.0) -> Pose:
     right = np.cross(forward, (0.0, 0.0, 1.0))
     right /= np.linalg.norm(right)
     axes = Rotation.from_matrix(np.column_stack((right, np.cross(forward, right), forward)))
-    x, y, z, w = (float(v) for v in (axes * Rotation.from_euler("z", roll)).as_quat())
-    return Pose(eye, (x, y, z, w))
+    return pose_from(eye, axes * Rotation.from_euler("z", roll))
 
 
 def _free_pose(target: Vector3, chance: Generator) -> Pose:

@@ -2,7 +2,6 @@
 
 import math
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
@@ -15,7 +14,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, TypeAdapter
 from pydantic_core import PydanticCustomError
 
 from executive.colors import Color
-from executive.geometry import matrix_of, orientation_of, transform
+from executive.geometry import matrix_of, orientation_of, transform, vector3
 from executive.records import Shape
 from executive.toml_file import parse_toml
 from executive.types.geometry import Pose, Vector3
@@ -140,7 +139,7 @@ class _Part(BaseModel):
         width = diameter * math.tan(math.pi / TUBE_WALLS)
         turn = orientation_of((0.0, 0.0, angle))
         [at] = transform(Pose(self.at, turn), np.array([[middle, 0.0, 0.0]]))
-        return Shape("box", (thickness, width, height), WHITE, Pose(_vector(at), turn))
+        return Shape("box", (thickness, width, height), WHITE, Pose(vector3(at), turn))
 
 
 class _Row(BaseModel):
@@ -192,9 +191,9 @@ def object_model(
         shapes,
         look,
         shown or shapes,
-        lower=_vector((middle - reach).min(axis=0)),
-        upper=_vector((middle + reach).max(axis=0)),
-        center_of_mass=_vector(volume @ middle / volume.sum()),
+        lower=vector3((middle - reach).min(axis=0)),
+        upper=vector3((middle + reach).max(axis=0)),
+        center_of_mass=vector3(volume @ middle / volume.sum()),
     )
 
 
@@ -202,11 +201,6 @@ def object_model(
 def _rows() -> dict[str, _Row]:
     content = files("sim").joinpath("objects.toml").read_bytes()
     return TypeAdapter(dict[str, _Row]).validate_python(parse_toml(content, "objects.toml"))
-
-
-def _vector(values: Sequence[float] | NDArray[np.float64]) -> Vector3:
-    x, y, z = (float(v) for v in values)
-    return x, y, z
 
 
 def _half_extent(shape: Shape) -> NDArray[np.float64]:

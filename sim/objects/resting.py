@@ -6,9 +6,9 @@ from functools import cache
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats
+from executive.geometry import Floats, pose_from, vector3
 from executive.records import Shape
-from executive.types.geometry import Pose, Vector3
+from executive.types.geometry import Pose
 from sim.objects.objects import ObjectModel
 from sim.objects.solids import sample_surface
 
@@ -50,18 +50,13 @@ def _fallen(model: ObjectModel, fall: Rotation) -> Lying:
         model,
         grasp="top" if model.grasp == "top" else "rim",
         shapes=shapes,
-        lower=_vector(low - base),
-        upper=_vector(high - base),
-        center_of_mass=_vector(fall.apply(model.center_of_mass) - base),
+        lower=vector3(low - base),
+        upper=vector3(high - base),
+        center_of_mass=vector3(fall.apply(model.center_of_mass) - base),
     )
     return Lying(model.shapes, lies, fall.as_matrix(), base)
 
 
 def _moved(pose: Pose, fall: Rotation, base: Floats) -> Pose:
-    x, y, z, w = (float(v) for v in (fall * Rotation.from_quat(pose.orientation)).as_quat())
-    return Pose(_vector(fall.apply(pose.position) - base), (x, y, z, w))
-
-
-def _vector(values: Floats) -> Vector3:
-    x, y, z = (float(v) for v in values)
-    return x, y, z
+    turn = fall * Rotation.from_quat(pose.orientation)
+    return pose_from(fall.apply(pose.position) - base, turn)

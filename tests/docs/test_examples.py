@@ -12,7 +12,8 @@ import pytest
 
 from executive import MissionStatus, Source
 from executive.replay import replay
-from logs.questions.why import why, why_text
+from logs.questions.decision import why_text
+from logs.questions.why import why
 from logs.recording.reader import Run
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"

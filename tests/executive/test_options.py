@@ -1,6 +1,7 @@
 """A setting is one field: the command line's options are made of the fields."""
 
 import argparse
+from pathlib import Path
 from typing import Annotated, Literal
 
 import pytest
@@ -67,3 +68,9 @@ def test_an_option_that_there_is_not_is_refused_among_words(
     with pytest.raises(SystemExit):
         parsed(["Bring", "--sead", "3", "a", "mug"])
     assert "error: unrecognized arguments: --sead 3 a mug" in capsys.readouterr().err
+
+
+def test_the_page_of_options_names_each_of_them() -> None:
+    page = (Path(__file__).parents[2] / "docs/options.md").read_text()
+    options = {name for action in parser()._actions for name in action.option_strings}
+    assert sorted(name for name in options - {"-h", "--help"} if name not in page) == []

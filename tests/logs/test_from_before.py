@@ -3,7 +3,8 @@
 from pathlib import Path
 
 from executive.records import Activity
-from logs.questions.why import why, why_text
+from logs.questions.decision import why_text
+from logs.questions.why import why
 from logs.recording.reader import Run
 
 FROM_BEFORE = Path(__file__).parent / "from_before"

@@ -19,9 +19,10 @@ from executive.records import NodeShape, NodeState, Picture, Record, Tick, TreeS
 from logs.__main__ import main
 from logs.questions import report
 from logs.questions.comparison import compare
-from logs.questions.difference import parting
+from logs.questions.decision import Alternative, why_text
+from logs.questions.difference import Aspect, aspects_text, parting
 from logs.questions.pictures import write_video
-from logs.questions.why import Alternative, denied, why, why_text
+from logs.questions.why import denied, why
 from logs.recorder import Stamp
 from logs.recording.reader import At, Run
 from logs.recording.recovery import first_damage, recover
@@ -255,6 +256,14 @@ def test_a_mission_that_ends_earlier_parts_where_it_ends(tmp_path: Path, run_dir
     found = parting(Run(run_dir), Run(shorter))
     assert found is not None
     assert (found.tick, found.aspects[0].other) == (2, "has ended")
+
+
+def test_a_long_value_is_shown_as_it_begins() -> None:
+    shown = aspects_text([Aspect("belief", "short", "x" * 5000)], ("A", "B")).splitlines()
+    assert shown[1] == "    A  short"
+    assert shown[2].startswith("    B  xxx")
+    assert shown[2].endswith("(all: --json)")
+    assert len(shown[2]) < 200
 
 
 # --- pictures ---

@@ -13,7 +13,8 @@ from executive.campaign.observer import Observed
 from executive.records import LlmCall, Record, Tick, TreeShape, Verified
 from executive.testing.bench import run_mission
 from executive.types.goals import Goal, Pick
-from logs.questions.why import why, why_text
+from logs.questions.decision import why_text
+from logs.questions.why import why
 from logs.recorder import Stamp
 from logs.recording.reader import Run
 from logs.recording.sink import McapSink

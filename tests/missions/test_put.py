@@ -14,7 +14,8 @@ from executive.types.commands import CommandKind
 from executive.types.goals import DriveTo, Pick
 from executive.types.home import DELIVERY, HAND
 from executive.types.outcome import MissionStatus
-from logs.questions.why import why, why_text
+from logs.questions.decision import why_text
+from logs.questions.why import why
 from logs.recording.reader import Run as Recorded
 from sim.fake import FakeWorld
 

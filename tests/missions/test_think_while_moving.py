@@ -19,7 +19,8 @@ from executive.testing.bench import Run, four_rooms
 from executive.types.goals import DriveTo, Goal
 from executive.types.knowledge import Source
 from executive.types.outcome import MissionStatus
-from logs.questions.why import why, why_text
+from logs.questions.decision import why_text
+from logs.questions.why import why
 from logs.recording.reader import Run as Recorded
 
 HOME = [place.name for place in four_rooms().places()]

@@ -19,7 +19,8 @@ from executive.types.goals import DriveTo, Goal, LookAt, Pick, PutDown
 from executive.types.outcome import MissionStatus
 from executive.user import Oracle
 from kb.facts import FactStore
-from logs.questions.why import why, why_text
+from logs.questions.decision import why_text
+from logs.questions.why import why
 from logs.recording.reader import Run as Recorded
 
 DONE, NOT_DONE = MissionStatus.DONE, MissionStatus.NOT_DONE

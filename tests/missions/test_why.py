@@ -6,7 +6,8 @@ import pytest
 
 from executive.app.session import Session
 from executive.config import load_settings
-from logs.questions.why import Decision, why
+from logs.questions.decision import Decision
+from logs.questions.why import why
 from logs.recording.reader import Run
 
 
