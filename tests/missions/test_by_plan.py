@@ -1,5 +1,6 @@
 """Missions that are searched by a belief and a plan."""
 
+from collections.abc import Callable
 from functools import partial
 from math import inf
 
@@ -109,14 +110,43 @@ def test_a_look_in_vain_changes_the_plan_and_then_the_model_is_asked() -> None:
     assert second.probabilities[second.places.index("bed")] < 0.2
 
 
-def test_a_blocked_way_is_planned_around() -> None:
-    def shut(goal: Goal) -> str | None:
-        return "the way is blocked" if goal == DriveTo("coffee_table") else None
+def no_way_to(place: str) -> Callable[[Goal], str | None]:
+    return lambda goal: "the way is blocked" if goal == DriveTo(place) else None
 
+
+def test_a_blocked_way_is_planned_around() -> None:
+    shut = no_way_to("coffee_table")
     run = run_mission("Find the mug", llm=False, defaults=False, fault=shut, place={"mug": "sofa"})
     assert run.outcome.status == MissionStatus.DONE
     assert "coffee_table" not in run.outcome.visited
     assert "coffee_table" not in plans(run)[-1].order
+
+
+def test_where_the_person_says_it_is_out_of_reach_nothing_else_is_searched() -> None:
+    run = run_mission(
+        "Find the mug",
+        llm=False,
+        defaults=False,
+        answers=["on the bed or on the sofa"],
+        fault=no_way_to("bed"),
+        parameters={"question_s": 0.0},
+        place={"mug": "desk"},
+    )
+    assert (run.outcome.status, run.outcome.visited) == (MissionStatus.NOT_DONE, ("sofa",))
+    assert run.outcome.reason == (
+        "I did not find the mug on the sofa; I could not get to the bed: the way is blocked"
+    )
+
+
+def test_that_a_place_is_out_of_reach_is_told_and_the_likeliest_of_the_others_is_next() -> None:
+    facts = FactStore()
+    facts.heard("power_drill", ["bed"])
+    run = run_mission("Find the power drill", llm=False, facts=facts, fault=no_way_to("bed"))
+    assert (run.outcome.inquiries, run.outcome.visited) == (0, ("shelf_lobby",))
+    assert said(run)[1:3] == [
+        "I could not get to the bed: the way is blocked.",
+        "I look for the power drill on the shelf in the lobby: that is its place.",
+    ]
 
 
 class OverlooksOnce(FakeDetector):

@@ -16,6 +16,7 @@ from kb.facts import FactStore
 from logs.recording.reader import Run as Recorded
 
 DONE, NOT_DONE = MissionStatus.DONE, MissionStatus.NOT_DONE
+GONE = ("moved=strawberry:bed@5",)
 
 
 def run(words: str, **more: object) -> Run:
@@ -205,6 +206,22 @@ def test_it_is_not_all_if_not_all_was_seen(words: str) -> None:
     some = run(words, fault=blocked)
     assert some.outcome.status == NOT_DONE
     assert "; I could not get to the high table: the way is blocked" in some.outcome.reason
+
+
+@pytest.mark.parametrize("search", ["plan", "paper"])
+@pytest.mark.parametrize("words", ["Bring all the fruit from the dining table", "Clear the table"])
+def test_what_is_taken_away_from_there_meanwhile_is_not_looked_for_elsewhere(
+    words: str, search: str
+) -> None:
+    some = run(words.replace("the table", "the dining table"), search=search, mishaps=GONE)
+    assert (some.outcome.status, set(some.outcome.visited)) == (NOT_DONE, {"dining_table"})
+    assert "not the strawberry: I did not find the strawberry on the" in some.outcome.reason
+    assert on(some, "bed") == {"strawberry"}
+
+
+def test_another_one_that_is_there_makes_up_for_it() -> None:
+    two = run("Bring two fruits from the dining table", mishaps=("moved=banana:bed@5",))
+    assert (two.outcome.status, on(two, "delivery")) == (DONE, {"apple", "strawberry"})
 
 
 def test_where_all_of_them_are_to_go_is_asked_once_and_before_anything_is_done() -> None:
