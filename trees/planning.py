@@ -131,17 +131,17 @@ class PlanNext(Step):
         return self.succeed(str(first))
 
     def _plan(self, belief: Belief) -> Plan:
-        """That it is where the robot cannot get to, is no reason to look here first, or there."""
+        """With nobody to ask, that it is out of reach is no reason to look here first, or there."""
         search, parameters = self.situation.search, self.context.parameters
         whereabouts, looks = search.whereabouts, search.looks
         worth = [o for o in belief.places if whereabouts.may_look_at(o.place, looks)]
         likely = [] if whereabouts.is_out_of_reach(looks) else worth[: parameters.planned]
-        lost = (o for o in belief.places if o.place in looks.unreached and o not in worth)
-        reach = 1 - sum(one.probability for one in lost) or 1.0
         places = [one.place for one in likely]
         from_here = self._from_here(places)
         whereabouts.away = dict(zip(places, from_here, strict=True))
         helps = not (self.situation.dialogue.no_help or whereabouts.answered)
+        lost = (o for o in belief.places if o.place in looks.unreached and o not in worth)
+        reach = 1.0 if helps else 1 - sum(one.probability for one in lost) or 1.0
         return best_plan(
             [Chance(one.place, one.probability / reach) for one in likely],
             from_here,

@@ -138,15 +138,20 @@ def test_where_the_person_says_it_is_out_of_reach_nothing_else_is_searched() -> 
     )
 
 
-def test_that_a_place_is_out_of_reach_is_told_and_the_likeliest_of_the_others_is_next() -> None:
+def test_that_a_place_is_out_of_reach_is_told() -> None:
+    shut, place = no_way_to("coffee_table"), {"mug": "counter_wagon"}
+    run = run_mission("Find the mug", llm=False, fault=shut, place=place)
+    assert (run.outcome.inquiries, run.outcome.visited) == (0, ("dining_table", "counter_wagon"))
+    assert said(run)[1] == "I could not get to the coffee table: the way is blocked."
+
+
+def test_with_nobody_to_ask_the_likeliest_of_the_places_in_reach_is_next() -> None:
     facts = FactStore()
     facts.heard("power_drill", ["bed"])
-    run = run_mission("Find the power drill", llm=False, facts=facts, fault=no_way_to("bed"))
-    assert (run.outcome.inquiries, run.outcome.visited) == (0, ("shelf_lobby",))
-    assert said(run)[1:3] == [
-        "I could not get to the bed: the way is blocked.",
-        "I look for the power drill on the shelf in the lobby: that is its place.",
-    ]
+    silent = run_mission(
+        "Find the power drill", llm=False, facts=facts, fault=no_way_to("bed"), answers=["I can't"]
+    )
+    assert silent.outcome.visited == ("shelf_lobby",)
 
 
 class OverlooksOnce(FakeDetector):

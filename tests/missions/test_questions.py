@@ -80,3 +80,21 @@ def test_a_place_or_a_thing_that_nobody_knows_is_told() -> None:
     assert (unknown.outcome.status, unknown.outcome.reason) == (NOT_DONE, "I know no place 'moon'")
     thing = run_mission("How many unicorns are on the desk?", llm=False)
     assert thing.outcome.reason.startswith("I know no 'unicorns'")
+
+
+@pytest.mark.parametrize(
+    ("words", "seen"),
+    [
+        ("How many fruits are on the dining table?", "I count 3: the apple, the banana and"),
+        ("What is on the coffee table?", "I see the mug and the pudding box on the coffee table"),
+        ("Is the mug on the sofa?", "No, I see no mug on the sofa"),
+    ],
+)
+def test_what_was_seen_is_told_even_if_there_is_no_way_back(words: str, seen: str) -> None:
+    def shut(goal: Goal) -> str | None:
+        return "the door is shut" if goal == DriveTo("person") else None
+
+    run = run_mission(words, llm=False, fault=shut)
+    assert run.outcome.status == MissionStatus.NOT_DONE
+    assert run.outcome.reason.startswith(seen)
+    assert run.outcome.reason.endswith(", but the door is shut")
