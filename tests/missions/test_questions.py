@@ -98,3 +98,20 @@ def test_what_was_seen_is_told_even_if_there_is_no_way_back(words: str, seen: st
     assert run.outcome.status == MissionStatus.NOT_DONE
     assert run.outcome.reason.startswith(seen)
     assert run.outcome.reason.endswith(", but the door is shut")
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        ("check whether there is a mug", "Yes: the mug on the delivery table."),
+        ("count the mugs", "I count 1: the mug on the delivery table."),
+    ],
+)
+def test_the_table_by_the_person_is_looked_at_too(question: str, answer: str) -> None:
+    run = run_mission(f"Bring the mug, then {question}", llm=False, facts=FactStore())
+    assert run.outcome.tasks[1].reason == answer
+
+
+def test_that_there_is_nothing_is_told_in_that_word() -> None:
+    run = run_mission("Bring everything from the bed", llm=False)
+    assert run.outcome.reason == "I see nothing on the bed"

@@ -348,3 +348,14 @@ def test_what_was_just_seen_is_what_is_brought_of_a_kind() -> None:
 def test_a_kind_of_which_nothing_was_just_seen_is_looked_for() -> None:
     scissors = run("What is on the bed? Bring the scissors", place={"mug": "bed"})
     assert on(scissors, "delivery") == {"scissors"}
+
+
+@pytest.mark.parametrize("search", ["plan", "paper"])
+def test_what_else_is_to_be_done_if_it_is_not_found_is_done_only_then(search: str) -> None:
+    words = "Bring the mug. If you cannot find it, bring the pear"
+    found = run(words, search=search)
+    assert (found.outcome.status, on(found, "delivery")) == (DONE, {"mug"})
+    answers = ["I don't know", "on the high table"]
+    shut = {DriveTo("coffee_table"): "the way is blocked"}
+    other = run(words, search=search, answers=answers, fault=shut.get)
+    assert (other.outcome.status, on(other, "delivery")) == (DONE, {"pear"})
