@@ -135,7 +135,7 @@ class PlanNext(Step):
         search, parameters = self.situation.search, self.context.parameters
         whereabouts, looks = search.whereabouts, search.looks
         worth = [o for o in belief.places if whereabouts.may_look_at(o.place, looks)]
-        likely = [] if whereabouts.is_out_of_reach(looks) else worth[: parameters.planned]
+        likely = [] if whereabouts.is_hidden(looks) else worth[: parameters.planned]
         places = [one.place for one in likely]
         from_here = self._from_here(places)
         whereabouts.away = dict(zip(places, from_here, strict=True))
@@ -169,6 +169,8 @@ class PlanStands(PlanNext):
         assert search.candidate
         if not search.whereabouts.news or search.candidate.source == EXPERIMENTER:
             return self.succeed()
+        if not search.whereabouts.may_look_at(search.candidate.place, search.looks):
+            search.whereabouts.named.add(search.candidate.place)  # as it was when it was chosen
         plan = self.plan()
         if plan.order[:1] == (search.candidate.place,) and not plan.asks:
             return self.take_up()

@@ -103,7 +103,7 @@ class Whereabouts:
         seen = place in looks.visited or place in looks.unreached
         return place in self.named or not seen
 
-    def is_out_of_reach(self, looks: Looks) -> bool:
-        """Whether a place that the person answered with could not be reached, and none is left."""
+    def is_hidden(self, looks: Looks) -> bool:
+        """Whether a place that the person answered with was not to be seen, and none is left."""
         left = self.named.intersection(self.answered)
-        return not left and any(place in looks.unreached for place in self.answered)
+        return not left and any(map(looks.failed, self.answered))

@@ -56,6 +56,10 @@ class Looks:
         """Whether every part of a place was seen, and the thing is in none of them."""
         return 0 < self._parts.get(place, 0) == len(self._without.get(place, ()))
 
+    def failed(self, place: str) -> bool:
+        """Whether it was tried to look at a place, and is not known to be without the thing."""
+        return place in self.unreached or (place in self.visited and not self.all_without(place))
+
     def all_but(self, place: str, part: int) -> bool:
         """Whether every other part of a place was seen, and the thing is in none of them."""
         without = self._without.get(place, set())
