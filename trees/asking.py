@@ -66,6 +66,7 @@ class Ask(Action):
     def ended(self, result: Result) -> Status:
         """Take the answer, ask again, or accept that there is none."""
         if not isinstance(result, Answered):
+            self.situation.dialogue.inquiries -= 1  # nobody was there to hear it
             return self._no_help(why_of(result))
         self.context.recorder.record(Utterance("person", result.text))
         unread = too_long(result.text)

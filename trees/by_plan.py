@@ -19,7 +19,13 @@ from trees.planning import (
     PlanStands,
     TellWhere,
 )
-from trees.search import GiveUpSearch, look_over, look_where_the_words_say, search_by_stages
+from trees.search import (
+    GiveUpSearch,
+    look_over,
+    look_where_the_words_say,
+    may_be_elsewhere,
+    search_by_stages,
+)
 from trees.ways import Ways
 
 
@@ -37,7 +43,12 @@ def search_by_plan(context: MissionContext) -> Behaviour:
         "search",
         Check("in my hand", context, lambda: situation.hand.in_hand == situation.request.object),
         look_where_the_words_say(context),
-        sequence("look where it may be", what_is_known(context), until_it_is_seen(context)),
+        sequence(
+            "look where it may be",
+            may_be_elsewhere(context),
+            what_is_known(context),
+            until_it_is_seen(context),
+        ),
         GiveUpSearch("not found", context),
     )
 

@@ -20,7 +20,7 @@ from executive.language.meaning import (
 from executive.types.commands import ALL, CommandKind
 from executive.types.dialogue import Question, QuestionKind
 from trees.asking import Ask, AskYesNo
-from trees.attention import all_of, correct
+from trees.corrections import all_of, correct
 from trees.meant import without_exceptions
 from trees.passed_over import passed_over_in_name
 from trees.telling import tell

@@ -99,7 +99,7 @@ class DriveBack(RobotAction):
 class DriveToSurface(RobotAction):
     """Goes to the furniture where the held thing may be put down.
 
-    Reads hand.surface; writes dialogue.away.
+    Reads hand.surface; writes dialogue.away and hand.unplaced.
     """
 
     activity = Activity.DRIVING
@@ -112,6 +112,10 @@ class DriveToSurface(RobotAction):
         """Drive there; the person is not there."""
         self.situation.dialogue.away = True
         return DriveTo(self.situation.hand.surface)
+
+    def note_failure(self, why: str) -> None:
+        """It cannot be put down there."""
+        self.situation.hand.unplaced[self.situation.hand.surface] = why
 
 
 class DriveToGoal(RobotAction):

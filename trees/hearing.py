@@ -105,6 +105,7 @@ class BeginSearch(Step):
         """Begin with nothing; where it was looked at stays known."""
         self.situation.search.whereabouts.begin()
         self.situation.search.default_locations = ()
+        self.situation.search.looks.missed = ""
         return Status.SUCCESS
 
 

@@ -91,9 +91,7 @@ class AskWhereToPut(AskForPlace):
 
     def unresolved(self) -> str:
         """Say where it was tried."""
-        hand, say = self.situation.hand, self.context.say
-        nowhere = f"I could get to no place to put {say.the(hand.in_hand or '')}"
-        return hand.not_put_down(say) or nowhere
+        return self.situation.hand.not_put_down(self.context.say)
 
 
 class Announce(Step):

@@ -13,8 +13,9 @@ from executive.types.commands import Command, CommandKind
 from executive.types.dialogue import Question, QuestionKind
 from executive.types.home import PERSON, SOMETHING
 from executive.types.knowledge import Source
-from trees.attention import correct, is_about_the_same
+from trees.at_hand import is_about_the_same
 from trees.context import MissionContext
+from trees.corrections import correct
 from trees.nodes import EachOf, FirstOf, Step, fallback, sequence
 from trees.person import AskForPlace, AskWhere
 from trees.place_words import (

@@ -8,6 +8,7 @@ from math import inf, isfinite
 from py_trees.common import Status
 
 from executive.belief import PLAN, Belief, Likely, Statement, in_order
+from executive.language.wording import beginning
 from executive.plan import Chance, Plan, Prices, best_plan
 from executive.records import Planned
 from executive.situation import Leg
@@ -18,7 +19,7 @@ from trees.hearing import PERSON_TRUST, believed
 from trees.held import HoldWhereToLook
 from trees.nodes import Step
 from trees.person import AskWhere, who_says
-from trees.telling import tell
+from trees.telling import sentence, tell
 from trees.ways import Ways
 
 MOST_RECORDED = 60
@@ -82,20 +83,23 @@ class PlanNext(Step):
         return self.succeed(str(first))
 
     def _plan(self, belief: Belief) -> Plan:
+        """With nobody to ask, that it is out of reach is no reason to look here first, or there."""
         search, parameters = self.situation.search, self.context.parameters
         whereabouts, looks = search.whereabouts, search.looks
         worth = [o for o in belief.places if whereabouts.may_look_at(o.place, looks)]
-        likely = worth[: parameters.planned]
+        likely = [] if whereabouts.is_hidden(looks) else worth[: parameters.planned]
         places = [one.place for one in likely]
         from_here = self._from_here(places)
         whereabouts.away = dict(zip(places, from_here, strict=True))
         helps = not (self.situation.dialogue.no_help or whereabouts.answered)
+        lost = (o for o in belief.places if o.place in looks.unreached and o not in worth)
+        reach = 1.0 if helps else 1 - sum(one.probability for one in lost) or 1.0
         return best_plan(
-            [Chance(one.place, one.probability) for one in likely],
+            [Chance(one.place, one.probability / reach) for one in likely],
             from_here,
             [self._ways.seconds(place, places) for place in places],
             Prices(parameters.question_s if helps else inf, parameters.visit_s),
-            elsewhere=max(0.0, 1 - sum(one.probability for one in likely)),
+            elsewhere=max(0.0, 1 - sum(one.probability for one in likely) / reach),
         )
 
     def _from_here(self, places: Sequence[str]) -> list[float]:
@@ -117,6 +121,8 @@ class PlanStands(PlanNext):
         assert search.candidate
         if not search.whereabouts.news or search.candidate.source == EXPERIMENTER:
             return self.succeed()
+        if not search.whereabouts.may_look_at(search.candidate.place, search.looks):
+            search.whereabouts.named.add(search.candidate.place)  # as it was when it was chosen
         plan = self.plan()
         if plan.order[:1] == (search.candidate.place,) and not plan.asks:
             return self.take_up()
@@ -175,7 +181,7 @@ def decision(plan: Plan, belief: Belief) -> str:
     """What is decided and why, as a clause."""
     asking, looking = (f"{e.cost:.0f} s" if e else "" for e in (plan.asking, plan.looking))
     if plan.is_over:
-        return "I have looked everywhere"
+        return "nothing is left that is worth a look"
     if plan.asks:
         return (
             f"I ask, because looking on would cost {looking} and asking {asking}"
@@ -229,8 +235,13 @@ class HearOut(Step):
 class AskWhereItIs(AskWhere):
     """Asks where the thing is, and believes the answer.
 
-    Reads request.object and search.looks; writes search.whereabouts.
+    Reads request.object and search.looks; writes search.whereabouts and search.looks.
     """
+
+    def start(self) -> int:
+        """Ask; where it was looked for in vain, the question says."""
+        self.situation.search.looks.missed = ""
+        return super().start()
 
     def understood(self, answer: str) -> bool:
         """The places that are named are worth a look, even if they had one."""
@@ -243,7 +254,7 @@ class AskWhereItIs(AskWhere):
         said = Statement(Source.USER, in_order(places), PERSON_TRUST)
         search.whereabouts.hear(said, first=True)
         search.whereabouts.named.update(places)
-        search.whereabouts.answered = True
+        search.whereabouts.answered = tuple(places)
         return True
 
 
@@ -251,7 +262,7 @@ class TellWhere(Step):
     """Tells where the robot is going to look, and who says so, unless that was told before.
 
     Of a ranking nobody has to wait long: it tells when that is there. Reads search.candidates;
-    writes search.whereabouts.
+    writes search.whereabouts and search.looks.
     """
 
     def update(self) -> Status:
@@ -262,6 +273,7 @@ class TellWhere(Step):
         if whereabouts.is_told or (whereabouts.thinks and ranks):
             return self.succeed(first.place)
         whereabouts.is_told = True
+        self._tell_missed()
         if whereabouts.announced[:1] != (first.place,):
             alike = takewhile(lambda candidate: candidate.source == first.source, candidates)
             whereabouts.announced = tuple(c.place for c in alike)[:MOST_TOLD]
@@ -270,6 +282,13 @@ class TellWhere(Step):
             self._tell(whereabouts.announced, first.source)
         whereabouts.announced = whereabouts.announced[1:]
         return self.succeed(first.place)
+
+    def _tell_missed(self) -> None:
+        looks, name = self.situation.search.looks, self.situation.request.object or ""
+        if looks.missed:
+            why_not = looks.why_not(name, looks.missed, self.context.say)
+            tell(self.context, sentence(beginning(why_not)))
+        looks.missed = ""
 
     def _tell(self, places: tuple[str, ...], source: str) -> None:
         name, say = self.situation.request.object or "", self.context.say

@@ -26,7 +26,9 @@ def search_by_stages(context: MissionContext) -> Behaviour:
     situation = context.situation
 
     def look(name: str, *candidates: Behaviour) -> Behaviour:
-        return sequence(name, *candidates, Announce("announce", context), visit_candidates(context))
+        announce = Announce("announce", context)
+        elsewhere = may_be_elsewhere(context)
+        return sequence(name, elsewhere, *candidates, announce, visit_candidates(context))
 
     return fallback(
         "search",
@@ -75,6 +77,18 @@ def look_where_the_words_say(context: MissionContext) -> Behaviour:
         ),
         choose=choose,
     )
+
+
+def may_be_elsewhere(context: MissionContext) -> Check:
+    """Whether to look where the words do not say: not for what was seen at a place, and is gone."""
+    return Check("it is meant wherever it is", context, lambda: not is_meant_there(context))
+
+
+def is_meant_there(context: MissionContext) -> bool:
+    """Whether the thing is one of those that the robot has seen at the place that was named."""
+    wholes = context.situation.agenda.wholes
+    whole = wholes[-1].command if wholes else None
+    return whole is not None and bool(whole.source) and not (whole.among or whole.conditional)
 
 
 def eyes_for_it(context: MissionContext) -> tuple[Behaviour, ...]:
@@ -174,9 +188,9 @@ class NotHere(Step):
 
 
 class SayNotThere(Step):
-    """Tells that the thing is not where the words say, before it is looked for elsewhere; fails.
+    """Tells that the thing is not where the words say, if it is looked for elsewhere; fails.
 
-    Reads request.from_places and search.looks.
+    Reads request.from_places, search.looks and agenda.wholes.
     """
 
     def update(self) -> Status:
@@ -186,7 +200,8 @@ class SayNotThere(Step):
         said = f"{say.are(name)} not {either(say.at_each(places))}"
         if not all(map(search.looks.all_without, places)):
             said = search.so_far(name, say)
-        tell(self.context, f"{beginning(said)}. I look further.")
+        if not is_meant_there(self.context):
+            tell(self.context, f"{beginning(said)}. I look further.")
         return self.fail(said)
 
 

@@ -7,9 +7,11 @@ import numpy as np
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.commands import THING
 from executive.language.wording import Wording, listed
 from executive.records import Activity
 from executive.situation import candidates_from
+from executive.types.home import DELIVERY
 from executive.types.knowledge import Candidate, Source
 from executive.types.perception import Detection
 from executive.types.results import Result, Saw
@@ -150,6 +152,8 @@ class KnowsWhatToLookFor(Step):
 class KnowsWhereToLook(Step):
     """Succeeds if the home has the places that the words name; with none named, it is everywhere.
 
+    The table by the person is a part of that.
+
     Reads request.command and survey.about; writes search.candidates.
     """
 
@@ -162,7 +166,7 @@ class KnowsWhereToLook(Step):
         places = places_in(context, command.source) if command.source else ()
         if command.source and not (places and is_place(context, command.source)):
             return self.fail(unknown_place(context, command.source))
-        everywhere = tuple(place.name for place in context.knowledge.places())
+        everywhere = (*(place.name for place in context.knowledge.places()), DELIVERY)
         anywhere = whereabouts(context, replace(command, source=""))
         order = seen_soonest(context, [anywhere.of(place) for place in places or everywhere])
         self.situation.search.candidates = candidates_from(order, Source.USER)
@@ -210,7 +214,8 @@ def nothing_there(context: MissionContext) -> str:
     """That none of what was asked for is where the robot has looked, as a clause."""
     command = context.situation.request.command
     assert command
-    what = f"no {context.say.words(command.target)}" if command.target else "nothing"
+    is_about_all = command.target in ("", THING)
+    what = "nothing" if is_about_all else f"no {context.say.words(command.target)}"
     places = tuple(context.situation.survey.seen)
     where = context.say.at(places[0]) if len(places) == 1 else "there"
     return f"I see {what} {where if command.source else 'anywhere'}"

@@ -12,8 +12,10 @@ from executive.types.commands import HELD, Command
 from executive.types.dialogue import Question, QuestionKind
 from executive.types.outcome import MissionStatus
 from trees.asking import AskYesNo
-from trees.attention import attend_to, correct, differs
+from trees.at_hand import differs
+from trees.attention import attend_to
 from trees.context import MissionContext
+from trees.corrections import correct
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next

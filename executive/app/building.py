@@ -64,45 +64,60 @@ def build_parts(
         ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
     """
     living = living_home(settings)
-    home = living.home
-    prompts = Prompts.load(settings.prompts)
+    home, prompts = living.home, Prompts.load(settings.prompts)
     if model is None and (model := model_for_missions(settings, inbox)):
         opened.callback(model.close)
     knowledge = read_ontology(settings, home)
     facts = FactStore(settings.memory, learns=settings.learn, now=living.now)
     opened.callback(facts.close)
     advice = None
-    if model:
-        guarded = GuardedModel(model, inbox, recorder)
-        advice = build_advice(settings, knowledge, guarded, prompts, facts)
-        guarded.prepare(anything(settings, advice))
-    embodiment = embody(Setup(settings, home, inbox, recorder, knowledge, gui, living.left))
+    if model:  # which prepares while the body is built
+        advice = prepared(settings, knowledge, GuardedModel(model, inbox, recorder), prompts, facts)
+    setup = Setup(settings, home, inbox, recorder, knowledge, gui, living.left)
+    embodiment = inhabited(setup, living, opened)
+    return embodiment, Parts(
+        settings=settings,
+        home=home,
+        inbox=inbox,
+        recorder=recorder,
+        parameters=parameters_of(settings),
+        # the body
+        clock=embodiment.clock,
+        robot=embodiment.robot,
+        perception=embodiment.perception,
+        in_map=embodiment.in_map,
+        blind_to=embodiment.blind_to,
+        has_arm=embodiment.has_arm,
+        # the person, and what they say
+        user=user or build_user(settings, inbox, embodiment.truth, out),
+        interpreter=EnglishInterpreter(knowledge.names()),
+        # what is known, and who knows more
+        knowledge=knowledge,
+        facts=facts,
+        experience=learning(settings, facts, knowledge, living.now),
+        model=model,
+        prompts=prompts,
+        advice=advice,
+    )
+
+
+def prepared(
+    settings: Settings, knowledge: Ontology, model: GuardedModel, prompts: Prompts, facts: FactStore
+) -> Advice:
+    """Our adviser, for whose first question the model gets ready from now on."""
+    advice = build_advice(settings, knowledge, model, prompts, facts)
+    model.prepare(anything(settings, advice))
+    return advice
+
+
+def inhabited(setup: Setup, living: LivingHome, opened: ExitStack) -> Embodiment:
+    """The body, in a home that goes on living; what it would not recognise is told."""
+    embodiment = embody(setup)
     opened.callback(close_safely, embodiment)
     embodiment = living.move_in(embodiment)
     if embodiment.blind_to:
         log.warning("%s", blindness(embodiment.blind_to))
-    parts = Parts(
-        settings=settings,
-        home=home,
-        inbox=inbox,
-        clock=embodiment.clock,
-        recorder=recorder,
-        robot=embodiment.robot,
-        perception=embodiment.perception,
-        user=user or build_user(settings, inbox, embodiment.truth, out),
-        knowledge=knowledge,
-        model=model,
-        advice=advice,
-        prompts=prompts,
-        facts=facts,
-        experience=learning(settings, facts, knowledge, living.now),
-        interpreter=EnglishInterpreter(knowledge.names()),
-        in_map=embodiment.in_map,
-        blind_to=embodiment.blind_to,
-        has_arm=embodiment.has_arm,
-        parameters=parameters_of(settings),
-    )
-    return embodiment, parts
+    return embodiment
 
 
 def try_files(settings: Settings) -> None:

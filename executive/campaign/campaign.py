@@ -11,6 +11,7 @@ from executive.campaign.journal import CRASHED, Entry, Journal, in_order, write_
 from executive.campaign.report import paper
 from executive.campaign.report.report import not_counted, write_report
 from executive.campaign.runners import Runner, on_this_machine
+from executive.campaign.trial import try_policies
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.errors import InputError
 from executive.files import read_text
@@ -57,6 +58,7 @@ class Campaign:
             options.runs.resolve() if options.runs else None,
             draws=options.draw,
         )
+        try_policies({block.policy: block.settings_used for block in self._blocks})
         self._keys = {key for block in self._blocks for key in block.keys}
         self._as_in_paper = as_in_paper(settings, commands)
         self._journal = Journal(self._out / "journal.jsonl")

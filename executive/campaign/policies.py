@@ -363,7 +363,7 @@ def policy_named(name: str) -> Policy:
     """One of ours, or one of somebody's own by `package.module:function`.
 
     Raises:
-        InputError: if one of somebody's own cannot be imported; in a mission, if it fails.
+        InputError: if one of somebody's own cannot be imported; when it is called, if it fails.
     """
     if name in POLICIES:
         return POLICIES[name]

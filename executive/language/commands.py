@@ -114,8 +114,24 @@ def _commands(tasks: Iterable[Task], words: str) -> Commands | str:
             return f"{why}. {CAN}."
         each = tuple(_command(task, things, words) for things in _each(task))
         in_order = task.things is not None and task.things.in_order
-        commands += [(one,) for one in each] if in_order else [each]
+        if (what_else := _what_else(each)) and commands and _is_for_it(commands[-1], each):
+            commands[-1] = (replace(commands[-1][0], conditional=True, unless=what_else),)
+        else:
+            commands += [(one,) for one in each] if in_order else [each]
     return tuple(commands)
+
+
+def _what_else(each: Sequence[Command]) -> Command | None:
+    """What is to be done if a thing cannot be found: "if you cannot find it, bring the pear"."""
+    match each:
+        case [Command(kind=CommandKind.CHECK, conditional=True, sought=None, source="") as check]:
+            return check.unless
+    return None
+
+
+def _is_for_it(before: Sequence[Command], each: Sequence[Command]) -> bool:
+    """Whether that is about the thing of the task before, which was asked for come what may."""
+    return [one.target for one in before if not one.conditional] == [one.target for one in each]
 
 
 def _each(task: Task) -> tuple[Things | None, ...]:

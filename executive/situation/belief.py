@@ -64,7 +64,7 @@ class Whereabouts:
         thinks: whether it is still thinking about that.
         news: whether somebody said something since the plan was made.
         is_fresh: whether the plan was made on the way, and has still to be taken up.
-        answered: whether the person was asked in this search, and said where.
+        answered: where the person said that it is, when asked in this search.
         announced: the places that the person was told of, those that are still to come.
         is_told: whether the person was told of the place that is next.
         leg: the drive by which the robot is between two places; None if it is at one.
@@ -80,7 +80,7 @@ class Whereabouts:
     thinks: bool = field(default=False, metadata=NOT_LOGGED)
     news: bool = field(default=False, metadata=NOT_LOGGED)
     is_fresh: bool = field(default=False, metadata=NOT_LOGGED)
-    answered: bool = field(default=False, metadata=NOT_LOGGED)
+    answered: tuple[str, ...] = field(default=(), metadata=NOT_LOGGED)
     announced: tuple[str, ...] = field(default=(), metadata=NOT_LOGGED)
     is_told: bool = field(default=False, metadata=NOT_LOGGED)
     leg: Leg | None = field(default=None, metadata=NOT_LOGGED)
@@ -89,7 +89,7 @@ class Whereabouts:
     def begin(self) -> None:
         """A new search: nothing is said yet."""
         self.statements, self.named, self.announced = (), set(), ()
-        self.consulted = self.answered = self.is_over = False
+        self.answered, self.consulted, self.is_over = (), False, False
         self.thinks = self.news = self.is_fresh = self.is_told = False
         self.leg = None
 
@@ -102,3 +102,8 @@ class Whereabouts:
         """Whether a look there is worth it: it was none yet, or it was named since."""
         seen = place in looks.visited or place in looks.unreached
         return place in self.named or not seen
+
+    def is_hidden(self, looks: Looks) -> bool:
+        """Whether a place that the person answered with was not to be seen, and none is left."""
+        left = self.named.intersection(self.answered)
+        return not left and any(map(looks.failed, self.answered))

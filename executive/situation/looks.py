@@ -15,11 +15,13 @@ class Looks:
         visited: places that the robot got to, in this order.
         unreached: places that it could not get to the last time, and why.
         unseen: places of which it could not see every part the last time, and why.
+        missed: the place that it could not get to just now, while nobody was told so; else empty.
     """
 
     visited: list[str] = field(default_factory=list)
     unreached: dict[str, str] = field(default_factory=dict)
     unseen: dict[str, str] = field(default_factory=dict)
+    missed: str = field(default="", metadata=NOT_LOGGED)
     _parts: dict[str, int] = field(default_factory=dict, metadata=NOT_LOGGED)
     """How many parts a place has, each of which takes a look of its own."""
     _without: dict[str, set[int]] = field(default_factory=dict, metadata=NOT_LOGGED)
@@ -29,10 +31,12 @@ class Looks:
         """The robot got there."""
         self.visited.append(place)
         self.unreached.pop(place, None)
+        self.missed = ""
 
     def not_reached(self, place: str, why: str) -> None:
         """The robot could not get there."""
         self.unreached[place] = why
+        self.missed = place
 
     def begin(self, place: str, parts: int) -> None:
         """A look over the whole place begins, of so many parts; the one before counts no more."""
@@ -51,6 +55,10 @@ class Looks:
     def all_without(self, place: str) -> bool:
         """Whether every part of a place was seen, and the thing is in none of them."""
         return 0 < self._parts.get(place, 0) == len(self._without.get(place, ()))
+
+    def failed(self, place: str) -> bool:
+        """Whether it was tried to look at a place, and is not known to be without the thing."""
+        return place in self.unreached or (place in self.visited and not self.all_without(place))
 
     def all_but(self, place: str, part: int) -> bool:
         """Whether every other part of a place was seen, and the thing is in none of them."""

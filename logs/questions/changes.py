@@ -43,13 +43,17 @@ def visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> I
     place = was["candidate"]["place"]
     tip = before.value.tip
     is_left = now.get("candidate") != was.get("candidate") or not _runs(searches, at)
-    for lost, why_not in (now.get("unreached") or {}).items():
-        if lost not in (was.get("unreached") or {}):
+    is_tried = _runs(searches, before) and is_left
+    unreached, earlier = now.get("unreached") or {}, was.get("unreached") or {}
+    was_taken_back = any(task["reason"] == TAKEN_BACK for task in _ended(before, at))
+    for lost, why_not in unreached.items():
+        again = is_tried and lost == place and not was_taken_back
+        if lost not in earlier or again:
             yield Decision(at.time_s, f"look at {lost}", f"not reached: {why_not}", "", tip)
     if now.get("found"):
         if not was.get("found"):
             yield Decision(at.time_s, f"look at {place}", "seen there", EYES, tip)
-    elif _runs(searches, before) and place in (was.get("visited") or ()) and is_left:
+    elif is_tried and place not in unreached and place in (was.get("visited") or ()):
         if _is_given_up(before, at):
             yield Decision(at.time_s, f"look at {place}", "given up", PERSON, tip)
             return

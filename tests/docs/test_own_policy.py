@@ -83,6 +83,23 @@ def test_what_is_wrong_with_a_policy_is_told_in_a_sentence(
     assert sentence in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("kind", [["--commands", "asked.txt"], ["--weeks", "1"]])
+def test_it_is_tried_before_anything_is_done(
+    kind: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    Path("own_trial.py").write_text(OWN)
+    Path("asked.txt").write_text("Find the mug")
+    policies = ["--policy", "nearest", "--policy", "own_trial:none"]
+    assert main([*policies, *kind, "--seeds", "1", "--llm", "none", "--out", "out"]) == 2
+    assert "own_trial:none: returned a NoneType" in capsys.readouterr().err
+    assert not Path("out").exists()
+
+
 def test_a_name_without_a_module_has_to_be_one_of_ours(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

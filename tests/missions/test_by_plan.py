@@ -1,5 +1,6 @@
 """Missions that are searched by a belief and a plan."""
 
+from collections.abc import Callable
 from functools import partial
 from math import inf
 
@@ -9,7 +10,7 @@ from executive.belief import ELSEWHERE
 from executive.records import Planned, Utterance, WaysTold
 from executive.testing import bench
 from executive.testing.bench import Run, four_rooms
-from executive.types.goals import DriveTo, Goal
+from executive.types.goals import DriveTo, Goal, LookAt
 from executive.types.outcome import MissionStatus
 from executive.types.perception import Detection, Frame
 from kb.facts import FactStore
@@ -109,14 +110,67 @@ def test_a_look_in_vain_changes_the_plan_and_then_the_model_is_asked() -> None:
     assert second.probabilities[second.places.index("bed")] < 0.2
 
 
-def test_a_blocked_way_is_planned_around() -> None:
-    def shut(goal: Goal) -> str | None:
-        return "the way is blocked" if goal == DriveTo("coffee_table") else None
+def no_way_to(place: str) -> Callable[[Goal], str | None]:
+    return lambda goal: "the way is blocked" if goal == DriveTo(place) else None
 
+
+def test_a_blocked_way_is_planned_around() -> None:
+    shut = no_way_to("coffee_table")
     run = run_mission("Find the mug", llm=False, defaults=False, fault=shut, place={"mug": "sofa"})
     assert run.outcome.status == MissionStatus.DONE
     assert "coffee_table" not in run.outcome.visited
     assert "coffee_table" not in plans(run)[-1].order
+
+
+@pytest.mark.parametrize(
+    ("goal", "why_not"),
+    [
+        (DriveTo("bed"), "I could not get to the bed: the way is blocked"),
+        (LookAt("bed", 0), "I could not look at the bed: the way is blocked"),
+    ],
+)
+def test_what_the_person_says_is_where_nobody_can_look_is_not_searched_elsewhere(
+    goal: Goal, why_not: str
+) -> None:
+    run = run_mission(
+        "Find the mug",
+        llm=False,
+        defaults=False,
+        answers=["on the bed"],
+        fault={goal: "the way is blocked"}.get,
+        parameters={"question_s": 0.0},
+        place={"mug": "desk"},
+    )
+    assert (run.outcome.status, run.outcome.reason) == (MissionStatus.NOT_DONE, why_not)
+
+
+def test_of_several_places_that_the_person_says_each_is_looked_at() -> None:
+    run = run_mission(
+        "Find the mug",
+        llm=False,
+        defaults=False,
+        answers=["on the bed or on the sofa"],
+        fault=no_way_to("bed"),
+        parameters={"question_s": 0.0},
+        place={"mug": "sofa"},
+    )
+    assert (run.outcome.status, run.outcome.visited) == (MissionStatus.DONE, ("sofa",))
+
+
+def test_that_a_place_is_out_of_reach_is_told() -> None:
+    shut, place = no_way_to("coffee_table"), {"mug": "counter_wagon"}
+    run = run_mission("Find the mug", llm=False, fault=shut, place=place)
+    assert (run.outcome.inquiries, run.outcome.visited) == (0, ("dining_table", "counter_wagon"))
+    assert said(run)[1] == "I could not get to the coffee table: the way is blocked."
+
+
+def test_with_nobody_to_ask_the_likeliest_of_the_places_in_reach_is_next() -> None:
+    facts = FactStore()
+    facts.heard("power_drill", ["bed"])
+    silent = run_mission(
+        "Find the power drill", llm=False, facts=facts, fault=no_way_to("bed"), answers=["I can't"]
+    )
+    assert silent.outcome.visited == ("shelf_lobby",)
 
 
 class OverlooksOnce(FakeDetector):

@@ -38,6 +38,15 @@ def test_of_a_room_any_furniture_will_do() -> None:
     assert (run.outcome.status, run.world.at) == (MissionStatus.DONE, "counter_wagon")
 
 
+def test_all_of_a_room_that_could_not_be_reached_is_told() -> None:
+    doors = {DriveTo(place): "it is shut" for place in ("shelf_lobby", "sideboard")}
+    shut = run_mission("Go to the lobby", llm=False, fault=doors.get)
+    assert shut.outcome.reason == (
+        "I could not get to the shelf in the lobby: it is shut; "
+        "I could not get to the sideboard: it is shut"
+    )
+
+
 @pytest.mark.physics
 def test_in_physics_it_gets_there(tmp_path: Path) -> None:
     session = session_of(tmp_path, world="physics", camera_hz=0.0)
@@ -75,6 +84,16 @@ def test_where_the_robot_was_just_sent_it_puts_down_what_it_holds() -> None:
     assert (run.outcome.status, run.world.resting_place("scissors")) == (MissionStatus.DONE, "sofa")
     run = run_mission("Take the scissors, go to the sofa, come here and put them down", llm=False)
     assert run.world.resting_place("scissors") == "delivery"
+
+
+def test_that_it_was_sent_there_counts_in_the_next_mission(tmp_path: Path) -> None:
+    session, world = session_in(tmp_path)
+    for words in ("Take the mug", "Go to the sofa", "Put it down"):
+        assert session.run(words).status == MissionStatus.DONE
+    assert world.resting_place("mug") == "sofa"
+    session.close()
+    assert session.folder
+    assert replay(session.folder).parting is None
 
 
 def test_the_next_search_is_planned_from_where_the_robot_was_sent(tmp_path: Path) -> None:

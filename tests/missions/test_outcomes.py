@@ -70,7 +70,6 @@ FAILURES = [
         "Bring a zebra.",
         {"answers": []},
         status=MissionStatus.NOT_DONE,
-        inquiries=1,
         reason="I know no 'zebra', and",
     ),
     Case(
@@ -102,7 +101,6 @@ FAILURES = [
         "Find an apple.",
         OKB | {"answers": []},
         status=MissionStatus.NOT_DONE,
-        inquiries=1,
         reason="no more answers",
     ),
     Case(

@@ -136,6 +136,17 @@ def test_it_is_put_elsewhere_only_where_the_person_says_and_that_is_not_done(ser
     )
 
 
+def test_that_there_is_no_way_to_where_the_person_says_is_told_too(serve: Serve) -> None:
+    session, world = serve("on the bed")
+    shut = {DriveTo("desk"): "the door is shut", DriveTo("bed"): "a chair is in the way"}
+    world.fault = shut.get
+    outcome = session.run("Put the hammer on the desk")
+    assert outcome.reason == (
+        "I could not get to the desk: the door is shut; "
+        "I could not put it on the bed: a chair is in the way; I still hold the hammer"
+    )
+
+
 def test_a_way_that_is_blocked_is_said(serve: Serve) -> None:
     session, world = serve("no idea")
     world.fault = lambda goal: "the way is blocked" if goal == DriveTo("desk") else None

@@ -97,7 +97,10 @@ def test_who_can_get_nowhere_says_so_when_it_asks_and_when_it_gives_up(serve: Se
     outcome = session.run("Put it down")
     assert isinstance(session.parts.user, Scripted)
     (question,) = session.parts.user.asked
-    nowhere = "I could get to no place to put the hammer"
+    nowhere = (
+        "I could not put it on the delivery table: the door is shut; "
+        "nor on the coffee table, the sofa or the dining table"
+    )
     assert question.text == f"{nowhere}. Where shall I put the hammer?"
     assert outcome.reason.startswith(f"{nowhere}, and ")
 

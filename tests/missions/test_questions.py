@@ -80,3 +80,38 @@ def test_a_place_or_a_thing_that_nobody_knows_is_told() -> None:
     assert (unknown.outcome.status, unknown.outcome.reason) == (NOT_DONE, "I know no place 'moon'")
     thing = run_mission("How many unicorns are on the desk?", llm=False)
     assert thing.outcome.reason.startswith("I know no 'unicorns'")
+
+
+@pytest.mark.parametrize(
+    ("words", "seen"),
+    [
+        ("How many fruits are on the dining table?", "I count 3: the apple, the banana and"),
+        ("What is on the coffee table?", "I see the mug and the pudding box on the coffee table"),
+        ("Is the mug on the sofa?", "No, I see no mug on the sofa"),
+    ],
+)
+def test_what_was_seen_is_told_even_if_there_is_no_way_back(words: str, seen: str) -> None:
+    def shut(goal: Goal) -> str | None:
+        return "the door is shut" if goal == DriveTo("person") else None
+
+    run = run_mission(words, llm=False, fault=shut)
+    assert run.outcome.status == MissionStatus.NOT_DONE
+    assert run.outcome.reason.startswith(seen)
+    assert run.outcome.reason.endswith(", but the door is shut")
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        ("check whether there is a mug", "Yes: the mug on the delivery table."),
+        ("count the mugs", "I count 1: the mug on the delivery table."),
+    ],
+)
+def test_the_table_by_the_person_is_looked_at_too(question: str, answer: str) -> None:
+    run = run_mission(f"Bring the mug, then {question}", llm=False, facts=FactStore())
+    assert run.outcome.tasks[1].reason == answer
+
+
+def test_that_there_is_nothing_is_told_in_that_word() -> None:
+    run = run_mission("Bring everything from the bed", llm=False)
+    assert run.outcome.reason == "I see nothing on the bed"

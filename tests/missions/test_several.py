@@ -16,6 +16,7 @@ from kb.facts import FactStore
 from logs.recording.reader import Run as Recorded
 
 DONE, NOT_DONE = MissionStatus.DONE, MissionStatus.NOT_DONE
+GONE = ("moved=strawberry:bed@5",)
 
 
 def run(words: str, **more: object) -> Run:
@@ -207,6 +208,22 @@ def test_it_is_not_all_if_not_all_was_seen(words: str) -> None:
     assert "; I could not get to the high table: the way is blocked" in some.outcome.reason
 
 
+@pytest.mark.parametrize("search", ["plan", "paper"])
+@pytest.mark.parametrize("words", ["Bring all the fruit from the dining table", "Clear the table"])
+def test_what_is_taken_away_from_there_meanwhile_is_not_looked_for_elsewhere(
+    words: str, search: str
+) -> None:
+    some = run(words.replace("the table", "the dining table"), search=search, mishaps=GONE)
+    assert (some.outcome.status, set(some.outcome.visited)) == (NOT_DONE, {"dining_table"})
+    assert "not the strawberry: I did not find the strawberry on the" in some.outcome.reason
+    assert on(some, "bed") == {"strawberry"}
+
+
+def test_another_one_that_is_there_makes_up_for_it() -> None:
+    two = run("Bring two fruits from the dining table", mishaps=("moved=banana:bed@5",))
+    assert (two.outcome.status, on(two, "delivery")) == (DONE, {"apple", "strawberry"})
+
+
 def test_where_all_of_them_are_to_go_is_asked_once_and_before_anything_is_done() -> None:
     words = "Take all the fruit from the dining table to the moon"
     asked = run(words, answers=["I don't know"])
@@ -331,3 +348,14 @@ def test_what_was_just_seen_is_what_is_brought_of_a_kind() -> None:
 def test_a_kind_of_which_nothing_was_just_seen_is_looked_for() -> None:
     scissors = run("What is on the bed? Bring the scissors", place={"mug": "bed"})
     assert on(scissors, "delivery") == {"scissors"}
+
+
+@pytest.mark.parametrize("search", ["plan", "paper"])
+def test_what_else_is_to_be_done_if_it_is_not_found_is_done_only_then(search: str) -> None:
+    words = "Bring the mug. If you cannot find it, bring the pear"
+    found = run(words, search=search)
+    assert (found.outcome.status, on(found, "delivery")) == (DONE, {"mug"})
+    answers = ["I don't know", "on the high table"]
+    shut = {DriveTo("coffee_table"): "the way is blocked"}
+    other = run(words, search=search, answers=answers, fault=shut.get)
+    assert (other.outcome.status, on(other, "delivery")) == (DONE, {"pear"})

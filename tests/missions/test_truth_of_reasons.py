@@ -19,6 +19,7 @@ from executive.text import printable
 from executive.types.commands import CommandKind
 from executive.types.goals import DriveTo, Goal, Halt, LookAt, Pick, PutDown
 from executive.types.outcome import MissionStatus
+from executive.user import Nobody
 from kb.facts import FactStore
 from logs.questions.why import why
 from logs.recording.reader import Run as RecordedRun
@@ -273,3 +274,9 @@ def test_reasons_of_the_robot_stay_on_one_line(kind: type) -> None:
     assert r"\x1b[31mhammer\nSorry" in run.outcome.reason
     for said in [*told(run), run.outcome.reason]:
         assert said == printable(said)
+
+
+def test_what_nobody_is_there_to_hear_is_no_question_that_was_asked() -> None:
+    run = run_mission("Bring a fruit", llm=False, person=Nobody)
+    assert (run.outcome.status, run.outcome.inquiries) == (MissionStatus.NOT_DONE, 0)
+    assert run.outcome.reason.endswith("there is nobody to ask")

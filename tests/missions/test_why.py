@@ -80,3 +80,15 @@ def test_a_fault_stands_before_what_it_leads_to(tmp_path: Path) -> None:
     chain = decisions(tmp_path, "Bring the drill from the refrigerator", fault=faults)
     questions = [d.question for d in chain]
     assert questions.index("fault") < questions.index("look at refrigerator")
+
+
+def test_a_place_that_is_out_of_reach_twice_is_told_twice(tmp_path: Path) -> None:
+    chain = decisions(
+        tmp_path,
+        "Find the mug",
+        search="paper",
+        defaults=False,
+        place={"mug": "bed"},
+        fault=("blocked=bedroom-living_room", "blocked=bedroom-lobby"),
+    )
+    assert told(chain, "look at bed") == [("", "not reached: the way to the bed is blocked")] * 2

@@ -33,6 +33,7 @@ class Answer(Deed):
                 "to the person",
                 Check("there is more to do", context, lambda: context.situation.agenda.goes_on),
                 DriveBack("come back", context, PERSON),
+                NotBack("not back", context, self.answer),
             ),
             Tell("answer", context, self.answer),
             Conclude("done", context),
@@ -87,3 +88,13 @@ class Tell(Step):
         self.situation.ending.tell(said)
         tell(self.context, said)
         return self.succeed(said)
+
+
+class NotBack(Tell):
+    """Says what was seen although the robot could not come back to tell it; always fails."""
+
+    def update(self) -> Status:
+        """Who asks wants to know it."""
+        said, why_not = self._answer(self.context)
+        seen = "; ".join(filter(None, (said.rstrip("."), why_not)))
+        return self.fail(f"{seen}, but {self.why_before()}")

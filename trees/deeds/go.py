@@ -13,7 +13,7 @@ from executive.types.results import Result, Succeeded
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
 from trees.driving import DriveToGoal
-from trees.nodes import Check, FirstOf, fallback, sequence
+from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import Report
 from trees.places import destination
 
@@ -34,7 +34,11 @@ class Go(Deed):
             "go",
             asked_to(context, self.kind),
             destination(context),
-            FirstOf("there", lambda: request.goals, GoThere("drive", context), choose=choose),
+            fallback(
+                "get there",
+                FirstOf("there", lambda: request.goals, GoThere("drive", context), choose=choose),
+                NotThere("not there", context),
+            ),
             fallback(
                 "say so",
                 sequence(
@@ -68,10 +72,16 @@ class GoThere(DriveToGoal):
         return super().ended(result)
 
     def note_failure(self, why: str) -> None:
-        """Nothing: a thing in the hand stays there."""
+        """A thing in the hand stays there."""
+        self.situation.search.looks.not_reached(self.situation.request.goal, why)
 
-    def failed(self, result: Result) -> Status:
-        """Say where to."""
-        super().failed(result)
-        there = self.context.say.the(self.situation.request.goal)
-        return self.fail(f"I could not get to {there}: {self.reason}")
+
+class NotThere(Step):
+    """Says which places could not be reached, and why; always fails.
+
+    Reads search.looks.
+    """
+
+    def update(self) -> Status:
+        """All that would have done."""
+        return self.fail(self.situation.search.so_far(None, self.context.say))

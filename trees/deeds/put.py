@@ -148,12 +148,11 @@ class NotAtGoal(Step):
 
 
 def why_not(context: MissionContext) -> str:
-    """Where it could not be put of all the places where it was to go, and why; empty if nowhere."""
+    """Where it could not be put of all the places that were tried, and why; empty if nowhere."""
     situation, say = context.situation, context.say
     it = say.it(situation.request.object or "")
     tried = [
         why if say.the(place) in why else f"I could not put {it} {say.at(place)}: {why}"
         for place, why in situation.hand.unplaced.items()
-        if place in situation.request.goals
     ]
     return "; ".join(tried)

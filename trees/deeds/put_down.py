@@ -44,10 +44,8 @@ def empty_hand(context: MissionContext) -> Behaviour:
     situation = context.situation
 
     def sent_to() -> Iterator[str]:
-        last, at = situation.agenda.ended[-1:], situation.dialogue.at
-        was_sent = last and last[0].kind == CommandKind.GO and at in last[0].goals
-        if was_sent and context.knowledge.has_place(at):
-            yield at
+        if was_sent_here(context):
+            yield situation.dialogue.at
 
     def choose(place: str) -> None:
         situation.hand.surface = place
@@ -63,6 +61,20 @@ def empty_hand(context: MissionContext) -> Behaviour:
         ),
         Report("report", context, "I put {the_object} {put}."),
     )
+
+
+def was_sent_here(context: MissionContext) -> bool:
+    """Whether the robot is at furniture to which it was just sent, in this mission or before it."""
+    situation, at = context.situation, context.situation.dialogue.at
+    before = situation.dialogue.spoken
+    if last := situation.agenda.ended[-1:]:
+        asked, goals = last[0].kind, last[0].goals
+    elif before.request:
+        asked = before.request.tasks[-1].verb
+        goals = context.knowledge.places_named(before.place)
+    else:
+        return False
+    return asked == CommandKind.GO and at in goals and context.knowledge.has_place(at)
 
 
 def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behaviour:

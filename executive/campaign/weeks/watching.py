@@ -6,6 +6,7 @@ from pathlib import Path
 from executive.campaign.campaign import all_settings
 from executive.campaign.folder import Folder, Progress
 from executive.campaign.runners import on_this_machine
+from executive.campaign.trial import try_policies
 from executive.campaign.weeks.household import Household
 from executive.campaign.weeks.lived import COMMANDS_A_DAY, DAYS_A_WEEK, Diary, Line, write_table
 from executive.campaign.weeks.report import write_report
@@ -45,6 +46,7 @@ class Weeks:
             for policy in self._policies
             for seed in range(options.seeds or SEEDS)
         ]
+        try_policies({one.policy: one.settings_used for one in self._households})
         self._names = {household.name: None for household in self._households}
         self._days = options.weeks * DAYS_A_WEEK
         self._workers: int = options.workers

@@ -1,0 +1,130 @@
+"""What is corrected: the task at hand, one that waits, or all that was said in one sentence."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import chain
+
+from executive.language.corrections import corrected
+from executive.language.meaning import ME, Correction, Request, Thing, Things
+from executive.language.pronouns import with_names
+from executive.types.commands import Command, Commands
+from trees.at_hand import of_all_spoken
+from trees.context import MissionContext
+from trees.taken_back import refused
+from trees.telling import in_one_breath
+from trees.wishes import added, named_in, objects_of, replaced
+
+
+def correct(
+    context: MissionContext, said: Correction, words: str, now: str, instead: str = " instead"
+) -> str:
+    """Do this instead of the task at hand, or beside it."""
+    at_hand = context.situation.agenda.whole_of(context.situation.request.command)
+    assert at_hand
+    spoken = of_all_spoken(context.situation, said.meant)
+    if changed := _correct_later(context, said, at_hand, words):
+        return changed
+    if said.left_out:
+        return _less(context, said, at_hand, words, now)
+    commands = corrected(with_names(said, spoken), at_hand, words)
+    if said.adds or not isinstance(commands, tuple):
+        return added(context, commands, now)
+    commands = (*commands, *_likewise(context, said, at_hand, commands, words))
+    return replaced(context, commands, instead)
+
+
+def _less(context: MissionContext, said: Correction, at_hand: Command, words: str, now: str) -> str:
+    """Do it so, but for what is not meant: "to the desk, but not the pear"."""
+    agenda, left_out = context.situation.agenda, " and ".join(but.words for but in said.left_out)
+    without = refused(context, left_out, at_hand)
+    if not without:
+        return f"{context.interpreter.not_understood(words)}. {now}"
+    rest = replace(said, left_out=())
+    if agenda.taken_back:
+        agenda.go_on_with(others := _likewise(context, rest, at_hand, (), words))
+        others_so = in_one_breath(context, chain.from_iterable(others))
+        return f"{without} All right: I {others_so}." if others else without
+    among = tuple(sorted(named_in(context, left_out) & objects_of(context, at_hand)))
+    narrower = replace(at_hand, exceptions=(*at_hand.exceptions, *among))
+    commands = corrected(rest, narrower, words)
+    if isinstance(commands, str):
+        return f"{without} {commands}"
+    return replaced(context, (*commands, *_likewise(context, rest, narrower, commands, words)))
+
+
+def _likewise(
+    context: MissionContext, said: Correction, at_hand: Command, commands: Commands, words: str
+) -> Commands:
+    """What else was asked for in one sentence with the task at hand, if it is to go elsewhere, too.
+
+    Tasks that wait, of which that takes the place, are struck out; so are those that are asked for
+    anew.
+    """
+    agenda, asked_anew = context.situation.agenda, [*chain.from_iterable(commands)]
+    things = {name for one in asked_anew for name in objects_of(context, one)}
+    changed: list[tuple[Command, ...]] = []
+    whole = agenda.whole_tasks
+    breath = [at_hand, *(t.command for t in whole if t.command.words == at_hand.words)]
+    wanted = {name for one in breath for name in objects_of(context, one)}
+    only_these = len(asked_anew) > 1 and things <= wanted  # "no, the mug and the pear", of three
+    for task in whole:
+        command = task.command
+        asked_again = set() < objects_of(context, command) <= things
+        alike = (command.words, command.kind, command.goal)
+        if said.meant is None and alike == (at_hand.words, at_hand.kind, at_hand.goal):
+            if isinstance(others := corrected(said, command, words), tuple):
+                agenda.tasks.remove(task)
+                changed += others
+        elif command.words == at_hand.words and isinstance(said.meant, Things):
+            if asked_again:
+                agenda.tasks.remove(task)
+            elif only_these:
+                agenda.strike_out(task)
+        elif asked_again:
+            agenda.tasks.remove(task)
+    return tuple(changed)
+
+
+def _correct_later(context: MissionContext, said: Correction, at_hand: Command, words: str) -> str:
+    """Change the task that waits, if it is that which is not meant: "the pear, not the apple".
+
+    So it is if what it is about is to go elsewhere: "no, the pear to the desk".
+    """
+    agenda, meant = context.situation.agenda, said.wrong or _to_go_elsewhere(said)
+    named = " or ".join(thing.words for thing in meant.members) if meant else ""
+    if not (wrong := named_in(context, named)) or wrong & objects_of(context, at_hand):
+        return ""
+    task = next((one for one in agenda.tasks if wrong & objects_of(context, one.command)), None)
+    commands = corrected(replace(said, wrong=None), task.command, words) if task else ""
+    if not task or not isinstance(commands, tuple):
+        return ""
+    [[command], *others] = commands
+    agenda.change(task, command)
+    agenda.add(others)
+    return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} instead."
+
+
+def _to_go_elsewhere(said: Correction) -> Things | None:
+    """The things that are to go to another place; None if none are."""
+    match said.meant:
+        case Request(tasks=[task]) if task.goal not in (None, ME):
+            return task.things
+    return None
+
+
+def all_of(
+    context: MissionContext, names: Sequence[str], words: str, *, one_of: bool = False
+) -> str:
+    """Do what is at hand with each of these things, which were named where one was asked for.
+
+    Or with `one_of` them, which takes least time.
+    """
+    at_hand = context.situation.agenda.whole_of(context.situation.request.command)
+    assert at_hand
+    things = (context.say.words(name) for name in names)
+    meant = Things(tuple(Thing(thing, definite=True, said=thing) for thing in things), one_of)
+    commands = corrected(Correction(meant), at_hand, words)
+    if isinstance(commands, str):
+        return commands
+    said = replaced(context, commands, "")
+    return "All right: I choose the one that takes least time." if one_of else said

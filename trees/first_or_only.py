@@ -1,0 +1,44 @@
+"""What is named is to be done before all else that was asked for, or instead of all of it."""
+
+from executive.language.anew import number_alone
+from executive.language.corrections import corrected
+from executive.language.meaning import Correction, Things
+from executive.types.commands import Command
+from trees.context import MissionContext
+from trees.corrections import correct
+from trees.telling import in_one_breath
+from trees.wishes import done_first, named_in, objects_of, only_so_many, waiting_first
+
+
+def first_of_all(
+    context: MissionContext, things: Things, at_hand: Command, words: str, now: str
+) -> str:
+    """Do what is named before all else: what waits, or the deed at hand with it."""
+    if said := waiting_first(context, things, at_hand, now):
+        return said
+    commands = corrected(Correction(things), at_hand, words)
+    return commands if isinstance(commands, str) else done_first(context, commands, at_hand)
+
+
+def nothing_else(context: MissionContext, things: Things, words: str, at_hand: Command) -> str:
+    """Do what is named, and nothing else that was to be done; or do it instead of all of that."""
+    agenda = context.situation.agenda
+    named = named_in(context, " or ".join(thing.words for thing in things.members))
+    if not named:
+        number = number_alone(things)
+        fewer = only_so_many(context, number, at_hand) if number else ""
+        return fewer or f"{context.interpreter.not_understood(words)}."
+    whole = agenda.whole_tasks
+    waiting = [task for task in whole if named & objects_of(context, task.command)]
+    wishes = [task.command for task in waiting]
+    if not all(objects_of(context, one) <= named for one in wishes):
+        return f"{context.interpreter.not_understood(words)}."
+    for task in [task for task in whole if task not in waiting]:
+        agenda.strike_out(task)
+    if not objects_of(context, at_hand) <= named:  # of all that was wanted, only this
+        if not waiting:
+            return correct(context, Correction(things), words, "")
+        agenda.take_back()
+    else:
+        wishes.insert(0, at_hand)
+    return f"All right: I {in_one_breath(context, wishes)}, and nothing else."
