@@ -16,6 +16,7 @@ from executive.language.parts import (
     purpose_of,
     said_of,
 )
+from executive.language.phrases import in_pieces
 from executive.types.commands import ALL
 
 
@@ -42,6 +43,10 @@ class Nouns(Transformer[Token, Said]):
         self._relations = relations
         self._superlatives = superlatives
         self._wishes = wishes
+
+    def __default_token__(self, token: Token) -> Token:
+        """Any token, with the words of names in it apart again."""
+        return token.update(value=in_pieces(token))
 
     # --- things ---
 
