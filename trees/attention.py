@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import chain
 
 from executive.language.anew import number_alone
-from executive.language.commands import NOT_KNOWN_WHAT, commands_in, left_alone
+from executive.language.commands import NOT_KNOWN_WHAT, SAY_INSTEAD, commands_in, left_alone
 from executive.language.corrections import as_correction, corrected
 from executive.language.folding import of_several
 from executive.language.meaning import (
@@ -47,11 +47,12 @@ from trees.wishes import (
     waiting_first,
 )
 
-_FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
+_FORGETS = re.compile(r"\b(?:forget|never mind)\b(?!.*\b(?:others?|rest)\b)", re.I)
 
 _TELLS = re.compile(
     r"^\W*(?:what|why|how|where|who|when|is|are)\b"
-    r"|\b(?:it|that|this|they) (?:is|was|are|were|has|does|did|looks|seems)(?:n['’]?t)?\b"
+    r"|\b(?:it|that|this|they|(?:the|my|our|your) (?:\w+ ){1,3}?)"
+    r"\b ?(?:is|was|are|were|has|does|did|looks|seems)(?:n['’]?t)?\b"
     r"(?!.*\b(?:need|want|necessary|bother|matter))",
     re.I,
 )
@@ -98,7 +99,8 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
         case Question() | Statement():
             return _reply(context, said, now) or context.interpreter.talk(words)
         case Refusal() if answer := refused(context, said.words, at_hand):
-            return answer + _beside(context, said.words.partition(" but ")[2], at_hand)
+            beside = _beside(context, said.words.partition(" but ")[2], at_hand)
+            return answer + (SAY_INSTEAD if said.more else beside)
         case Refusal() if said.words and not named_in(context, said.words):
             if _FORGETS.search(words) and (all_of_it := refused(context, "everything", at_hand)):
                 return all_of_it  # what nobody knows may be all that is to be done
@@ -209,13 +211,20 @@ def correct(
     spoken = _of_all_spoken(context.situation, said.meant)
     if changed := _correct_later(context, said, at_hand, words):
         return changed
-    if said.left_out:
+    if said.left_out and not _is_goal(context, said.left_out, at_hand):
         return _less(context, said, at_hand, words, now)
     commands = corrected(with_names(said, spoken), at_hand, words)
     if said.adds or not isinstance(commands, tuple):
         return added(context, commands, now)
     commands = (*commands, *_likewise(context, said, at_hand, commands, words))
     return replaced(context, commands, instead)
+
+
+def _is_goal(context: MissionContext, left_out: Sequence[Thing], at_hand: Command) -> bool:
+    """Whether it is where the task at hand goes that is not meant: "on the sofa, not the desk"."""
+    places = context.knowledge.places_named
+    named = {place for but in left_out for place in places(but.words)}
+    return bool(named) and named <= {*places(at_hand.goal)}
 
 
 def _less(context: MissionContext, said: Correction, at_hand: Command, words: str, now: str) -> str:
@@ -392,5 +401,5 @@ def _instead_of(
     """Do these, and leave alone what is named: it may be what the task at hand is about."""
     if at_hand and is_about(context, alone, at_hand):
         return replaced(context, commands)
-    said = refused(context, alone, None)
+    said = refused(context, alone, at_hand)
     return " ".join(filter(None, (said, added(context, commands, ""))))

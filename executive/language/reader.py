@@ -21,7 +21,7 @@ from executive.language.meaning import Refusal, Relation, Request, Said, Unable,
 from executive.language.parts import Unfit
 from executive.language.phrases import in_one_piece, in_pieces, plain_letters
 from executive.language.run_on import with_pauses
-from executive.language.second_thoughts import corrected_in_one_breath
+from executive.language.second_thoughts import answered_in_one_breath, corrected_in_one_breath
 from executive.text import LONGEST, too_long
 
 ASSETS = Path(__file__).parent / "assets"
@@ -117,6 +117,8 @@ class Reader:
         """What is no sentence of the grammar, and may be several of them; None if it is not."""
         if said := corrected_in_one_breath(plain, self._turn, self._read):
             return said
+        if answer := answered_in_one_breath(plain, self._turn, self._read):
+            return answer
         if said := beside_a_request(plain, self._asides, self._pause, self._read_loosely):
             return said
         return with_pauses(plain, self._deed, self._read)
