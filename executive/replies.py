@@ -175,8 +175,10 @@ def _told(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
     """Remember it of each of the things."""
     each = [replace(said, things=Things((thing,))) for thing in said.things.members]
     if said.things.one_of or len(each) == 1:
-        return _told_of_one(said, knowledge, facts)
-    return " ".join(dict.fromkeys(_told_of_one(one, knowledge, facts) for one in each))
+        each = [said]
+    told = [_told_of_one(one, knowledge, facts) for one in each]
+    told += [_told(said.more, knowledge, facts)] if said.more else []
+    return " ".join(dict.fromkeys(told))
 
 
 def _told_of_one(said: Statement, knowledge: Knowledge, facts: Facts) -> str:

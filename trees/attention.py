@@ -7,7 +7,7 @@ correction takes the place of the task at hand; what is taken back is not done.
 import re
 from dataclasses import replace
 
-from executive.language.commands import NOT_KNOWN_WHAT
+from executive.language.commands import NOT_KNOWN_WHAT, SAY_INSTEAD
 from executive.language.corrections import as_correction
 from executive.language.meaning import (
     Answer,
@@ -35,11 +35,12 @@ from trees.taken_back import refused
 from trees.wished import take_in
 from trees.wishes import named_in, objects_of
 
-_FORGETS = re.compile(r"\b(?:forget|never mind)\b", re.I)
+_FORGETS = re.compile(r"\b(?:forget|never mind)\b(?!.*\b(?:others?|rest)\b)", re.I)
 
 _TELLS = re.compile(
     r"^\W*(?:what|why|how|where|who|when|is|are)\b"
-    r"|\b(?:it|that|this|they) (?:is|was|are|were|has|does|did|looks|seems)(?:n['’]?t)?\b"
+    r"|\b(?:it|that|this|they|(?:the|my|our|your) (?:\w+ ){1,3}?)"
+    r"\b ?(?:is|was|are|were|has|does|did|looks|seems)(?:n['’]?t)?\b"
     r"(?!.*\b(?:need|want|necessary|bother|matter))",
     re.I,
 )
@@ -110,7 +111,8 @@ def _taken_back(
 ) -> str:
     """Do not what is refused; empty if it names nothing, and nothing follows from it."""
     if answer := refused(context, said.words, at_hand):
-        return answer + _beside(context, said.words.partition(" but ")[2], at_hand)
+        beside = _beside(context, said.words.partition(" but ")[2], at_hand)
+        return answer + (SAY_INSTEAD if said.more else beside)
     if not said.words or named_in(context, said.words):
         return ""
     if _FORGETS.search(words) and (all_of_it := refused(context, "everything", at_hand)):

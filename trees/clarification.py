@@ -15,6 +15,7 @@ from executive.language.meaning import (
     Task,
     Thing,
     Things,
+    Unread,
     Where,
 )
 from executive.types.commands import ALL, CommandKind
@@ -54,6 +55,8 @@ class AskDoYouMean(AskYesNo):
 
     def understood(self, answer: str) -> bool:
         """Instead of yes or no, the person may say what they mean: "no, the mug"."""
+        if beside := self._beside_yes(answer):
+            return beside.adds and self._attend_to(Unread(answer), answer)
         names = self.context.knowledge.names_in(answer)
         refused = self.context.interpreter.agrees(answer) is False
         if len(names) != 1 or (refused and names[0] == self.situation.request.guess):
@@ -62,6 +65,26 @@ class AskDoYouMean(AskYesNo):
         self._agrees = True
         self.agreed()
         return True
+
+    def _attend_to(self, said: Said, words: str) -> bool:
+        """Of "yes, and the drill", the yes is the answer, and the rest a wish beside it."""
+        if not (beside := self._beside_yes(words)):
+            return super()._attend_to(said, words)
+        self._agrees = True
+        self.agreed()
+        tell(self.context, correct(self.context, beside, words, f"I {self.doing()}.", ""))
+        return True
+
+    def _passed_over(self, said: Said, words: str) -> list[str]:
+        """Nothing, if there was a wish."""
+        return [] if self._beside_yes(words) else super()._passed_over(said, words)
+
+    def _beside_yes(self, words: str) -> Correction | None:
+        """What is wished beside the yes, or in place of what was asked for."""
+        said = self.context.interpreter.after_yes(words)
+        if isinstance(said, Request):
+            return Correction(said)
+        return said if isinstance(said, Correction) else None
 
     def unresolved(self) -> str:
         """Name the guess."""
@@ -181,8 +204,8 @@ class AskWhichObject(Ask):
         offered = self.question().options
         if not isinstance(said, Answer) or (said.things and said.things.one_of):
             return ()
-        if said.choice == Choice.ALL:
-            return offered
+        if said.choice in (Choice.ALL, Choice.BOTH):
+            return picked(said, offered)
         members = said.things.members if said.things else ()
         match members:
             case [Thing(words="", number=number, exceptions=[_, *_] as left_out)] if number == ALL:

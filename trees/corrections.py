@@ -24,13 +24,20 @@ def correct(
     spoken = of_all_spoken(context.situation, said.meant)
     if changed := _correct_later(context, said, at_hand, words):
         return changed
-    if said.left_out:
+    if said.left_out and not _is_goal(context, said.left_out, at_hand):
         return _less(context, said, at_hand, words, now)
     commands = corrected(with_names(said, spoken), at_hand, words)
     if said.adds or not isinstance(commands, tuple):
         return added(context, commands, now)
     commands = (*commands, *_likewise(context, said, at_hand, commands, words))
     return replaced(context, commands, instead)
+
+
+def _is_goal(context: MissionContext, left_out: Sequence[Thing], at_hand: Command) -> bool:
+    """Whether it is where the task at hand goes that is not meant: "on the sofa, not the desk"."""
+    places = context.knowledge.places_named
+    named = {place for but in left_out for place in places(but.words)}
+    return bool(named) and named <= {*places(at_hand.goal)}
 
 
 def _less(context: MissionContext, said: Correction, at_hand: Command, words: str, now: str) -> str:

@@ -1,23 +1,28 @@
 """What is not to be done, now or later, of all that was asked for."""
 
+import re
 from dataclasses import replace
 
+from executive.language.answers import picked
 from executive.language.commands import THING
+from executive.language.meaning import Answer, Refusal, Request
 from executive.language.wording import either
 from executive.situation import Task
 from executive.types.commands import ALL, Command, CommandKind
 from trees.context import MissionContext
-from trees.telling import in_one_sentence
+from trees.telling import NUMBERS, in_one_sentence
 from trees.wishes import named_in, objects_of, replaced, still_held
 
 _IT = frozenset(("it", "that", "this", "them"))
 _SEVERAL = frozenset(("them", "both", "those", "these"))
+_OTHERS = re.compile(r"\b(?:the|all) (?:rest|others?)\b(?: (?:one|two|three|four|five|ones)\b)?")
 _ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
 
 
 def refused(context: MissionContext, words: str, at_hand: Command | None) -> str:
     """Do nothing that the words are about, now or later; empty if none of it was to be done."""
-    agenda, named = context.situation.agenda, named_in(context, words)
+    agenda = context.situation.agenda
+    named = named_in(context, words) or _of_those_asked_for(context, words, at_hand)
     everything = not named and _means_all(words)
     breath = at_hand.words if at_hand and not named and _SEVERAL & _words(words) else None
     waiting = [
@@ -41,6 +46,30 @@ def refused(context: MissionContext, words: str, at_hand: Command | None) -> str
             left_out.append(_leave_out(context, task, named))
     wishes = [in_one_sentence(context, command) for command in left_out]
     return f"Then I do not {either(wishes)}.{still_held(context)}" if wishes else ""
+
+
+def _of_those_asked_for(context: MissionContext, words: str, at_hand: Command | None) -> set[str]:
+    """The things that "the first one", "the others" are, of all that was asked for in one breath.
+
+    The others are those whose turn it is not yet. Empty if it is not clear.
+    """
+    if at_hand is None:
+        return set()
+    tasks = context.situation.agenda.whole_tasks
+    waiting = [task.command for task in tasks if task.command.words == at_hand.words]
+    if found := _OTHERS.search(words.lower()):
+        number = found[0].rpartition(" ")[2]
+        fits = number not in NUMBERS or NUMBERS.index(number) == len(waiting)
+        meant = waiting if fits else []
+    else:
+        as_named = sorted([at_hand, *waiting], key=lambda one: at_hand.words.find(one.target))
+        said = context.interpreter.read(words)
+        said = context.interpreter.read(said.words) if isinstance(said, Refusal) else said
+        if isinstance(said, Request) and (things := said.tasks[0].things):  # "bring the first one"
+            said = Answer(place_in_list=things.members[0].place_in_list)
+        names = picked(said, [one.target for one in as_named]) if waiting else ()
+        meant = [one for one in as_named if one.target in names]
+    return {name for one in meant for name in objects_of(context, one)}
 
 
 def _others(context: MissionContext, at_hand: Command, named: set[str]) -> Command | None:
@@ -77,7 +106,7 @@ def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:
 def is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
     """Whether it is the task at hand that is not to be done."""
     request = context.situation.request
-    if named := named_in(context, words):
+    if named := named_in(context, words) or _of_those_asked_for(context, words, at_hand):
         return request.object in named or bool(named & objects_of(context, at_hand))
     return _means_all(words) or bool(_IT & _words(words))
 

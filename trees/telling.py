@@ -90,13 +90,18 @@ def _things(context: MissionContext, command: Command) -> str:
     """What it is about, less what it is not."""
     knowledge, target = context.knowledge, command.target
     names = [name for name in target.split(" and ") if knowledge.called(name)]
-    named = knowledge.objects_named(target)
+    find = knowledge.objects_named
+    named = find(target)
     if target == HELD:
         what = target
+    elif target == THING and command.kind == CommandKind.CHECK:
+        what = "anything"
     elif target == THING:
         what = (
             "something" if command.kind.means.searches and command.number != ALL else "everything"
         )
+    elif named and {*named} <= {n for but in command.exceptions for n in find(but)}:
+        return f"another {as_said(command.words, target)}"
     elif command.number > 1 and not command.among:
         what = f"{number(command.number)} {as_said(command.words, target)}"
     elif names and " and ".join(names) == target:

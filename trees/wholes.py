@@ -91,6 +91,7 @@ def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
         status=MissionStatus.DONE if done else MissionStatus.NOT_DONE,
         reason=reason,
         location=last.location,
+        put_at=last.put_at,
         goals=last.goals,
         visited=tuple(place for part in whole.parts for place in part.visited),
         parts=tuple(whole.parts),

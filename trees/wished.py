@@ -70,5 +70,5 @@ def _instead_of(
     """Do these, and leave alone what is named: it may be what the task at hand is about."""
     if at_hand and is_about(context, alone, at_hand):
         return replaced(context, commands)
-    said = refused(context, alone, None)
+    said = refused(context, alone, at_hand)
     return " ".join(filter(None, (said, added(context, commands, ""))))

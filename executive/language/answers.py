@@ -22,6 +22,8 @@ def picked(said: Said, options: Sequence[str]) -> tuple[str, ...]:
             return tuple(options[:1])
         case Choice.ALL:
             return tuple(options)
+        case Choice.BOTH if len(options) == 2:
+            return tuple(options)
         case Choice.YES if said.things is None and len(options) == 1:
             return tuple(options)
     if said.things and _is_any(said.things):
@@ -32,9 +34,10 @@ def picked(said: Said, options: Sequence[str]) -> tuple[str, ...]:
 
 def how_many_of(said: Answer) -> int:
     """How many of those that were offered, if any will do: "two of them"; 0 if it says no such."""
-    members = said.things.members if said.things else ()
-    number = members[0].number if len(members) == 1 and members[0].pronoun else None
-    return number if number and number > 1 else 0
+    match said.things:
+        case Things(members=[Thing(pronoun=True, number=int(number), definite=False)]):
+            return number if number > 1 else 0
+    return 0
 
 
 def named(said: Said) -> str:

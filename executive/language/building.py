@@ -5,7 +5,7 @@ from typing import Any
 
 from lark import Token
 
-from executive.language.deeds import Deeds
+from executive.language.deeds import Deeds, first_of_all
 from executive.language.meaning import (
     About,
     Again,
@@ -43,9 +43,12 @@ class Builder(Deeds):
         tasks = tuple(task.without(left) for task in self._tasks(parts))
         if not tasks:
             return Refusal(" ".join(thing.said for thing in left))
+        first = is_a(parts[-1], "AT_FIRST") or any(is_a(p, "FIRST") for p in parts)
+        if first and (things := tasks[0].things) and things.exceptions:
+            tasks, first = (replace(tasks[0], things=first_of_all(things)), *tasks[1:]), False
         return Request(
             tasks,
-            first=is_a(parts[-1], "AT_FIRST"),
+            first=first,
             agrees=any(is_a(p, "YES") for p in parts),
             later=any(is_a(p, "TOO") and p.endswith("later") for p in parts),
         )
@@ -135,16 +138,6 @@ class Builder(Deeds):
             found |= new
         return Correction(**found)
 
-    def left(self, parts: list[Part]) -> Request | Refusal:
-        """As in "no, leave the apple", "no, leave the apple and bring the pear"."""
-        things = next(p for p in parts if isinstance(p, Things))
-        if not isinstance(request := parts[-1], Request):
-            return Refusal(" and ".join(thing.said for thing in things.members))
-        if any(thing.pronoun for thing in things.members):
-            raise Unfit(things.members[0].said)
-        left = tuple(replace(thing, alone=True) for thing in things.members)
-        return replace(request, tasks=tuple(task.without(left) for task in request.tasks))
-
     def not_that(self, parts: list[Part]) -> Correction:
         """As in "not the apple, the banana"."""
         wrong = next(p for p in parts if isinstance(p, Thing))
@@ -153,6 +146,10 @@ class Builder(Deeds):
     def not_there(self, parts: list[Part]) -> Correction:
         """As in "not there, on the desk", "not to me, to the desk"."""
         return self._corrects([parts[-1]], denies=True)
+
+    def there_not(self, parts: list[Part]) -> Correction:
+        """As in "to the sofa, not on the desk"."""
+        return self._corrects([parts[0]])
 
     def another_number(self, parts: list[Part]) -> Correction:
         """As in "no, five", of things of the same kind."""
@@ -183,12 +180,23 @@ class Builder(Deeds):
         return Question(About.WHY, str(parts[1]) if len(parts) > 1 else "")
 
     def statement(self, parts: list[Part]) -> Statement:
-        """As in "the mug is on the sofa"."""
+        """As in "the mug is on the sofa and the pear is on the desk"."""
+        more: Statement | None = None
+        for told in reversed([p for p in parts if isinstance(p, Statement)]):
+            more = replace(told, more=more)
+        assert more
+        return more
+
+    def told(self, parts: list[Part]) -> Statement:
+        """As in "the mug is on the sofa", "I took the mug to the kitchen"."""
         things = next(p for p in parts if isinstance(p, Things))
-        place = next(p for p in parts if isinstance(p, Where | To | From))
-        if not isinstance(place, Where):
-            raise Unfit(place.place.words)
-        return Statement(things, place)
+        match parts[-1]:
+            case Where() as place:
+                return Statement(things, place)
+            case To(place) if any(is_a(p, "I_PUT") for p in parts):
+                return Statement(things, place)
+            case place:
+                raise Unfit(place.place.words)
 
     def named(self, parts: list[Part]) -> Answer:
         """As in "I think the apple", "the second one"."""
@@ -241,9 +249,13 @@ class Builder(Deeds):
         """As in "whichever is closest"."""
         return Answer(Choice.NEAREST)
 
-    def both(self, parts: list[Part]) -> Answer:
-        """As in "both", "all of them"."""
+    def all(self, parts: list[Part]) -> Answer:
+        """As in "all of them"."""
         return Answer(Choice.ALL)
+
+    def both(self, parts: list[Part]) -> Answer:
+        """As in "both of them"."""
+        return Answer(Choice.BOTH)
 
     def courtesy(self, parts: list[Part]) -> Courtesy:
         """As in "thank you"."""

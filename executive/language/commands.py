@@ -37,6 +37,7 @@ _DEEDS = [_QUESTIONS.get(kind) or kind.replace("_", " ") for kind in CommandKind
 CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one after the other"
 NOT_KNOWN_WHAT = "I hear '{}', and do not understand the rest."
 """Said of a negation that is about nothing that there is to do."""
+SAY_INSTEAD = " Say once more what I am to do instead."
 SAY_THE_REST = " Say once more what else I am to do."
 UNTOLD = "I cannot tell you that so far."
 COURTESIES = {
@@ -59,7 +60,7 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
         case Request():
             return _commands(said.tasks, words)
         case Refusal():
-            return "Then I will not." + " Say once more what I am to do instead." * said.more
+            return "Then I will not." + SAY_INSTEAD * said.more
         case Again():
             return "There is nothing yet that I could do again."
         case Unable():
@@ -229,6 +230,8 @@ def _why_not(task: Task) -> str:
     ):
         return f"I can {task.verb} only at a place; say which"
     things = task.things.members if task.things else ()
+    if so_many := next((thing.said for thing in things if thing.is_so_many), ""):
+        return f"I do not know which ones '{so_many}' are; say their names"
     if any(but.pronoun for thing in things for but in _left_out(task, thing)):
         return "I do not know what is not meant; say its name"
     if task.conditional and len(things) > 1:
@@ -241,7 +244,8 @@ def _left_out(task: Task, thing: Thing) -> tuple[Thing, ...]:
     """What is not meant; who only looks takes nothing: "find the mug and do not touch it"."""
     if task.verb not in _LOOKING:
         return thing.exceptions
-    return tuple(but for but in thing.exceptions if not but.pronoun and but.words != thing.words)
+    others = (but for but in thing.exceptions if not but.pronoun)
+    return tuple(but for but in others if not but.alone or but.words != thing.words)
 
 
 def _held(things: Things | None) -> str:

@@ -4,7 +4,20 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from executive.language.meaning import Answer, Refusal, Request, Said, Thing, Things
+from executive.language.folding import is_it
+from executive.language.meaning import (
+    ME,
+    Answer,
+    Correction,
+    Refusal,
+    Request,
+    Said,
+    Task,
+    Thing,
+    Things,
+    Where,
+)
+from executive.types.commands import CommandKind
 
 _TURN = re.compile(r",? but (?:rather |instead )?|, ")
 
@@ -26,16 +39,31 @@ def in_its_place(said: Refusal, read: Callable[[str], Said]) -> Said:
         meant = _same_deed(read(denied), meant)
     if not isinstance(meant, Request):
         return said
+    if elsewhere := _elsewhere(read(denied), meant):
+        return elsewhere
     if not wrong or not all(_is_clear(task.things, wrong) for task in meant.tasks):
         return replace(said, more=True)
     return replace(meant, tasks=tuple(task.without(wrong) for task in meant.tasks))
 
 
+def _elsewhere(denied: Said, meant: Request) -> Correction | None:
+    """As in "do not bring it to me, put it on the desk": it is the place that is denied."""
+    match denied, meant.tasks:
+        case Request(tasks=[before]), [Task(goal=Where() as goal) as task]:
+            wrong = before.goal or (ME if before.verb == CommandKind.BRING else None)
+            things = before.things if is_it(task.things) else task.things
+            if things and things == before.things and wrong not in (None, goal):
+                return Correction(Request((replace(task, things=things),)), denies=True)
+    return None
+
+
 def _same_deed(denied: Said, meant: Answer) -> Said:
-    """As in "do not bring the apple but the pear"."""
-    match denied:
-        case Request(tasks=[task]) if task.things and meant.things:
-            return replace(denied, tasks=(replace(task, things=meant.things),))
+    """As in "do not bring the apple but the pear", "do not put it on the desk but on the sofa"."""
+    match denied, meant:
+        case Request(tasks=[task]), Answer(things=Things() as things) if task.things:
+            return replace(denied, tasks=(replace(task, things=things),))
+        case Request(tasks=[Task(goal=Where()) as task]), Answer(things=None, where=[goal]):
+            return replace(denied, tasks=(replace(task, goal=goal),))
     return meant
 
 

@@ -121,13 +121,16 @@ _WORD = re.compile(r"[^\W\d_]+(?:['_][^\W\d_]+)*")
 
 _FILE = tomllib.loads((Path(__file__).parent / "assets" / "control.toml").read_text("utf-8"))
 
+_THEN_DO = (
+    rf"[,.;:!]? (?=(?:and |so |now |just |please )*(?:{'|'.join(ENGLISH['deeds'].split())})\b)"
+)
 _INSTEAD = re.compile(
-    rf"\b(?:(?:i|have|i've|just) )*changed my mind[,.;:!]? "
-    rf"(?=(?:and |so |now |please )*(?:{'|'.join(ENGLISH['deeds'].split())})\b)"
+    rf"\b(?:(?:i|have|i've|just) )*changed my mind{_THEN_DO}"
     r"|^\W*(?:(?:no|oh|ok|okay|please|just|and|robot),? )*(?:forget|never mind) (?:about )?"
     rf"(?=(?:the|my|our) (?!(?:{'|'.join(_FILE['all'].split())})\b))"
-    r"|^\W*(?:forget|never ?mind)(?: (?:about )?(?:it|that))?[,.;:!]? "
-    rf"(?=(?:and |just |please )*(?:{'|'.join(ENGLISH['deeds'].split())})\b)"
+    rf"|(?:^\W*|[,.;:!?–—-] )(?:forget|never ?mind)(?: (?:about )?(?:it|that))?{_THEN_DO}"
+    r"|^\W*i (?:do not|don't|no longer) (?:want|need) (?:it|them|that|this)(?: any ?more| now)?"
+    rf"{_THEN_DO}"
 )
 """Who says so wants something else, or one thing no more: the rest says what."""
 

@@ -76,8 +76,9 @@ class Deeds(Nouns):
 
     def leave(self, parts: list[Part]) -> Task | Left:
         """As in "leave the hammer alone", "leave the hammer on the desk"; "leave it there" puts."""
-        things = parts[1]
-        if all(thing.pronoun for thing in things.members) and not is_a(parts[2], "ALONE"):
+        _, things, *there = parts
+        is_to_go = there and not is_a(there[0], "ALONE")
+        if is_to_go and all(thing.pronoun for thing in things.members):
             return _task(CommandKind.PUT, parts, goes=True)
         return Left(self.left_alone([*things.members]))
 
@@ -250,6 +251,21 @@ class Deeds(Nouns):
         if sought.verb != CommandKind.CHECK:
             raise Unfit(sought.said)
         return replace(deed, conditional=True, sought=sought, unless=_instead(deed, rest))
+
+
+def first_of_all(things: Things) -> Things:
+    """As in "the mug and the pear, but the pear first": it is no exception, but an order.
+
+    Raises:
+        Unfit: if what is to be first is none of the things.
+    """
+    members = tuple(replace(thing, exceptions=()) for thing in things.members)
+    first = {thing.words for thing in things.exceptions}
+    named = tuple(one for one in members if one.words in first)
+    if len(named) != len(first):
+        raise Unfit(things.exceptions[0].said)
+    others = tuple(one for one in members if one not in named)
+    return replace(things, members=(*named, *others), in_order=True)
 
 
 def _again(task: Task, things: Things | None, places: list[Part]) -> Task:

@@ -21,6 +21,8 @@ from executive.language.slips import brought, put_there, without_slips
 from executive.language.spoken import NOTHING, Spoken
 from executive.types.commands import Command, CommandKind, Commands
 
+_CHOOSES = (Choice.ANY, Choice.NEAREST, Choice.ALL, Choice.BOTH)
+
 
 class EnglishInterpreter:
     """Reads commands such as "Bring a sugar_box", "Could you fetch me the mug, please?".
@@ -116,7 +118,7 @@ class EnglishInterpreter:
     def declines(self, answer: str) -> bool:
         """Whether an answer says that the person does not know or will not say."""
         said = self._reader.read(answer)
-        if isinstance(said, Answer) and said.choice in (Choice.ANY, Choice.NEAREST, Choice.ALL):
+        if isinstance(said, Answer) and said.choice in _CHOOSES:
             return False  # "I do not mind"
         if isinstance(said, Correction):
             return False  # "none of them, the mug"

@@ -81,6 +81,11 @@ class Thing:
     alone: bool = False
     said: str = field(default="", compare=False)
 
+    @property
+    def is_so_many(self) -> bool:
+        """Whether it stands for a certain number of things: "both of them", not "two of them"."""
+        return self.pronoun and self.definite and (self.number or 0) > 1
+
 
 @dataclass(frozen=True, slots=True)
 class Things:
@@ -244,10 +249,11 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """Where something is, as the person says."""
+    """Where something is, as the person says; and `more` that is said in the same breath."""
 
     things: Things
     where: Where
+    more: "Statement | None" = None
 
 
 class Choice(StrEnum):
@@ -261,6 +267,7 @@ class Choice(StrEnum):
     NEAREST = "nearest"
     """Any, by what takes least time."""
     ALL = "all"
+    BOTH = "both"
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,7 @@ from executive.language.parts import (
     purpose_of,
     said_of,
 )
+from executive.language.phrases import in_pieces
 from executive.types.commands import ALL
 
 
@@ -43,6 +44,10 @@ class Nouns(Transformer[Token, Said]):
         self._superlatives = superlatives
         self._wishes = wishes
 
+    def __default_token__(self, token: Token) -> Token:
+        """Any token, with the words of names in it apart again."""
+        return token.update(value=in_pieces(token))
+
     # --- things ---
 
     def words(self, parts: list[Part]) -> str:
@@ -50,10 +55,10 @@ class Nouns(Transformer[Token, Said]):
         return " ".join(parts)
 
     def determiner(self, parts: list[Part]) -> Token:
-        """An article, or a number."""
+        """An article, or a number; "1" is the article that "one" is."""
         (token,) = parts
         assert isinstance(token, Token)
-        return token
+        return Token("A", token) if is_a(token, "NUMBER") and token == "1" else token
 
     def noun(self, parts: list[Part]) -> Thing:
         """As in "box of sugar", "tool for nails"."""
@@ -90,23 +95,41 @@ class Nouns(Transformer[Token, Said]):
         return Thing(str(parts[0]), pronoun=True, definite=True, said=said_of(parts))
 
     def every_pronoun(self, parts: list[Part]) -> Thing:
-        """As in "all of them", "them both"."""
+        """As in "all of them", "them both", "all three of them"."""
         word = next(str(p) for p in parts if is_a(p, "PRONOUN"))
-        both = any(is_a(p, "BOTH", "EVERY_OF") and p.startswith("both") for p in parts)
+        how_many = next(str(p) for p in parts if is_a(p, "ALL", "BOTH", "EVERY_OF"))
+        numbers = (self._numbers[said] for said in how_many.split() if said in self._numbers)
         return Thing(
-            word, number=2 if both else ALL, pronoun=True, definite=True, said=said_of(parts)
+            word,
+            number=next(numbers, ALL),
+            pronoun=True,
+            definite=True,
+            exceptions=exceptions_of(parts),
+            said=said_of(parts),
         )
 
     def some_of_them(self, parts: list[Part]) -> Thing:
         """As in "two of them", "any of those"."""
         number = self.count_of(parts[0]) if is_a(parts[0], "NUMBER") else 1
-        return Thing(str(parts[-1]), number, pronoun=True, definite=True, said=said_of(parts))
+        return Thing(str(parts[-1]), number, pronoun=True, said=said_of(parts))
 
     def which_of_them(self, parts: list[Part]) -> Thing:
         """As in "the second one"."""
         said = said_of(parts)
         number = self.number_of(parts[-1])
         return Thing(said, pronoun=True, definite=True, place_in_list=number, said=said)
+
+    def the_few(self, parts: list[Part]) -> Things:
+        """As in "the first two", "the last three of them"."""
+        which, number = parts[-1].split()[:2]
+        count = self.number_of(Token("NUMBER", number))
+        places = range(1, count + 1) if self._numbers[which] > 0 else range(-count, 0)
+        said = said_of(parts)
+        members = (
+            Thing(said, pronoun=True, definite=True, place_in_list=place, said=said)
+            for place in places
+        )
+        return Things(tuple(members))
 
     def another(self, parts: list[Part]) -> Thing:
         """As in "another apple", "the other one", "two more apples"."""
@@ -230,7 +253,7 @@ class Nouns(Transformer[Token, Said]):
 
     def number_of(self, token: Token) -> int:
         """What a number or an ordinal stands for."""
-        digits = token.removeprefix("number ").removesuffix(" one")
+        digits = token.removeprefix("number ").partition(" ")[0]
         if digits.isdecimal():
             return int(digits)
-        return self._numbers.get(token) or self._numbers[token.removesuffix(" one")]
+        return self._numbers.get(token) or self._numbers[token.rpartition(" ")[0]]

@@ -37,6 +37,21 @@ _DETERMINERS = frozenset(("a", "an", "any", "my", "our", "some", "that", "the", 
 _APOSTROPHES = re.compile("[’‘`´ʼ′]")
 
 
+_JOINER = "\u2060"
+"""Unicode's word joiner, which is not seen: of what people say, it is left out (`one_line`)."""
+_BEFORE_NAME = re.compile(rf"(?<![^ ,]){_JOINER}")
+
+
+def in_one_piece(name: str) -> str:
+    """A name of several words as one that no grammar takes apart; `in_pieces` undoes it."""
+    return "".join(f"{_JOINER}{word}" for word in name.split())
+
+
+def in_pieces(text: str) -> str:
+    """The text with the words of each name apart again."""
+    return _BEFORE_NAME.sub("", text).replace(_JOINER, " ")
+
+
 def plain_letters(text: str) -> str:
     """One line in lower case; full-width letters are plain, and apostrophes of one kind."""
     straight = _APOSTROPHES.sub("'", text)

@@ -48,9 +48,7 @@ def resolved(said: Said, spoken: Spoken, *, holds: bool = False) -> Said:
         case Request():
             return replace(said, tasks=_tasks(said.tasks, spoken, holds))
         case Statement():
-            where = _where(said.where, None, None, spoken)
-            assert where
-            return replace(said, things=_things(said.things, spoken), where=where)
+            return _told(said, None, None, spoken)
         case Question(things=Things() as things):
             return replace(said, things=_things(things, spoken))
         case Correction():
@@ -61,6 +59,15 @@ def resolved(said: Said, spoken: Spoken, *, holds: bool = False) -> Said:
             name = spoken.things[-1]
             return Statement(Things((Thing(name, definite=True, said=name),)), where)
     return said
+
+
+def _told(said: Statement, things: Things | None, place: Where | None, spoken: Spoken) -> Statement:
+    """With names for what was told of before in the same breath, else for what was spoken of."""
+    meant = things if things and is_it(said.things) else _things(said.things, spoken)
+    where = _where(said.where, things, place, spoken)
+    assert where
+    more = said.more and _told(said.more, meant, where, spoken)
+    return replace(said, things=meant, where=where, more=more)
 
 
 def with_names(said: Correction, spoken: Spoken) -> Correction:
@@ -162,6 +169,8 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
     if task.things is None:
         return None
     members = before.members if before else tuple(map(_called, spoken.things))
+    if len(members) < 2 and all(thing.place_in_list for thing in task.things.members):
+        members = tuple(map(_called, spoken.things))  # "bring the first and put the second there"
     seen = not before and spoken.request and spoken.request.tasks[-1].verb in QUESTIONS
     if seen and (rest := _all_but(task.things, members)):
         return rest
@@ -169,6 +178,8 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
         return _which(task.things, spoken)
     if picked := _picked(task.things, members):
         return picked
+    if _unclear(task.things, members):
+        return task.things
     if one := _one_of_kind(task.things, called(before) or spoken.called):
         return Things(members, one_of=True) if seen and len(members) > 1 else one
     if before:
@@ -193,19 +204,25 @@ def _all_of(things: Things | None, named: tuple[Thing, ...]) -> Things | None:
 
 def _picked(things: Things, members: tuple[Thing, ...]) -> Things | None:
     """Those of several that "both of them", "two of them", "the first one" are; None if none."""
-    if len(things.members) != 1 or not things.members[0].pronoun or len(members) < 2:
+    if not all(thing.pronoun and not thing.other for thing in things.members) or len(members) < 2:
         return None
-    [thing] = things.members
-    number, which = thing.number or 0, thing.place_in_list
-    if thing.other:
+    if places := [t.place_in_list for t in things.members if t.place_in_list is not None]:
+        listed = [at - (at > 0) for at in places if at and -len(members) <= at <= len(members)]
+        is_there = len(listed) == len(things.members)
+        return replace(things, members=tuple(members[at] for at in listed)) if is_there else None
+    [thing, *others] = things.members
+    number = thing.number or 0
+    if others:
         return None
-    if which is not None:
-        at = which - (which > 0)
-        return Things((members[at],)) if -len(members) <= at < len(members) and which else None
     if number == ALL or number == len(members) or (of_several(things) and not number):
         return _less(members, thing.exceptions)
     some = Things(members, one_of=True, number=number).without(thing.exceptions)
-    return some if 0 < number < len(members) else None
+    return some if 0 < number < len(members) and not thing.definite else None
+
+
+def _unclear(things: Things, members: tuple[Thing, ...]) -> bool:
+    """Whether it is not known which are meant: "both of them", if three were spoken of."""
+    return any(thing.is_so_many for thing in things.members) and len(members) > 1
 
 
 def _all_but(things: Things, members: tuple[Thing, ...]) -> Things | None:

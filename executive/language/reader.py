@@ -19,9 +19,9 @@ from executive.language.building import Builder
 from executive.language.contrasts import in_its_place
 from executive.language.meaning import Refusal, Relation, Request, Said, Unable, Unread
 from executive.language.parts import Unfit
-from executive.language.phrases import plain_letters
+from executive.language.phrases import in_one_piece, in_pieces, plain_letters
 from executive.language.run_on import with_pauses
-from executive.language.second_thoughts import corrected_in_one_breath
+from executive.language.second_thoughts import answered_in_one_breath, corrected_in_one_breath
 from executive.text import LONGEST, too_long
 
 ASSETS = Path(__file__).parent / "assets"
@@ -84,18 +84,17 @@ class Reader:
         self.wish = re.compile(rf"(?:{_any_of(words['wishes'])}) ")
         """How a wish begins that may be to have something, or to have it put somewhere."""
         self._names = tuple(sorted({self.plain(name) for name in names if name.strip()}))
+        self._named = re.compile(rf"(?<![^ ,])(?:{_any_of(self._names)})(?=[ ,]|$)")
         self._builder = _builder(words)
         grammar = (ASSETS / f"{language}.lark").read_text("utf-8")
         self.vocabulary = frozenset(re.findall(r"[^\W\d_]+", grammar))
         """Words that may be more than a part of a name."""
-        name = rf"(?:{_any_of(self._names)})(?=[ ,]|$)"
-        unable = rf"(?:{_any_of([*words['unable'].split(), *self._instead])})(?=[ ,]|$)"
+        unable = _any_of([*words["unable"].split(), *self._instead])
         deeds = _any_of([*words["before_deeds"], *self.deeds])
         self.parser = _parser(
             grammar,
-            NAME=name,
-            DEED_AHEAD=rf"(?=(?:{deeds})\b|(?!{name}){unable})",
-            UNABLE=unable,
+            DEED_AHEAD=rf"(?=(?:{deeds}|{unable})(?=[ ,]|$))",
+            UNABLE=rf"(?:{unable})(?=[ ,]|$)",
         )
 
     def _read_anew(self, words: str) -> Said:
@@ -118,6 +117,8 @@ class Reader:
         """What is no sentence of the grammar, and may be several of them; None if it is not."""
         if said := corrected_in_one_breath(plain, self._turn, self._read):
             return said
+        if answer := answered_in_one_breath(plain, self._turn, self._read):
+            return answer
         if said := beside_a_request(plain, self._asides, self._pause, self._read_loosely):
             return said
         return with_pauses(plain, self._deed, self._read)
@@ -140,11 +141,12 @@ class Reader:
         return beside_a_request(plain, self._asides, self._pause, self._read_loosely, likely=True)
 
     def _read(self, text: str) -> Said:
-        """The same of words in plain form."""
+        """The same of words in plain form; the names among them stay whole."""
+        whole = self._named.sub(lambda name: in_one_piece(name[0]), text)
         try:
-            return self._builder.transform(self.parser.parse(text))
+            return self._builder.transform(self.parser.parse(whole))
         except UnexpectedInput as error:
-            at = max(error.pos_in_stream or 0, 0)
+            at = len(in_pieces(whole[: max(error.pos_in_stream or 0, 0)]))
             return Unread(text, re.split(r"[ ,]", text[at:])[0], at)
         except VisitError as error:
             if not isinstance(error.orig_exc, Unfit):
@@ -231,9 +233,10 @@ def _builder(words: dict[str, Any]) -> Builder:
     return Builder(numbers, relations, most, tuple(words["wishes"]))
 
 
+@cache
 def _parser(grammar: str, **terminals: str) -> Lark:
-    """A parser of the grammar with these terminals added."""
-    priorities = {"NAME": ".5", "DEED_AHEAD": "", "UNABLE": ".1"}
+    """A parser of the grammar with these terminals added; names make no other one."""
+    priorities = {"DEED_AHEAD": "", "UNABLE": ".1"}
     added = (f"{name}{priorities[name]}: /{pattern}/" for name, pattern in terminals.items())
     text = "\n".join([grammar, *added, ""])
     return Lark(

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from executive.language.anew import asked_anew
-from executive.language.meaning import Correction, Request, Said, Thing, Things
+from executive.language.meaning import Answer, Correction, Request, Said, Thing, Things
 from executive.language.pronouns import with_names
 from executive.language.spoken import Spoken
 
@@ -16,7 +16,7 @@ MOST = 4
 def corrected_in_one_breath(
     text: str, turn: re.Pattern[str], read: Callable[[str], Said], *, likely: bool = False
 ) -> Request | None:
-    """What is meant in the end; None if it is not a request that is corrected.
+    """What is asked for in the end; None if it is not a request that is corrected.
 
     Args:
         text: in plain form; as it is, nobody can read it.
@@ -39,6 +39,20 @@ def corrected_in_one_breath(
         spoken = Spoken(tuple(thing.words for thing in members if thing.words), request=said)
         said = asked_anew(with_names(correction, spoken), spoken, in_one_breath=True)
     return said if isinstance(said, Request) else None
+
+
+def answered_in_one_breath(
+    text: str, turn: re.Pattern[str], read: Callable[[str], Said]
+) -> Answer | None:
+    """The last of several answers, each in place of the one before; None if it is something else.
+
+    As in "the pear, no, the apple", "on the desk, I mean, on the sofa".
+    """
+    answers = [read(words.strip(", ")) for words in turn.split(text, MOST)]
+    *before, last = answers
+    names = [bool(a.things or a.where) for a in answers if isinstance(a, Answer)]
+    is_corrected = before and len(names) == len(answers) and all(names)
+    return last if is_corrected and isinstance(last, Answer) else None
 
 
 def _in_place_of_last(members: tuple[Thing, ...], meant: Things) -> Things:

@@ -1,5 +1,6 @@
 """What was probably meant: a slip in the word for a deed ("bing me an apple"), or none at all."""
 
+import re
 from collections.abc import Iterator
 
 from rapidfuzz.distance import OSA
@@ -10,6 +11,8 @@ from executive.language.reader import Reader
 SHORTEST = 3
 LONG = 6
 """From so many letters on, two of them may be wrong."""
+_AT_FIRST = re.compile("^(?:(?:(?:and|but) )?first(?: of all)?,? )?")
+"""What may come before a deed: "first the mug, then the pear"."""
 
 
 def without_slips(reader: Reader, words: str) -> Iterator[str]:
@@ -35,7 +38,7 @@ def brought(reader: Reader, words: str) -> Iterator[str]:
     said = reader.read(words)
     names = isinstance(said, Answer) and said.choice is None and said.things
     if names and not reader.denial(words):
-        yield f"bring {reader.plain(words)}"
+        yield _AT_FIRST.sub(r"\g<0>bring ", reader.plain(words), count=1)
 
 
 def put_there(reader: Reader, words: str) -> Iterator[str]:

@@ -108,3 +108,48 @@ def test_nothing_is_put_where_it_cannot_be(answer: str) -> None:
     run = run_mission("Put the mug in the garage", answers=answers, llm=False, search="plan")
     assert f"I can put things on furniture, or in it, but not '{answer}'." in run.user.told
     assert run.world.resting_place("mug") == "sofa"
+
+
+@pytest.mark.parametrize(
+    "answer", ["the first and the fifth", "the pear and the apple", "both the apple and the pear"]
+)
+def test_those_that_were_offered_may_be_counted(answer: str) -> None:
+    run = run_mission("Bring me a fruit", answers=[answer], llm=False, search="plan")
+    assert moved(run) == {"apple", "pear"}
+
+
+def test_the_first_two_are_those_that_were_offered_first() -> None:
+    run = run_mission("Bring me a fruit", answers=["the first two"], llm=False, search="plan")
+    offered = run.user.asked[0].options[:2]
+    assert [run.world.resting_place(fruit) for fruit in offered] == ["delivery"] * 2
+
+
+@pytest.mark.parametrize("answer", ["both", "both of them", "all three"])
+def test_as_many_as_were_not_offered_are_asked_about_again(answer: str) -> None:
+    run = run_mission("Bring me a fruit", answers=[answer, "the pear"], llm=False, search="plan")
+    assert len(run.user.asked) == 2
+    assert moved(run) == {"pear"}
+
+
+@pytest.mark.parametrize("answer", ["the apple, no, the pear", "The apple. No, I mean the pear"])
+def test_an_answer_may_be_corrected_in_the_same_breath(answer: str) -> None:
+    run = run_mission("Bring me a fruit", answers=[answer], llm=False, search="plan")
+    assert moved(run) == {"pear"}
+
+
+def test_a_yes_with_a_further_wish_is_both() -> None:
+    run = run_mission("Bring the muug", answers=["yes, and the pear"], llm=False, search="plan")
+    assert moved(run) == {"mug", "pear"}
+    assert not any("make nothing of" in said for said in run.user.told)
+
+
+def test_a_yes_with_another_place_is_that_place() -> None:
+    answers = ["yes, but put it on the desk"]
+    run = run_mission("Bring the muug", answers=answers, llm=False, search="plan")
+    assert run.world.resting_place("mug") == "desk"
+
+
+def test_what_was_meant_is_not_called_something_that_nothing_is_made_of() -> None:
+    run = run_mission("Bring the muug", answers=["no I meant the pear"], llm=False, search="plan")
+    assert moved(run) == {"pear"}
+    assert not any("make nothing of" in said for said in run.user.told)

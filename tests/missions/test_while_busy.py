@@ -595,3 +595,121 @@ def test_a_place_to_go_to_is_not_struck_out_by_other_things() -> None:
 def test_what_is_carried_is_put_down_at_once_if_that_is_said() -> None:
     mission = run("Bring the hammer", "Drop it", 4)
     assert tasks(mission) == [("put_down", "hammer", DONE)]
+
+
+def brought(mission: Run) -> list[str]:
+    """What is with the person now, in the order in which it was brought."""
+    return [name for _, name, status in tasks(mission) if name and status == DONE]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "first the mug",
+        "First bring the mug",
+        "but first bring the mug",
+        "Before that, bring the mug",
+    ],
+)
+def test_what_is_wanted_first_is_done_first(words: str) -> None:
+    mission = run("Bring the hammer", words)
+    assert brought(mission) == ["mug", "hammer"]
+    assert "All right: I bring the mug first." in answers(mission)
+
+
+@pytest.mark.parametrize(
+    ("words", "left"),
+    [
+        ("forget the other two", ["mug"]),
+        ("forget the others", ["mug"]),
+        ("not the last one", ["mug", "pear"]),
+        ("skip the first one", ["pear", "hammer"]),
+        ("don't bring the second one", ["mug", "hammer"]),
+        ("forget the other three", ["mug", "pear", "hammer"]),
+    ],
+)
+def test_those_that_are_not_wanted_may_be_told_by_their_place(words: str, left: list[str]) -> None:
+    mission = run("Bring the mug, then the pear, then the hammer", words)
+    assert brought(mission) == left
+
+
+def test_both_of_three_are_neither_two_of_them_nor_all() -> None:
+    mission = run("Bring the mug, the pear and the hammer", "put both of them on the desk")
+    assert sorted(brought(mission)) == ["hammer", "mug", "pear"]
+    assert any("'both of them'" in said for said in answers(mission))
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["The hammer is not on the shelf", "my hammer isn't there", "The hammer was never there"],
+)
+def test_what_is_told_of_a_thing_takes_nothing_back(words: str) -> None:
+    assert brought(run("Bring the hammer", words)) == ["hammer"]
+
+
+def test_what_is_no_longer_needed_is_taken_back() -> None:
+    assert brought(run("Bring the hammer", "The hammer is not needed")) == []
+
+
+@pytest.mark.parametrize(
+    "words", ["Don't bring it to me, put it on the sofa", "Don't bring it, take it to the sofa"]
+)
+def test_not_to_the_person_but_elsewhere(words: str) -> None:
+    mission = run("Bring the hammer", words)
+    assert mission.world.resting_place("hammer") == "sofa"
+    assert tasks(mission) == [("put", "hammer", DONE)]
+
+
+def test_what_is_wanted_instead_is_asked_for_if_it_is_not_clear() -> None:
+    mission = run("Bring the hammer", "don't bring it, find it")
+    assert brought(mission) == []
+    assert any(said.endswith("Say once more what I am to do instead.") for said in answers(mission))
+
+
+@pytest.mark.parametrize("words", ["on the sofa, not the desk", "to the sofa, not on the desk"])
+def test_another_place_may_be_told_beside_the_wrong_one(words: str) -> None:
+    mission = run("Put the hammer on the desk", words)
+    assert mission.world.resting_place("hammer") == "sofa"
+
+
+@pytest.mark.parametrize("words", ["I'd prefer the mug", "Actually, I'd rather have the mug"])
+def test_what_is_preferred_is_done_instead(words: str) -> None:
+    assert brought(run("Bring the hammer", words)) == ["mug"]
+
+
+@pytest.mark.parametrize(
+    "words", ["Have you found it yet?", "How long will it take?", "Where are you going?"]
+)
+def test_how_far_it_is_is_told(words: str) -> None:
+    mission = run("Bring the hammer", words)
+    assert "I drive to the shelf in the lobby, to bring the hammer." in answers(mission)
+
+
+@pytest.mark.parametrize(
+    "words", ["oh and the mug", "While you're at it, bring the mug", "Great! And also the mug"]
+)
+def test_something_more_may_be_wished_in_passing(words: str) -> None:
+    assert brought(run("Bring the hammer", words)) == ["hammer", "mug"]
+
+
+def test_what_is_left_on_a_place_that_is_cleared_is_told_as_it_is() -> None:
+    mission = run("Clear the coffee table", "but leave the mug")
+    assert mission.world.resting_place("mug") == "coffee_table"
+    at = mission.world.resting_place("pudding_box")
+    assert at != "coffee_table"
+    assert "coffee table" not in mission.outcome.reason
+    assert not any("do not understand" in said for said in answers(mission))
+
+
+def test_what_is_left_and_what_is_brought_are_not_the_same() -> None:
+    mission = run("Clear the coffee table", "but leave the mug and bring me the pear")
+    assert mission.world.resting_place("mug") == "coffee_table"
+    assert mission.world.resting_place("pear") == "delivery"
+
+
+def test_where_two_things_are_may_be_told_at_once() -> None:
+    mission = run("Bring the hammer", "The hammer is on the sofa and the mug is on the bed")
+    told_so = [said for said in answers(mission) if said.startswith("Thank you")]
+    assert len(told_so) == 1
+    assert "the hammer is on the sofa" in told_so[0]
+    assert "the mug is on the bed" in told_so[0]

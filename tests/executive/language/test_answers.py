@@ -2,7 +2,7 @@
 
 import pytest
 
-from executive.language.answers import named, picked
+from executive.language.answers import how_many_of, named, picked
 from executive.language.grammar import EnglishInterpreter
 
 read = EnglishInterpreter().read
@@ -21,6 +21,10 @@ FRUIT = ("apple", "pear", "plum")
         ("I don't mind", ("apple",)),
         ("one of them", ("apple",)),
         ("all of them", FRUIT),
+        ("both", ()),
+        ("both of them", ()),
+        ("the second one please, robot", ("pear",)),
+        ("the first thing", ("apple",)),
         ("the fourth one", ()),
         ("0", ()),
         ("yes", ()),
@@ -30,6 +34,30 @@ FRUIT = ("apple", "pear", "plum")
 )
 def test_picks_without_a_name(answer: str, meant: tuple[str, ...]) -> None:
     assert picked(read(answer), FRUIT) == meant
+
+
+def test_both_are_all_of_two() -> None:
+    assert picked(read("both"), FRUIT[:2]) == FRUIT[:2]
+
+
+@pytest.mark.parametrize(
+    ("answer", "places"),
+    [
+        ("the first two", [1, 2]),
+        ("the last three of them", [-3, -2, -1]),
+        ("first two please", [1, 2]),
+        ("the first and the third", [1, 3]),
+    ],
+)
+def test_says_which_of_them_in_a_row(answer: str, places: list[int]) -> None:
+    assert [thing.place_in_list for thing in read(answer).things.members] == places
+
+
+@pytest.mark.parametrize(
+    ("answer", "number"), [("two of them", 2), ("both of them but the pear", 0), ("it", 0)]
+)
+def test_so_many_are_any_of_them(answer: str, number: int) -> None:
+    assert how_many_of(read(answer)) == number
 
 
 def test_a_yes_picks_the_only_one_that_was_offered() -> None:
@@ -44,6 +72,13 @@ def test_a_yes_picks_the_only_one_that_was_offered() -> None:
         ("No, the pear", "pear"),
         ("Bring the pear", "pear"),
         ("the red one", "red one"),
+        ("I'd prefer the pear", "pear"),
+        ("I would rather have the pear", "pear"),
+        ("Let's say the pear", "pear"),
+        ("The pear would be lovely", "pear"),
+        ("the pear or the plum, I don't care", "pear or plum"),
+        ("no I meant the pear", "pear"),
+        ("the pear, no, the plum", "plum"),
         ("the pear or the plum", "pear or plum"),
         ("on the desk", ""),
         ("it", ""),

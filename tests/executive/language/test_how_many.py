@@ -1,6 +1,8 @@
 """How many things are meant, and which of them."""
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from executive.language.grammar import EnglishInterpreter
 from executive.language.spoken import NOTHING, Spoken, after
@@ -121,3 +123,65 @@ def test_the_same_may_be_asked_for_with_another_thing(words: str, goal: str) -> 
 def test_the_same_may_be_asked_about_another_place() -> None:
     [[command]] = read.commands("And on the sofa?", seen("What is on the desk?", "mug"))
     assert (command.kind, command.source) == ("tell", "sofa")
+
+
+SPOKEN = ("mug", "pear", "apple", "hammer")
+ALL_OF = {"both": 2, "both of them": 2, "all three": 3, "all three of them": 3, "all four": 4}
+
+
+@given(st.sampled_from(sorted(ALL_OF)), st.integers(2, 4))
+def test_a_number_that_is_all_of_them_is_never_some_of_them(words: str, spoken: int) -> None:
+    things = SPOKEN[:spoken]
+    commands = read.commands(f"Bring me {words}", Spoken(things, "apple"))
+    targets = [one.target for group in commands for one in group]
+    assert targets == ([*things] if ALL_OF[words] == spoken else [])
+    if not targets:
+        assert "say their names" in read.remark(f"Bring me {words}", Spoken(things, "apple"))
+
+
+def test_both_of_three_that_were_named_in_the_same_breath_is_asked_about() -> None:
+    words = "Find the mug, the pear and the apple and put both of them on the desk"
+    assert read.commands(words) == ()
+    assert "'both of them'" in read.remark(words)
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("Bring the first two", ["mug", "pear"]),
+        ("Bring me the last two of them", ["apple", "hammer"]),
+        ("Bring the first and the last", ["mug", "hammer"]),
+        ("Bring me the first and put the second on the desk", ["mug", "pear"]),
+        ("Put the latter on the desk", ["hammer"]),
+        ("Bring all of them but the pear", ["mug", "apple", "hammer"]),
+    ],
+)
+def test_those_in_a_row_are_of_what_was_spoken_of(words: str, meant: list[str]) -> None:
+    commands = read.commands(words, Spoken(SPOKEN))
+    assert [one.target for group in commands for one in group] == meant
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("Bring the mug and the pear, but the pear first", ["pear", "mug"]),
+        ("Bring the mug, the pear and the apple but the apple first", ["apple", "mug", "pear"]),
+        ("Before you bring the mug, bring the pear", ["pear", "mug"]),
+        ("After you bring the mug, bring the pear", ["mug", "pear"]),
+    ],
+)
+def test_what_is_to_be_first_comes_first(words: str, meant: list[str]) -> None:
+    groups = read.commands(words)
+    assert [one.target for group in groups for one in group] == meant
+    assert len(groups) == len(meant)
+    assert not any(one.exceptions for group in groups for one in group)
+
+
+def test_what_is_to_be_first_and_is_none_of_them_is_not_read() -> None:
+    assert read.commands("Bring the mug and the pear but the apple first") == ()
+
+
+@pytest.mark.parametrize("words", ["Bring 1 tool", "Bring one tool", "Bring me a tool"])
+def test_one_may_be_written_as_a_digit(words: str) -> None:
+    [[command]] = read.commands(words)
+    assert (command.target, command.number) == ("tool", 0)

@@ -136,6 +136,20 @@ def test_what_is_behind_a_negation_is_never_asked_for_again_nor_is_it(denial, sa
 
 
 @pytest.mark.parametrize(
+    ("words", "goal"),
+    [
+        ("Don't bring the mug to me, put it on the desk", "desk"),
+        ("Don't bring the mug, take it to the kitchen", "kitchen"),
+        ("Don't put the mug on the desk, put it on the sofa", "sofa"),
+        ("Do not put the mug on the desk but on the sofa", "sofa"),
+    ],
+)
+def test_if_it_is_a_place_that_is_denied_the_other_one_is_meant(words: str, goal: str) -> None:
+    [[command]] = read.commands(words)
+    assert (command.kind, command.target, command.goal) == ("put", "mug", goal)
+
+
+@pytest.mark.parametrize(
     ("words", "says"),
     [
         (

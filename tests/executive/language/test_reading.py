@@ -1,9 +1,10 @@
 """What words mean, before anyone has looked whether the things and places in them exist."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from executive.language.grammar import EnglishInterpreter
 from executive.language.meaning import (
     ME,
     About,
@@ -187,7 +188,8 @@ def test_reads_what_is_to_be_done(words: str, meaning: Said) -> None:
         ("yes, the pear", Answer(Choice.YES, things=certain("pear"))),
         ("I don't know", Answer(Choice.UNKNOWN)),
         ("any of them", Answer(Choice.ANY)),
-        ("both", Answer(Choice.ALL)),
+        ("both", Answer(Choice.BOTH)),
+        ("all of them", Answer(Choice.ALL)),
         ("Hello!", Courtesy.HELLO),
         ("Thank you very much", Courtesy.THANKS),
     ],
@@ -222,3 +224,50 @@ WORDS = sorted(english().vocabulary | {",", "mug", "desk", "12", "?", "isn't", "
 @given(st.lists(st.sampled_from(WORDS), max_size=30))
 def test_whatever_is_said_nothing_is_raised(words: list[str]) -> None:
     assert read(" ".join(words))
+
+
+@given(
+    st.lists(
+        st.sampled_from(
+            [
+                "with",
+                "without",
+                "and",
+                "no",
+                "not",
+                "first",
+                "to",
+                "stop",
+                "leave",
+                "in",
+                "two",
+                "wash",
+                "if",
+                "them",
+            ]
+        ),
+        min_size=1,
+        max_size=3,
+    )
+)
+@settings(max_examples=30, deadline=None)
+def test_a_name_is_one_whatever_words_are_in_it(words: list[str]) -> None:
+    name = f"mug {' '.join(words)} cup"
+    reads = EnglishInterpreter([name])
+    for said in (
+        f"Bring me the {name}",
+        f"Bring the pear and the {name}",
+        f"Find my {name}, please",
+    ):
+        assert [one.target for group in reads.commands(said) for one in group][-1] == name
+    assert reads.read(f"Do not touch the {name}") == Refusal(f"touch the {name}")
+
+
+def test_it_is_told_where_the_grammar_gives_up_behind_a_name() -> None:
+    said = Reader(names=["mug without handle"]).read("bring the mug without handle the pear why")
+    assert isinstance(said, Unread)
+    assert said.words[said.begins :] == "the pear why"
+
+
+def test_names_need_no_other_parser() -> None:
+    assert english(("mug without handle",)).parser is english().parser

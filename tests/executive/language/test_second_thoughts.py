@@ -1,8 +1,12 @@
 """Who corrects themselves in the same breath gets what they meant in the end, or nothing."""
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from executive.language.control import Control, control
 from executive.language.grammar import EnglishInterpreter
+from executive.language.meaning import Answer
 
 read = EnglishInterpreter()
 
@@ -67,3 +71,46 @@ def test_what_is_probably_meant_is_asked(words: str, meant: list[tuple[str, ...]
     assert (asked(words), read.remark(words)) == ([], "")
     likely = (one for group in read.without_slips(words) for one in group)
     assert [(one.kind.value, one.target, one.source or one.goal) for one in likely] == meant
+
+
+TURNS = st.sampled_from(
+    [", no, ", ". No, ", " no wait, ", ", I mean ", ", sorry, ", ", actually, "]
+)
+
+
+@given(
+    st.lists(st.sampled_from(["the pear", "the red mug", "my hammer"]), min_size=2, max_size=4),
+    st.data(),
+)
+def test_of_an_answer_the_last_counts(names: list[str], data: st.DataObject) -> None:
+    answer = names[0] + "".join(data.draw(TURNS) + name for name in names[1:])
+    assert read.read(answer) == read.read(names[-1])
+
+
+@given(st.sampled_from([("on the desk", "on the sofa"), ("in the kitchen", "on my bed")]), TURNS)
+def test_of_an_answer_with_a_place_the_last_counts(places: tuple[str, str], turn: str) -> None:
+    assert read.read(turn.join(places)) == read.read(places[-1])
+
+
+@pytest.mark.parametrize(
+    "words", ["the pear, no", "the pear, no, not the apple", "no, the pear, no"]
+)
+def test_an_answer_that_is_denied_in_the_end_names_nothing(words: str) -> None:
+    assert not isinstance(read.read(words), Answer)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Bring the pear. Actually, never mind, bring the peach.",
+        "Bring the pear, never mind, bring the peach",
+        "Bring the pear, forget that, bring the peach",
+    ],
+)
+def test_who_never_minds_one_thing_and_asks_for_another_wants_that(words: str) -> None:
+    assert asked(words) == [("bring", "peach", "")]
+    assert control(words) is None
+
+
+def test_who_never_minds_and_asks_for_nothing_stops_it() -> None:
+    assert control("Bring the pear. Actually, never mind.") == Control.STOP
