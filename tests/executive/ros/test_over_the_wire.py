@@ -187,6 +187,16 @@ def test_check_says_what_only_messages_tell(
     assert said in capsys.readouterr().err
 
 
+def test_check_says_that_a_picture_may_come_too_late(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    there.told["/acme/range"] = {"header": {"stamp": {"sec": 0, "nanosec": 0}}}
+    file = tmp_path / "late.toml"
+    file.write_text(PROFILE.read_text().replace("[camera]", "[camera]\nlate_s = 0.5"))
+    assert look(["check", there.url, "--profile", str(file)]) == 2
+    assert "over a slow link, give camera.late_s more" in capsys.readouterr().err
+
+
 def test_profiles_that_come_along_can_be_read(capsys: pytest.CaptureFixture[str]) -> None:
     assert look(["profiles"]) == 0
     assert "nav2  a robot with Nav2" in capsys.readouterr().out
