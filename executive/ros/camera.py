@@ -29,6 +29,10 @@ FRAME_S = 1.0
 LINK_S = 5.0
 
 
+class LateError(LinkError):
+    """A picture did not come in the time that it may take."""
+
+
 class Shutter:
     """Takes pictures; belongs to the thread of the wire."""
 
@@ -78,7 +82,7 @@ class Shutter:
                 return await collector.pair
         except TimeoutError:
             missing = collector.missing(topics.color, topics.depth, topics.info)
-            raise LinkError(f"no picture came in {topics.late_s:g} s: {missing}") from None
+            raise LateError(f"no picture came in {topics.late_s:g} s: {missing}") from None
         finally:
             for end in endings:
                 end()

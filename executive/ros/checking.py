@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import Sequence
 
 from executive.errors import InputError
+from executive.ros.goal_fields import misfits
 from executive.ros.link import Link, LinkError
 from executive.ros.moveit import SEMANTICS, SEMANTICS_TYPE, planning_groups
 from executive.ros.offers import Offers, likely, same_type
@@ -41,7 +42,8 @@ async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> li
         found = [*_topics(offers, profile, where), *_actions(offers, profile, where)]
         if not found:
             unheard = await _heard(profile, senses, where)
-            return [*unheard, *await _unknown_group(link, offers, profile, where)]
+            unfit = await misfits(link, offers, profile, where)
+            return [*unheard, *unfit, *await _unknown_group(link, offers, profile, where)]
     return found
 
 

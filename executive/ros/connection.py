@@ -11,7 +11,7 @@ from executive.guards import in_words
 from executive.interfaces.runtime import Clock
 from executive.ros.address import ROS2, Address
 from executive.ros.arm import Hands, NoHands
-from executive.ros.camera import Shutter, WireCamera
+from executive.ros.camera import LateError, Shutter, WireCamera
 from executive.ros.checking import faults
 from executive.ros.clock import GoalClock, RobotClock
 from executive.ros.link import Link, LinkError
@@ -27,6 +27,7 @@ from executive.types.geometry import Pose
 
 CONNECTING_S = 6.0
 CLOSING_S = 1.5
+MORE_TIME = "see that it is published there; over a slow link, give camera.late_s more"
 RIGHT = "start rosbridge there (docs/own-robot.md), or our robot: python -m sim serve"
 
 
@@ -161,7 +162,8 @@ def check(address: Address, profile: Profile, where: str) -> list[InputError]:
         try:
             await Shutter(line.link, profile, senses).take()
         except LinkError as error:
-            return [InputError(where, f"camera: {in_words(error)}")]
+            right = MORE_TIME if isinstance(error, LateError) else ""
+            return [InputError(where, f"camera: {in_words(error)}", right)]
         return []
 
     try:

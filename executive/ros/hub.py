@@ -44,6 +44,10 @@ class Backend(Protocol):
         """Give it up: it ends when all is at rest."""
         ...
 
+    def settle(self) -> None:
+        """Come to rest, if nothing is pursued."""
+        ...
+
 
 class Hub:
     """Between the conversations and the robot. Implements `Host`."""
@@ -157,4 +161,6 @@ class Hub:
             return
         for goal in goals:
             self._backend.cancel(goal)
+        if not goals:
+            self._backend.settle()
         answer(True, {"return_code": code, "goals_canceling": [goal.info for goal in goals]})

@@ -89,8 +89,13 @@ class Link(Protocol):
         """
         ...
 
-    def subscribe(self, topic: str, kind: str, receive: Receive) -> Callable[[], None]:
-        """Be given all messages of a topic, also after a loss; what is returned ends that."""
+    def subscribe(
+        self, topic: str, kind: str, receive: Receive, *, urgent: bool = False
+    ) -> Callable[[], None]:
+        """Be given all messages of a topic, also after a loss; what is returned ends that.
+
+        What is urgent does not come behind pictures.
+        """
         ...
 
     def publish(self, topic: str, kind: str, message: Message) -> None:

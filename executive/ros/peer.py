@@ -36,8 +36,9 @@ from executive.ros.protocol import (
 from executive.text import printable
 
 CONNECTING_S = 5.0
-PING_S, PONG_S = 2.0, 6.0
-"""How often the other side is asked whether it is there, and how long it may take to say so."""
+PING_S, SILENT_S = 2.0, 8.0
+"""How often the other side is asked whether it is there, and after how long without a byte of it
+there is no connection any more."""
 AGAIN_S = (0.1, 0.2, 0.5, 1.0)
 """Pauses between attempts to connect; the last one again and again."""
 PACKED = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2")
@@ -47,6 +48,20 @@ MOST_WAITING = 1000
 """So many messages may wait to be sent; more, and the other side does not read any more."""
 
 log = logging.getLogger(__name__)
+
+
+class _Connection(ClientConnection):
+    """Knows when anything was heard of the other side.
+
+    Over a thin link the answer to a ping comes after the picture that is on its way.
+    """
+
+    heard_at = 0.0
+
+    def data_received(self, data: bytes) -> None:
+        """Some bytes, which may be a part of a message."""
+        self.heard_at = self.loop.time()
+        super().data_received(data)
 
 
 class Peer:
@@ -98,11 +113,12 @@ class Peer:
             additional_headers=dict(self._address.headers),
             open_timeout=CONNECTING_S,
             ping_interval=PING_S,
-            ping_timeout=PONG_S,
+            ping_timeout=None,
             close_timeout=0.2,
             max_size=MOST_BYTES,
             compression=None,
             proxy=None,
+            create_connection=_Connection,
         )
 
     async def _talk(self, connection: ClientConnection) -> None:
@@ -112,14 +128,24 @@ class Peer:
             self._out.put_nowait(subscription)
         self.loss = ""
         self._changed()
-        sending = asyncio.create_task(self._send_all(connection))
+        beside = [
+            asyncio.create_task(self._send_all(connection)),
+            asyncio.create_task(self._drop_when_silent(connection)),
+        ]
         try:
             async for packet in connection:
                 self._receive(packet)
         finally:
-            sending.cancel()
-            with suppress(asyncio.CancelledError, ConnectionClosed):
-                await sending
+            for task in beside:
+                task.cancel()
+            await asyncio.gather(*beside, return_exceptions=True)
+
+    async def _drop_when_silent(self, connection: ClientConnection) -> None:
+        assert isinstance(connection, _Connection)
+        now = asyncio.get_running_loop().time
+        while (left := connection.heard_at + SILENT_S - now()) > 0:
+            await asyncio.sleep(left)
+        self.drop()
 
     async def _send_all(self, connection: ClientConnection) -> None:
         while True:

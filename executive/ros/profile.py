@@ -269,6 +269,8 @@ class Limits(_Section):
             fits = colon and one.isascii() and hour.isdigit() and minute.isdigit() and len(one) == 5
             if not fits or int(hour) > 23 or int(minute) > 59:
                 raise ValueError('should be like ["08:00", "20:00"]')
+        if value is not None and value[0] == value[1]:
+            raise ValueError("should end at another time than it begins; left out: at any time")
         return value
 
 

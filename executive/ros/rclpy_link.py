@@ -159,8 +159,13 @@ class RclpyLink:
         future.add_done_callback(settle)
         return await done
 
-    def subscribe(self, topic: str, kind: str, receive: Receive) -> Callable[[], None]:
-        """Be given all messages of a topic, in the quality in which they are published."""
+    def subscribe(
+        self, topic: str, kind: str, receive: Receive, *, urgent: bool = False
+    ) -> Callable[[], None]:
+        """Be given all messages of a topic, in the quality in which they are published.
+
+        Topics do not wait for one another here, so all is urgent.
+        """
 
         def take(message: Any) -> None:
             self._loop.call_soon_threadsafe(_give, receive, message)

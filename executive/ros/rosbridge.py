@@ -125,9 +125,11 @@ class RosbridgeLink:
         values = end.values if isinstance(end.values, dict) else {}
         return GoalEnd(end.status, values, one_line(text_of(end.values))[:200])
 
-    def subscribe(self, topic: str, kind: str, receive: Receive) -> Callable[[], None]:
-        """Be given all messages of a topic."""
-        return self._work.subscribe(topic, kind, receive)
+    def subscribe(
+        self, topic: str, kind: str, receive: Receive, *, urgent: bool = False
+    ) -> Callable[[], None]:
+        """Be given all messages of a topic, on the socket for stopping if that is urgent."""
+        return (self._stop if urgent else self._work).subscribe(topic, kind, receive)
 
     def publish(self, topic: str, kind: str, message: Message) -> None:
         """Publish a message, if there is a link."""

@@ -97,17 +97,17 @@ class Senses:
         if before is not None:
             before()
 
-    def feel_motion_anew(self) -> None:
-        """Forget what was heard of motion, and ask for it anew."""
+    def feel_motion_anew(self, *, urgent: bool = False) -> None:
+        """Forget what was heard of motion, and ask for it anew; urgent: ahead of all pictures."""
         self._base_moves = self._joints_move = None
+        topics = [(self._profile.odometry, "nav_msgs/msg/Odometry", self._take_odometry)]
+        if self._profile.joints is not None:
+            topics.append((self._profile.joints, "sensor_msgs/msg/JointState", self._take_joints))
         before = self._endings
-        odometry, joints = self._profile.odometry, self._profile.joints
         self._endings = [
-            self._link.subscribe(odometry.topic, "nav_msgs/msg/Odometry", self._take_odometry)
+            self._link.subscribe(topic.topic, kind, take, urgent=urgent)
+            for topic, kind, take in topics
         ]
-        if joints is not None:
-            kind = "sensor_msgs/msg/JointState"
-            self._endings.append(self._link.subscribe(joints.topic, kind, self._take_joints))
         for end in before:
             end()
 

@@ -30,7 +30,9 @@ LOOPBACK = "127.0.0.1"
 MOST_CLIENTS = 32
 MOST_BYTES = 2**22
 """Of one packet that a client sends."""
-PING_S, CLOSE_S = 20.0, 1.0
+PING_S, LOST_S, CLOSE_S = 20.0, 120.0, 1.0
+"""So often a client is asked whether it is there. It hears that after what it is sent before, which
+may be a picture over a thin link."""
 _THIS_MACHINE = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
 _BUSY, _TOO_SLOW = 1013, 1008
 """Codes with which a websocket is closed."""
@@ -122,7 +124,7 @@ class Server:
                 compression=None,
                 max_size=MOST_BYTES,
                 ping_interval=PING_S,
-                ping_timeout=PING_S,
+                ping_timeout=LOST_S,
                 close_timeout=CLOSE_S,
                 logger=_log,
             )

@@ -37,6 +37,10 @@ PARTS = {
     "gripper": "fingers",
 }
 """What moves, by the profile's sections."""
+DRIVEN = (
+    "the robot was at something when I connected, and I ended that: an earlier program had begun "
+    "it, or another one drives this robot now, too"
+)
 
 log = logging.getLogger(__name__)
 
@@ -50,6 +54,7 @@ class Brake:
         self._profile = profile
         self._senses = senses
         self._under_way: set[asyncio.Task[dict[str, str]]] = set()
+        self._was_greeted = self._ended_any = False
         link.greet_with(self._greet)
 
     async def _greet(self) -> None:
@@ -64,6 +69,9 @@ class Brake:
             await asyncio.sleep(AGAIN_S)
         for section, why in failures.items():
             log.warning("I could not tell my %s to stop: %s", PARTS[section], why)
+        if self._ended_any and not self._was_greeted:
+            log.warning(DRIVEN)
+        self._was_greeted = True
         if (speed := self._profile.limits.speed_m_s) is not None:
             limit: Message = {"percentage": False, "speed_limit": speed}
             self._link.publish(SPEED_TOPIC, SPEED_TYPE, limit)
@@ -122,6 +130,7 @@ class Brake:
             )
         except LinkError as error:
             return in_words(error)
+        self._ended_any |= bool(answer.get("goals_canceling"))
         return "it refuses" if answer.get("return_code") == REFUSED else ""
 
     async def stop(self) -> tuple[dict[str, str], str]:
@@ -134,12 +143,18 @@ class Brake:
             Which sections could not be stopped, and why; and what moves in the end, as a clause, or
             nothing.
         """
+        try:
+            return await self._stopped()
+        finally:
+            self._senses.feel_motion_anew()
+
+    async def _stopped(self) -> tuple[dict[str, str], str]:
         time = asyncio.get_running_loop().time
         cancelling = self._begin_to_cancel()
         latest, feeling, again = time() + REST_S, 0.0, time() + ASKING_S
         while True:
             if time() >= feeling:
-                self._senses.feel_motion_anew()
+                self._senses.feel_motion_anew(urgent=True)
                 feeling = time() + AGAIN_S
             await asyncio.sleep(LOOK_S)
             unrest = self._senses.unrest

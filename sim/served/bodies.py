@@ -47,6 +47,11 @@ class Body(Protocol):
         ...
 
     @property
+    def moves(self) -> bool:
+        """Whether any part of it does."""
+        ...
+
+    @property
     def computing(self) -> bool:
         """Whether it waits for something to be computed; no time passes meanwhile."""
         ...
@@ -122,6 +127,11 @@ class PhysicsBody:
         return self._robot.active
 
     @property
+    def moves(self) -> bool:
+        """By its encoders."""
+        return bool(self._robot.moving())
+
+    @property
     def computing(self) -> bool:
         """While it plans."""
         return self._robot.computing
@@ -176,6 +186,11 @@ class FakeBody:
     def busy(self) -> bool:
         """While anything is due."""
         return self.world.busy
+
+    @property
+    def moves(self) -> bool:
+        """While it drives."""
+        return self.world.drive is not None
 
     @property
     def computing(self) -> bool:

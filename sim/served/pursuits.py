@@ -93,6 +93,11 @@ class Pursuits:
                     self._halting = _Halting(self._body.start(Halt()))
                 self._halting.goals.append(goal)
 
+    def settle(self) -> None:
+        """Come to rest, if nothing is pursued: a look may end before the head is still."""
+        if not self._body.busy and self._body.moves:
+            self._halting = _Halting(self._body.start(Halt()))
+
     def take_ends(self) -> bool:
         """Tell of each that has ended; whether one of them was a look."""
         looked = False

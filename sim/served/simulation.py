@@ -85,6 +85,10 @@ class Simulation:
         """Give it up."""
         self._orders.put(partial(self._cancel, goal))
 
+    def settle(self) -> None:
+        """Come to rest, if nothing is pursued."""
+        self._orders.put(self._pursuits.settle)
+
     # --- the simulation ---
 
     @property

@@ -54,8 +54,19 @@ ACTIONS = {
     "/acme/drop": "acme_msgs/action/Drop",
     "/acme/way": "nav2_msgs/action/ComputePathToPose",
 }
+GOALS = {
+    "Go": {"where": "geometry_msgs/PoseStamped", "hurry": "boolean"},
+    "Grab": {"what": "string", "cloud": "sensor_msgs/PointCloud2"},
+    "Drop": {"near": "geometry_msgs/PointStamped"},
+}
+"""The types of their goals' fields."""
+HEADED = {
+    "geometry_msgs/PoseStamped": {"header": "std_msgs/Header", "pose": "geometry_msgs/Pose"},
+    "std_msgs/Header": {"stamp": "builtin_interfaces/Time", "frame_id": "string"},
+}
 FIXED_ARRAYS = ("/acme/odom", "/acme/lens")
 """What a rosbridge of before March 2026 cannot send as CBOR."""
+GOAL_DETAILS = "/rosapi/action_goal_details"
 EYE_M = 1.0
 WIDTH, HEIGHT, FOCAL = 64, 48, 60.0
 
@@ -177,7 +188,8 @@ class SecondRobot:
             case Unsubscribe(id=id):
                 self._clients[client].pop(id, None)
             case CallService():
-                values = self._answer(operation.service)
+                assert isinstance(operation.args, dict)
+                values = self._answer(operation.service, operation.args)
                 answer = ServiceResponse(operation.service, bool(values), values, operation.id)
                 await client.send(encode(answer))
             case SendActionGoal(action=action):
@@ -188,7 +200,7 @@ class SecondRobot:
             case CancelActionGoal(action=action):
                 await self._end(action, GoalStatus.CANCELED)
 
-    def _answer(self, service: str) -> dict[str, Any]:
+    def _answer(self, service: str, args: dict[str, Any]) -> dict[str, Any]:
         if service.endswith("/_action/cancel_goal"):
             action = service.removesuffix("/_action/cancel_goal")
             self.cancels += 1
@@ -199,13 +211,17 @@ class SecondRobot:
                 return {"return_code": 1, "goals_canceling": []}
             asyncio.ensure_future(self._end(action, GoalStatus.CANCELED))
             return {"return_code": 0, "goals_canceling": []}
+        if service == GOAL_DETAILS:
+            name = args["type"].rpartition("/")[2]
+            kinds = {f"acme_msgs/{name}_Goal": GOALS[name], **HEADED} if name in GOALS else {}
+            return {"typedefs": [_typedef(kind, fields) for kind, fields in kinds.items()]}
         feedbacks = {
             f"{n}/_action/feedback": f"{k}_FeedbackMessage" for n, k in self.actions.items()
         }
         told = {**self.topics, **feedbacks}
         return {
             "/rosapi/topics": {"topics": list(told), "types": list(told.values())},
-            "/rosapi/services": {"services": ["/rosapi/topics"]},
+            "/rosapi/services": {"services": ["/rosapi/topics", GOAL_DETAILS]},
             "/rosapi/action_servers": {"action_servers": list(self.actions)},
         }.get(service, {})
 
@@ -353,6 +369,10 @@ class SecondRobot:
             "position": np.array([width]),
             "velocity": np.array([0.0]),
         }
+
+
+def _typedef(kind: str, fields: dict[str, str]) -> dict[str, Any]:
+    return {"type": kind, "fieldnames": list(fields), "fieldtypes": list(fields.values())}
 
 
 def _cancels(operation: Operation) -> bool:

@@ -187,6 +187,45 @@ def test_check_says_what_only_messages_tell(
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("then", "now", "said"),
+    [
+        ('where = "$pose"', 'wher = "$pose"', "Go_Goal has no field wher; it has where, hurry"),
+        ('where = "$pose"', 'where = "$place"', "in acme_msgs/Go_Goal, and $place is not; $pose"),
+        ('"$pose"', '{ pos = "$pose" }', "PoseStamped has no field pos; it has header, pose"),
+        ('"$pose"', '{ header = { frame_id = 1 }, pose = "$pose" }', "frame_id is string in std"),
+        ("hurry = true", 'hurry = "yes"', "hurry is boolean in acme_msgs/Go_Goal, and yes is not"),
+        ("hurry = true", "hurry = 1", "hurry is boolean in acme_msgs/Go_Goal, and 1 is not"),
+        ('what = "$label"', 'what = "$points"', "pick.goal: what is string in acme_msgs/Grab_Goal"),
+        ('near = "$point"', 'near = "$pose"', "and $pose is not; $point"),
+    ],
+)
+def test_a_goal_that_does_not_fit_the_action_is_said_before_anything_moves(
+    there: SecondRobot,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    then: str,
+    now: str,
+    said: str,
+) -> None:
+    file = tmp_path / "slip.toml"
+    text = PROFILE.read_text()
+    assert then in text
+    file.write_text(text.replace(then, now))
+    assert look(["check", there.url, "--profile", str(file)]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_check_says_that_a_picture_may_come_too_late(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    there.told["/acme/range"] = {"header": {"stamp": {"sec": 0, "nanosec": 0}}}
+    file = tmp_path / "late.toml"
+    file.write_text(PROFILE.read_text().replace("[camera]", "[camera]\nlate_s = 0.5"))
+    assert look(["check", there.url, "--profile", str(file)]) == 2
+    assert "over a slow link, give camera.late_s more" in capsys.readouterr().err
+
+
 def test_profiles_that_come_along_can_be_read(capsys: pytest.CaptureFixture[str]) -> None:
     assert look(["profiles"]) == 0
     assert "nav2  a robot with Nav2" in capsys.readouterr().out

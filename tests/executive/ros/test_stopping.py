@@ -25,9 +25,11 @@ class Robot:
         self.deaf_to = 0.0
         """So many cancels of a drive come before it begins."""
         self.answers_only_at_rest: set[str] = set()
+        self.pursues: list[str] = []
+        """The ids of goals that are open when it is told to stop."""
 
     def greet_with(self, greeting: Any) -> None:
-        pass
+        self.greeting = greeting
 
     async def call(self, service: str, *_: Any, within_s: float, **__: Any) -> dict[str, Any]:
         action, hidden, _ = service.partition("/_action/cancel_goal")
@@ -35,7 +37,8 @@ class Robot:
         self.cancels[action] += 1
         if action in self.answers_only_at_rest:
             await self._rest(within_s)
-        return {"return_code": 0}
+        open_goals, self.pursues = self.pursues, []
+        return {"return_code": 0, "goals_canceling": open_goals}
 
     async def _rest(self, within_s: float) -> None:
         try:
@@ -45,7 +48,7 @@ class Robot:
         except TimeoutError:
             raise LinkError("it does not answer") from None
 
-    def feel_motion_anew(self) -> None:
+    def feel_motion_anew(self, *, urgent: bool = False) -> None:
         pass
 
     @property
@@ -83,3 +86,12 @@ def test_what_cannot_be_stopped_is_told_with_what_moves(monkeypatch: pytest.Monk
     failures, unrest = stopped(robot)
     assert failures == {"pick": "it does not answer"}
     assert unrest == "my base moves"
+
+
+def test_what_others_had_it_do_is_ended_and_told_once(caplog: pytest.LogCaptureFixture) -> None:
+    robot: Any = Robot()
+    Brake(robot, load_profile("served"), robot)
+    for _ in range(2):  # the second time, what it was at was begun here
+        robot.pursues = ["a goal"]
+        asyncio.run(robot.greeting())
+    assert caplog.messages == [stopping.DRIVEN]

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from patience import until
 from scipy.spatial.transform import Rotation
 from served import ZERO, Raw, look_goal, pick_goal, place_goal, pose_goal, served
 
@@ -74,6 +75,17 @@ def test_it_stops_within_half_a_second_of_its_time(unhurried: Raw) -> None:
     assert client.end_of(id)["status"] == 5
     assert _seconds(_time(client)) - before < 0.6
     assert _speed(client.subscribe("/odom", id="again")) < 0.01
+
+
+def test_what_still_swings_after_a_look_comes_to_rest_when_all_is_cancelled(client: Raw) -> None:
+    def swing() -> float:
+        return max(map(abs, client.subscribe("/joint_states", id="anew")["velocity"]))
+
+    client.do(DRIVE, place_goal("high_table"))
+    client.do(LOOK, look_goal("high_table"))
+    assert swing() > 0.02
+    assert not client.told(f"{DRIVE}/_action/cancel_goal", goal_info=ZERO)["goals_canceling"]
+    until(lambda: swing() < 0.02, "rest")
 
 
 @pytest.mark.parametrize("pose", [(100.0, 100.0), (3.1, 7.6)])
