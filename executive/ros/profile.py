@@ -269,6 +269,10 @@ class Limits(_Section):
             fits = colon and one.isascii() and hour.isdigit() and minute.isdigit() and len(one) == 5
             if not fits or int(hour) > 23 or int(minute) > 59:
                 raise ValueError('should be like ["08:00", "20:00"]')
+        if value and value[0] == value[1]:
+            raise ValueError(
+                "should be two times, or it would never drive; leave hours out for all day"
+            )
         return value
 
 

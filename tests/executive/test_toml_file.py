@@ -101,6 +101,11 @@ def test_any_text_like_toml_is_tables_or_a_sentence(text: str) -> None:
         ("PLACE", '{"mug":', "EXECUTIVE_PLACE: is not JSON"),
         ("PLACE", "9" * 5000, "EXECUTIVE_PLACE: is not JSON"),
         ("PLACE", '{"mug": {"a": 1}}', "EXECUTIVE_PLACE.mug: .*valid string"),
+        (
+            "PLACE",
+            '{"mug": "desk", "mug": "bed"}',
+            "EXECUTIVE_PLACE: has 'mug' 2 times; give it once",
+        ),
         ("KB", "[" * 100_000, "EXECUTIVE_.*nested too deep"),
     ],
 )

@@ -39,6 +39,7 @@ def fault_of(tmp_path: Path, text: str) -> str:
         ('color = "/acme/rgb"', "", "camera.color is missing"),
         ("[frames]", "[frames]\nhat = 1", "there is no key frames.hat"),
         ("[frames]", '[limits]\nhours = ["8", "9"]\n[frames]', "limits.hours"),
+        ("[frames]", '[limits]\nhours = ["08:00", "08:00"]\n[frames]', "or it would never drive"),
         ("[frames]", '[limits]\nhours = ["٠٨:00", "20:00"]\n[frames]', "should be like"),
         ('base = "body"', 'base = ""', "frames.base is ''; string should have at least 1"),
         ("[0.005, 0.035]", "[0.035, 0.005]", "hand: between should be two positions, the smaller"),

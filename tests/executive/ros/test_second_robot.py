@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 from itertools import pairwise
 from pathlib import Path
 
@@ -105,11 +106,15 @@ class TestLegs:
         assert ends[-1] == pytest.approx(four_rooms().stand("desk")[:2])
 
 
+LATER, LATEST = (f"{datetime.now() + timedelta(hours=hours):%H:%M}" for hours in (10, 11))
+"""A time of the day that it is not."""
+
+
 @pytest.mark.parametrize(
     ("limits", "place", "said"),
     [
         ('rooms = ["lobby"]', "cabinet_kitchen", "I may not go into the kitchen"),
-        ('hours = ["00:00", "00:00"]', "desk", "I may only drive from 00:00 to 00:00"),
+        (f'hours = ["{LATER}", "{LATEST}"]', "desk", f"I may only drive from {LATER} to {LATEST}"),
     ],
 )
 class TestLimits:
