@@ -32,6 +32,7 @@ from executive.cache import VARIABLE as CACHE
 from executive.errors import InputError
 from executive.servers.key import EARS_KEY, LLM_KEY
 from executive.text import writable
+from executive.toml_file import in_words as in_tomls_words
 from executive.toml_file import misread, read_toml, shown
 
 PREFIX = "EXECUTIVE_"
@@ -355,7 +356,7 @@ def in_words(fault: ErrorDetails) -> str:
     """What is wrong with a setting, without pydantic's own words about it."""
     if fault["type"] == "extra_forbidden":
         return "is no setting"
-    return fault["msg"].removeprefix("Value error, ")
+    return in_tomls_words(fault["msg"])
 
 
 def _address(url: str, secret: str = LLM_KEY) -> str:
@@ -432,6 +433,9 @@ def _refuse_unknown(names: Iterable[str]) -> None:
     """
     known = {PREFIX + name.upper() for name in Settings.model_fields} | NO_SETTINGS
     for name in sorted(names):
+        same = {other for other in names if other.upper() == name.upper()}
+        if len(same) > 1 and name.upper().startswith(PREFIX):
+            raise InputError(" and ".join(sorted(same)), "are the same setting", "keep one")
         if name.upper().startswith(PREFIX) and name.upper() not in known:
             near = get_close_matches(name.upper(), known, n=1, cutoff=0)[0]
             raise InputError(name, "is no setting", f"the nearest is {near}")

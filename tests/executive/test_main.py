@@ -115,6 +115,7 @@ def test_a_mission_that_is_not_done_says_why(
         (["--person", "Anna"], "person Anna: the ontology knows nobody of this name"),
         (["--memory", "."], "is no memory"),
         (["--runs", "/dev/null/runs"], "--runs"),
+        (["--profile", "nav2"], "needs none: it says what a robot over the wire has; give --robot"),
     ],
 )
 def test_bad_input_exits_2_with_one_sentence(

@@ -117,6 +117,14 @@ def test_a_wrong_variable_of_the_environment_is_named(
         load_settings()
 
 
+def test_two_variables_of_one_setting_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("EXECUTIVE_SEED", "3")
+    monkeypatch.setenv("executive_seed", "4")
+    sentence = "EXECUTIVE_SEED and executive_seed: are the same setting; keep one"
+    with pytest.raises(InputError, match=sentence):
+        load_settings()
+
+
 def test_a_bool_in_a_settings_file_or_a_programs_setting_is_no_number(tmp_path: Path) -> None:
     file = tmp_path / "settings.toml"
     file.write_text("question_s = true")
