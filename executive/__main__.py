@@ -157,11 +157,12 @@ def do(session: "Session", words: str, as_json: bool) -> int:
     """Do what is said, or answer it; the exit code."""
     if not as_json and session.talk(words):
         return DONE
-    return conclude(session.run(words), as_json)
+    outcome = session.run(words)
+    return conclude(outcome, session.is_recorded, as_json)
 
 
-def conclude(outcome: "Outcome", as_json: bool) -> int:
-    """Print the outcome, and turn it into an exit code."""
+def conclude(outcome: "Outcome", is_recorded: bool, as_json: bool) -> int:
+    """Print the outcome, and whether all of it is recorded; turn it into an exit code."""
     if as_json:
         from executive.app.run_folder import to_json
 
@@ -177,7 +178,8 @@ def conclude(outcome: "Outcome", as_json: bool) -> int:
             flush=True,
         )
         if outcome.run_dir:
-            print(f"  recorded in {printable(outcome.run_dir)}", flush=True)
+            lacks = "" if is_recorded else ", but not all of it: see the warnings"
+            print(f"  recorded in {printable(outcome.run_dir)}{lacks}", flush=True)
     if isinstance(sys.stdout, Terminal) and sys.stdout.lost:
         print(f"warning: standard output is lost: {sys.stdout.lost}", file=sys.stderr)
     return EXIT[outcome.status]

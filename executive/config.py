@@ -7,6 +7,7 @@ imported and built when the first settings are made.
 import json
 import os
 import re
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -24,13 +25,15 @@ from pydantic import (
     field_validator,
     model_validator,
 )
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from executive.cache import VARIABLE as CACHE
 from executive.errors import InputError
 from executive.servers.key import EARS_KEY, LLM_KEY
 from executive.text import writable
-from executive.toml_file import misread, read_toml
+from executive.toml_file import in_words as in_tomls_words
+from executive.toml_file import misread, read_toml, shown
 
 PREFIX = "EXECUTIVE_"
 """How the environment's variables of settings begin."""
@@ -353,7 +356,7 @@ def in_words(fault: ErrorDetails) -> str:
     """What is wrong with a setting, without pydantic's own words about it."""
     if fault["type"] == "extra_forbidden":
         return "is no setting"
-    return fault["msg"].removeprefix("Value error, ")
+    return in_tomls_words(fault["msg"])
 
 
 def _address(url: str, secret: str = LLM_KEY) -> str:
@@ -381,10 +384,22 @@ def _said_in_environment(settings: type[Settings]) -> dict[str, Any]:
 
     Raises:
         SettingsError: if something should be JSON, and is none.
+        InputError: if a table of it has a key twice, of which JSON would take the last.
     """
     from pydantic_settings import EnvSettingsSource  # see above
 
-    return EnvSettingsSource(cast(Any, settings), env_prefix=PREFIX)()
+    class Environment(EnvSettingsSource):
+        def decode_complex_value(self, field_name: str, field: FieldInfo, value: Any) -> Any:
+            def each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+                for key, count in Counter(key for key, _ in pairs).items():
+                    if count > 1:
+                        what = f"has {shown(key)} {count} times"
+                        raise InputError(PREFIX + field_name.upper(), what, "give it once")
+                return dict(pairs)
+
+            return json.loads(value, object_pairs_hook=each_once)
+
+    return Environment(cast(Any, settings), env_prefix=PREFIX)()
 
 
 def _environment() -> dict[str, Any]:
@@ -418,6 +433,9 @@ def _refuse_unknown(names: Iterable[str]) -> None:
     """
     known = {PREFIX + name.upper() for name in Settings.model_fields} | NO_SETTINGS
     for name in sorted(names):
+        same = {other for other in names if other.upper() == name.upper()}
+        if len(same) > 1 and name.upper().startswith(PREFIX):
+            raise InputError(" and ".join(sorted(same)), "are the same setting", "keep one")
         if name.upper().startswith(PREFIX) and name.upper() not in known:
             near = get_close_matches(name.upper(), known, n=1, cutoff=0)[0]
             raise InputError(name, "is no setting", f"the nearest is {near}")

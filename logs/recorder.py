@@ -71,14 +71,18 @@ class FanOut:
         self._now = now
         self._live = live
         self._writer: _Writer | None = None
+        self.is_whole = True
+        """Whether every log of the last mission has all of it, as far as that has been written."""
 
     def open(self, sinks: Sequence[Sink], started: datetime) -> None:
         """Begin a mission that started at this wall time; a mission still open is closed first."""
         self.close()
+        self.is_whole = True
         try:
             self._writer = _Writer(sinks, LIVE_FLUSH_S if self._live else FLUSH_S)
         except RuntimeError as error:  # no thread is to be had
             log.warning("the mission goes on without logs: %s", error)
+            self.is_whole = False
         self.record(Note("info", f"mission time 0 is {started.isoformat()}"))
 
     def record(self, record: Record) -> None:
@@ -90,6 +94,7 @@ class FanOut:
         """Write what is still queued, then finish all logs."""
         if self._writer is not None:
             self._writer.close(Stamp(self._now(), time.time_ns()))
+            self.is_whole = self._writer.is_whole
             self._writer = None
 
 
@@ -108,6 +113,8 @@ class _Writer:
         self._hurry = threading.Event()
         """Ends the rest."""
         self._lost = 0
+        self.is_whole = True
+        """Whether nothing was lost so far."""
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
 
@@ -119,6 +126,7 @@ class _Writer:
         """
         if not self._has_room(0.0 if self._lost else PATIENCE_S):
             self._lost += 1
+            self.is_whole = False
             return
         if self._lost:
             text = f"{self._lost} records were lost here: the logs could not keep up"
@@ -143,6 +151,7 @@ class _Writer:
         self._thread.join(CLOSE_S)
         if self._thread.is_alive():
             log.warning("the logs were not finished within %g s", CLOSE_S)
+            self.is_whole = False
 
     def _run(self) -> None:
         while True:
@@ -209,6 +218,7 @@ class _Writer:
     def _warn(self, stamp: Stamp, sink: Sink, what: str, error: BaseException) -> None:
         text = printable(f"{type(sink).__name__} {what}: {type(error).__name__}: {error}")
         log.warning(text)
+        self.is_whole = False
         self._write(stamp, Note("warning", text))
 
 

@@ -58,6 +58,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     view.set_defaults(run=_view)
     check = commands.add_parser("check", help="name all that is wrong with a home")
     check.add_argument("home", help="name or FILE.toml")
+    check.add_argument(
+        "--kb",
+        action="append",
+        default=[],
+        type=Path,
+        metavar="FILE",
+        help="own OWL file that has classes of the home, as given to missions; repeatable",
+    )
     check.add_argument("--json", action="store_true", help="print a JSON array of sentences")
     check.set_defaults(run=_check)
     generate = commands.add_parser("generate", help="make a home file of any size")
@@ -95,13 +103,25 @@ def _view(options: argparse.Namespace) -> int:
 def _check(options: argparse.Namespace) -> int:
     from sim.tools.checking import check_home, notes_on
 
-    faults = [str(fault) for fault in check_home(options.home)]
+    faults = [str(fault) for fault in (*_unknown(options), *check_home(options.home))]
     notes = [f"note: {note}" for note in notes_on(options.home)]
     if options.json:
         print(json.dumps([*faults, *notes], indent=2, ensure_ascii=False))
     else:
         print("\n".join([*notes, *(faults or [f"{printable(options.home)}: no faults"])]))
     return 1 if faults else 0
+
+
+def _unknown(options: argparse.Namespace) -> "tuple[InputError, ...]":
+    """What the ontology does not know, or knows as something else; of a sound file only."""
+    from kb.ontology.ontology import Ontology
+    from sim.home.home_file import inspect_home
+
+    ontology = Ontology(files=options.kb)
+    home, faults = inspect_home(options.home)
+    if home is None or faults:
+        return ()
+    return tuple(ontology.home_faults(home.places(), home.things(), home.file))
 
 
 def _generate(options: argparse.Namespace) -> int:

@@ -42,8 +42,13 @@ class Recording:
     policy: str
     view: bool = False
 
-    def sinks(self, folder: Path, started: datetime, before: dict[str, str]) -> list[Sink]:
-        """The logs of a mission; `before` is what was known of the robot when it began."""
+    def sinks(
+        self, folder: Path, started: datetime, before: dict[str, str]
+    ) -> tuple[list[Sink], bool]:
+        """The logs of a mission, as `open_sinks` has them.
+
+        `before` is what was known of the robot when it began.
+        """
         write(folder / "config.toml", self.used["config.toml"].decode())
         attachments = {
             **self.used,
@@ -115,8 +120,11 @@ def places_viewed(home: Home) -> tuple[str, ...]:
     return (*(place.name for place in home.places()), DELIVERY, FLOOR)
 
 
-def open_sinks(*makers: Callable[[], Sink]) -> list[Sink]:
-    """The logs that can be opened; for the others a warning, because the mission goes on."""
+def open_sinks(*makers: Callable[[], Sink]) -> tuple[list[Sink], bool]:
+    """The logs that can be opened, and whether these are all.
+
+    For the others there is a warning, because the mission goes on.
+    """
     sinks = []
     for make in makers:
         try:
@@ -124,4 +132,4 @@ def open_sinks(*makers: Callable[[], Sink]) -> list[Sink]:
         except Exception as error:
             why = in_words(error)
             log.warning("a log cannot be opened, the mission goes on without it: %s", why)
-    return sinks
+    return sinks, len(sinks) == len(makers)

@@ -46,8 +46,8 @@ def new_folder(runs: Path, started: datetime, words: str) -> Path:
     raise AssertionError("unreachable")
 
 
-def write(file: Path, text: str) -> None:
-    """Write a file of the run, whole or not at all.
+def write(file: Path, text: str) -> bool:
+    """Write a file of the run, whole or not at all, and return whether it was.
 
     A full disk must not end the mission, so it only warns.
     """
@@ -59,6 +59,8 @@ def write(file: Path, text: str) -> None:
         log.warning("cannot write %s: %s", printable(file), error.strerror)
         with suppress(OSError):
             new.unlink()
+        return False
+    return True
 
 
 def to_json(outcome: Outcome) -> str:

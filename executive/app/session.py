@@ -133,6 +133,8 @@ class Session:
         """How often the tree of the last mission was ticked."""
         self.folder: Path | None = None
         """Where the last mission left its recording."""
+        self.is_recorded = True
+        """Whether that recording has all of the mission; else warnings have told what it lacks."""
         self.stopped_by = ""
         """Who said stop in the last mission, or just after it; empty if nobody did.
 
@@ -216,8 +218,8 @@ class Session:
             self.heard.extend(situation.dialogue.heard)
         try:
             GuardedRecorder(self.recorder).record(Finished(outcome))
-            if self.folder:
-                write(self.folder / "outcome.json", to_json(outcome) + "\n")
+            if self.folder and not write(self.folder / "outcome.json", to_json(outcome) + "\n"):
+                self.is_recorded = False
         finally:
             self._close_logs()
         return outcome
@@ -236,6 +238,8 @@ class Session:
         except KeyboardInterrupt:
             self.recorder.close()
             raise
+        finally:
+            self.is_recorded = self.is_recorded and self.recorder.is_whole
 
     def _carry_out_safely(self, situation: Situation, started: datetime) -> None:
         """What fails before the tree is there to hear of it ends the mission, too."""
@@ -273,12 +277,14 @@ class Session:
         self.inbox.drop_all()
         self.parts.clock.restart()
         logs: list[Sink] = []
+        self.is_recorded = True
         try:
             if self.folder and self._recording:
                 before = self._before.to_metadata()
-                logs = self._recording.sinks(self.folder, started, before)
+                logs, self.is_recorded = self._recording.sinks(self.folder, started, before)
         except Exception as error:
             log.warning("the mission goes on without logs: %s", in_words(error))
+            self.is_recorded = False
         self.recorder.open([*logs, *self._sinks], started)
         try:
             self.embodiment.begin()

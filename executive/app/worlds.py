@@ -19,6 +19,12 @@ def embody(setup: Setup) -> Embodiment:
             settings ask for.
     """
     name = setup.settings.world
+    if setup.settings.profile and not setup.settings.robot:
+        raise InputError(
+            "setting 'profile'",
+            f"{setup.settings.body} needs none: it says what a robot over the wire has",
+            "give --robot ws://HOST:PORT, too, or leave --profile out",
+        )
     if setup.settings.robot:
         from executive.app.wire import wire  # websockets take a while to import
 

@@ -1,6 +1,7 @@
 """What a home adds to the ontology: furniture and rooms as individuals, things as classes."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 
 from rdflib import RDF, Literal, URIRef
 from rdflib.term import Identifier
@@ -67,6 +68,20 @@ class HomeAdditions:
         if color:
             self._graph.put(own, self._properties.iri(COLOR), Literal(color))
         self._things[thing.name] = (kind, color)
+
+    def faults(self, places: Iterable[Place], things: Iterable[Thing]) -> Iterator[InputError]:
+        """All for which some of these cannot be put in; the others are."""
+        rooms, put = dict[str, str](), list[Callable[[], object]]()
+        for place in places:
+            rooms[place.room] = place.room_kind
+            put.append(partial(self._individual, place.name, place.kind, "Furniture"))
+        put += [partial(self._individual, room, kind, "Room") for room, kind in rooms.items()]
+        put += [partial(self.add_thing, thing) for thing in things]
+        for one in put:
+            try:
+                one()
+            except InputError as fault:
+                yield fault
 
     def file(self) -> bytes:
         """All of it, in RDF/XML."""

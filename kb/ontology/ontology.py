@@ -299,6 +299,13 @@ class Ontology:
         """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
         return faults(self._graph, CLASSES, imports_met=not self.unmet_imports())
 
+    def home_faults(
+        self, places: Sequence[Place], things: Sequence[Thing], home: str
+    ) -> Iterator[InputError]:
+        """All for which another home, that of this file, would be refused; nothing is put in."""
+        graph = Graph(t for file in self._library.files for t in file.triples)
+        return HomeAdditions(graph, CLASSES, home).faults(places, things)
+
     def unused(self) -> Iterator[str]:
         """What the files say that the robot makes nothing of, a sentence each."""
         return unused(self._graph, CLASSES)

@@ -5,6 +5,7 @@ imports the Python module that an annotation names, and reads what a file import
 """
 
 import logging
+import re
 import warnings
 from dataclasses import dataclass
 from functools import lru_cache
@@ -28,6 +29,8 @@ Triple = tuple[Identifier, Identifier, Identifier]
 MOST_BYTES = 4_000_000
 MOST_TRIPLES = 100_000
 LONGEST_FAULT = 200
+_AT = re.compile(r"^None:(\d+):\d+:")
+"""How the reader of RDF/XML says in which line."""
 OWLREADY = "http://www.lesfleursdunormal.fr/static/_downloads/owlready_ontology.owl#"
 _RUNS_PYTHON = URIRef(OWLREADY + "python_module")
 
@@ -177,8 +180,11 @@ def _reason(error: Exception) -> str:
     """What a parser says, on one line; rdflib's Turtle parser quotes half of the file."""
     if isinstance(error, IndexError):
         return "it ends too early"
+    if "integer string conversion" in str(error):
+        return "it has a number of thousands of digits"
     line, why = getattr(error, "lines", None), getattr(error, "_why", None)
     said = f"line {line + 1}: {why}" if why and isinstance(line, int) else str(error)
+    said = _AT.sub(r"line \1:", said)
     return _shown(said or type(error).__name__)
 
 

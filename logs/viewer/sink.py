@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import assert_never
 
 import rerun as rr
-from rerun_bindings import flush_and_cleanup_orphaned_recordings
+from rerun_bindings import check_for_rrd_footer, flush_and_cleanup_orphaned_recordings
 
 from executive.records import (
     EventTaken,
@@ -67,6 +67,7 @@ class RerunSink:
         Raises:
             ExecutiveError: if the viewer does not start.
         """
+        self._path = path
         self._viewer = program.start() if view else None
         self._stream = rr.RecordingStream(APPLICATION)
         sinks: list[rr.FileSink | rr.GrpcSink] = []
@@ -150,7 +151,8 @@ class RerunSink:
         """Write the footer and close the file.
 
         Raises:
-            OSError: if that does not end: rerun may wait for ever for a disk that is full.
+            OSError: if that does not end, as rerun may wait for ever for a disk that is full; or if
+                the file is not whole then, of which rerun itself says nothing to us.
         """
         self._send_kept()
         closing = threading.Thread(target=self._let_go, name="rerun", daemon=True)
@@ -159,6 +161,8 @@ class RerunSink:
         if closing.is_alive():
             atexit.unregister(rr.rerun_shutdown)  # it would wait, too
             raise OSError(f"rerun does not finish its file within {FLUSH_S:g} s")
+        if self._path is not None and not check_for_rrd_footer(self._path):
+            raise OSError("rerun has not finished its file")
 
     def _let_go(self) -> None:
         """Disconnect, and end the threads that rerun keeps for a stream until it is asked to."""

@@ -124,6 +124,7 @@ def _labels_taken(what: str, labels: Sequence[str], names: Sequence[str]) -> Ite
 def _furniture_flaws(home: Home) -> Iterator[Flaw]:
     rooms = {room.name for room in home.rooms}
     spoken = {folded(room.kind): room.name for room in home.rooms}
+    spoken |= {folded(room.label): room.name for room in home.rooms if room.label}
     spoken |= {folded(name): name for name in rooms}
     kinds = {room.name: room.kind for room in home.rooms}
     yield from _taken(
@@ -137,8 +138,9 @@ def _furniture_flaws(home: Home) -> Iterator[Flaw]:
         yield f"the delivery table is named {home.delivery.name}", f"name it {DELIVERY}"
     for piece in (*home.furniture, home.delivery):
         of = f"furniture {piece.name}"
-        if room := spoken.get(folded(piece.name)):
-            yield f"{of}: room {room} is called the same", f"name it as in {piece.name}_table"
+        for called in filter(None, (piece.name, piece.label)):
+            if room := spoken.get(folded(called)):
+                yield f"{of}: room {room} is called the same", f"name it as in {called}_table"
         if piece.room not in rooms:
             yield f"{of}: no room {_cut(piece.room)}", f"rooms: {_some(r.name for r in home.rooms)}"
         if piece.form is None and piece.kind not in FORM_OF_KIND:

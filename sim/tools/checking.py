@@ -29,7 +29,8 @@ NEAR_M = 4.0
 def check_home(name_or_path: str) -> tuple[InputError, ...]:
     """Everything that is wrong with a home, each with its file and key and what would be right.
 
-    Faults of the file hide those that only a well-formed home can have: ways, then reach.
+    Faults of the file hide those of ways, and these the arm's: where the robot cannot stand, its
+    arm would be tried in vain, which takes long.
 
     Raises:
         InputError: if there is no such home or it is not TOML.
@@ -37,9 +38,8 @@ def check_home(name_or_path: str) -> tuple[InputError, ...]:
     home, faults = inspect_home(name_or_path)
     if home is None or faults:
         return faults
-    return tuple(
-        InputError(home.file, *fault) for fault in (*way_faults(home), *_reach_faults(home))
-    )
+    flaws = tuple(way_faults(home)) or tuple(_reach_faults(home))
+    return tuple(InputError(home.file, *flaw) for flaw in flaws)
 
 
 def notes_on(name_or_path: str) -> tuple[InputError, ...]:

@@ -7,12 +7,14 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from ontologies import ANNA, OWL
 from patience import PATIENCE_S
 
 from executive.__main__ import main
+from executive.app import run_folder, session
 
 pytestmark = pytest.mark.usefixtures("own_folder_and_signals")
 
@@ -52,6 +54,25 @@ def test_a_run_leaves_its_folder(capsys: pytest.CaptureFixture[str]) -> None:
         "outcome.json",
     }
     assert json.loads((folder / "outcome.json").read_text()) == outcome
+
+
+@pytest.mark.parametrize("taken", ["mission.mcap", "mission.rrd", "outcome.json.new"])
+def test_a_recording_that_lacks_something_is_not_called_whole(
+    taken: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [*FAKE, "--user", "oracle", "Find the mug"]
+    assert main(words) == 0
+    assert "but not all of it" not in capsys.readouterr().out
+    made = run_folder.new_folder
+
+    def with_a_name_taken(*asked: Any) -> Path:
+        folder = made(*asked)
+        (folder / taken).mkdir()
+        return folder
+
+    monkeypatch.setattr(session, "new_folder", with_a_name_taken)
+    assert main(words) == 0
+    assert "but not all of it: see the warnings" in capsys.readouterr().out
 
 
 def test_the_kept_config_runs_the_same_mission_again(capsys: pytest.CaptureFixture[str]) -> None:
@@ -94,6 +115,7 @@ def test_a_mission_that_is_not_done_says_why(
         (["--person", "Anna"], "person Anna: the ontology knows nobody of this name"),
         (["--memory", "."], "is no memory"),
         (["--runs", "/dev/null/runs"], "--runs"),
+        (["--profile", "nav2"], "needs none: it says what a robot over the wire has; give --robot"),
     ],
 )
 def test_bad_input_exits_2_with_one_sentence(

@@ -36,7 +36,7 @@ def test_a_folder_that_cannot_be_made_is_a_sentence(tmp_path: Path, name: str) -
 def test_a_file_that_a_full_disk_has_no_room_for_is_not_there_by_half(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    write(tmp_path / "outcome.json", "the one before")
+    assert write(tmp_path / "outcome.json", "the one before")
 
     def full(path: Path, *_: object, **__: object) -> None:
         path.touch()
@@ -44,7 +44,7 @@ def test_a_file_that_a_full_disk_has_no_room_for_is_not_there_by_half(
 
     monkeypatch.setattr(Path, "write_text", full)
     with caplog.at_level(logging.WARNING):
-        write(tmp_path / "outcome.json", "the new one")
+        assert not write(tmp_path / "outcome.json", "the new one")
     assert "No space left" in caplog.text
     assert [file.read_bytes() for file in tmp_path.iterdir()] == [b"the one before"]
 

@@ -101,6 +101,11 @@ def test_any_text_like_toml_is_tables_or_a_sentence(text: str) -> None:
         ("PLACE", '{"mug":', "EXECUTIVE_PLACE: is not JSON"),
         ("PLACE", "9" * 5000, "EXECUTIVE_PLACE: is not JSON"),
         ("PLACE", '{"mug": {"a": 1}}', "EXECUTIVE_PLACE.mug: .*valid string"),
+        (
+            "PLACE",
+            '{"mug": "desk", "mug": "bed"}',
+            "EXECUTIVE_PLACE: has 'mug' 2 times; give it once",
+        ),
         ("KB", "[" * 100_000, "EXECUTIVE_.*nested too deep"),
     ],
 )
@@ -108,6 +113,14 @@ def test_a_wrong_variable_of_the_environment_is_named(
     name: str, value: str, sentence: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(f"EXECUTIVE_{name}", value)
+    with pytest.raises(InputError, match=sentence):
+        load_settings()
+
+
+def test_two_variables_of_one_setting_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("EXECUTIVE_SEED", "3")
+    monkeypatch.setenv("executive_seed", "4")
+    sentence = "EXECUTIVE_SEED and executive_seed: are the same setting; keep one"
     with pytest.raises(InputError, match=sentence):
         load_settings()
 

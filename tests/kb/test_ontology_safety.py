@@ -222,7 +222,7 @@ def test_entities_that_shorten_iris_are_read(tmp_path):
         (MARKUP.format("<a/>" * 2_001), "has too much XML as values"),
         (MARKUP.format("&amp;x" * 2_001), "has too much XML as values"),
         (KETTLE.replace("Class", "Class" + PREFIXES, 1), "has more than 500 prefixes at one place"),
-        (KETTLE * 2 + '<h:Room rdf:ID="1 2"/>', "cannot be read as RDF/XML: .*"),
+        (KETTLE * 2 + '<h:Room rdf:ID="1 2"/>', r"cannot be read as RDF/XML: line \d+: .*"),
     ],
 )
 def test_a_file_that_is_too_much_or_broken_is_refused_in_a_sentence(tmp_path, content, fault):
@@ -236,7 +236,7 @@ def test_a_file_that_is_too_much_or_broken_is_refused_in_a_sentence(tmp_path, co
         ("<urn:a> <urn:b> " + "[ <urn:c> " * 5000, "is nested too deep"),
         ("<urn:a> <urn:b> " + "(" * 5000, "is nested too deep"),
         ("<urn:a> <urn:b> <urn:c>", "cannot be read as Turtle: it ends too early"),
-        ("<urn:a> <urn:b> " + "9" * 5000 + " .", "cannot be read as Turtle: Exceeds the limit"),
+        ("<urn:a> <urn:b> " + "9" * 5000 + " .", "it has a number of thousands of digits"),
         ("<urn:a> <urn:b> '" + "\\t" * 100_001 + "' .", "has more than 100000 escapes"),
         ("<urn:a> <urn:b> .", "cannot be read as Turtle: line 5: "),
         ("<urn:a> <urn:b> \x1b[31m .", r"cannot be read as Turtle: line [^\x1b]*"),

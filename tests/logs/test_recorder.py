@@ -92,6 +92,16 @@ def test_a_sink_that_raises_is_closed_and_dropped_and_the_others_are_told(
     assert warning in caplog.text
     assert broken.closed
     assert len(broken.entries) == 2
+    assert not fan_out.is_whole
+
+
+def test_a_mission_whose_logs_have_all_of_it_is_whole_also_after_one_that_was_not() -> None:
+    fan_out = FanOut(lambda: 0.0)
+    for sink, whole in ((BrokenSink(), False), (ListSink(), True)):
+        fan_out.open([sink], STARTED)
+        fan_out.record(Note("info", "one"))
+        fan_out.close()
+        assert fan_out.is_whole == whole
 
 
 def test_what_is_recorded_outside_a_mission_is_ignored() -> None:

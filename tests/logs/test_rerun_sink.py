@@ -1,6 +1,7 @@
 """A mission's rerun recording, read with rerun's own reader."""
 
 import os
+import resource
 import signal
 import sys
 from collections import Counter
@@ -223,6 +224,19 @@ def test_a_viewer_that_cannot_start_is_said_in_a_sentence(
         RerunSink(tmp_path / "a.rrd", view=True)
     with pytest.raises(ExecutiveError, match="does not start"):
         program.show(tmp_path / "a.rrd")
+
+
+def test_a_file_that_the_disk_has_no_room_to_finish_is_an_error(tmp_path: Path) -> None:
+    sink = RerunSink(tmp_path / "a.rrd")
+    sink.flush()
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    room = (tmp_path / "a.rrd").stat().st_size
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, before[1]))
+    try:
+        with pytest.raises(OSError, match="has not finished its file"):
+            sink.close()
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere no variable names a display")

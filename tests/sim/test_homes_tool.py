@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from ontologies import KETTLE, rdf
 from written_homes import FLAT
 
 from executive.__main__ import main as executive
@@ -130,6 +131,47 @@ def test_the_exit_status_says_fine_faulty_or_unreadable(tmp_path: Path, capsys):
     assert main(["check", str(file)]) == 2
     assert "not TOML" in capsys.readouterr().err
     assert main(["check", "villa"]) == 2
+
+
+def test_the_arm_is_not_tried_where_the_robot_cannot_stand(tmp_path: Path):
+    deep = FLAT.replace("[0.6, 1.2, 0.7]", "[1.6, 1.2, 0.7]")
+    file = tmp_path / "flat.toml"
+    file.write_text(
+        deep.replace('mug = "desk"', 'mug = { furniture = "desk", at = [-0.6, 0.3] }').replace(
+            "[4, 1, 90]", "[4, 0.4, -90]"
+        )
+    )
+    [fault] = check_home(str(file))
+    assert "delivery: there is no room for the robot to stand" in str(fault)
+
+
+TEAPOT = """
+[objects.teapot]
+kind = "Kettle"
+furniture = "desk"
+sphere = 0.07
+mass = 0.4
+"""
+
+
+def test_every_class_that_the_ontology_does_not_know_is_named(tmp_path: Path, capsys):
+    desk = 'kind = "Fruit"\nform = "table"'
+    flat = FLAT.replace('"LivingRoom"', '"Dungeon"').replace('kind = "Desk"', desk)
+    file = tmp_path / "flat.toml"
+    file.write_text(flat + TEAPOT)
+    assert main(["check", str(file)]) == 1
+    told = capsys.readouterr().out
+    assert "den: is a 'Dungeon', which the ontology lacks; known are Room, Kitchen" in told
+    assert "desk: is a 'Fruit', which is no kind of furniture; known are Furniture" in told
+    assert "teapot: is a 'Kettle', which the ontology lacks; known are Object" in told
+    assert len(told.splitlines()) == 3
+
+
+def test_a_class_of_ones_own_file_is_known(tmp_path: Path, capsys):
+    file = tmp_path / "flat.toml"
+    file.write_text(FLAT + TEAPOT)
+    assert main(["check", str(file), "--kb", str(rdf(tmp_path, KETTLE))]) == 0
+    assert "no faults" in capsys.readouterr().out
 
 
 def test_json_lists_the_sentences(tmp_path: Path, capsys):

@@ -126,6 +126,18 @@ def test_a_name_that_is_mistaken_for_another_is_refused(said, name: str, sentenc
     assert sentence in said(('"rack"', f'"{name}"'))
 
 
+@pytest.mark.parametrize("label", ["the Den", "living room"])
+def test_a_piece_that_is_called_like_a_room_is_refused(said, label: str) -> None:
+    sentence = "furniture rack: room den is called the same"
+    assert sentence in said(('name = "rack"', f'name = "rack"\nlabel = "{label}"'))
+
+
+def test_a_room_that_is_called_like_a_piece_is_refused(said) -> None:
+    assert "furniture rack: room den is called the same" in said(
+        ('name = "den"', 'name = "den", label = "the rack"')
+    )
+
+
 def test_a_name_with_the_room_before_or_behind_is_one_name(said) -> None:
     found = said(('"rack"', '"den_cabinet"'), ('"desk"', '"cabinet_den"'))
     assert "furniture cabinet_den and den_cabinet differ too little" in found
