@@ -80,9 +80,15 @@ def of_the_person(tab: Page) -> None:
 
 def of_the_experimenter(desk: Page, tab: Page) -> None:
     """One with a sentence and a choice held, one with two runs, one on a phone."""
-    for _ in range(2):
+    for _ in range(2):  # the robot knows the same before the second and before the third
         do(tab, "Find the sugar_box")
     desk.get_by_label("Your name").fill("Anna")
+    desk.get_by_label("Hold where it goes next").check()
+    say(tab, "Find the sugar_box")
+    desk.locator("#wizard .choice").wait_for()
+    desk.get_by_role("button", name="Send there instead").click()
+    desk.get_by_label("Hold where it goes next").uncheck()
+    ready(tab)
     desk.get_by_label("Hold what the robot says").check()
     desk.get_by_label("Hold where it goes next").check()
     say(tab, "Find a fruit")
@@ -101,8 +107,8 @@ def of_the_experimenter(desk: Page, tab: Page) -> None:
     desk.set_viewport_size(DESKTOP)
     desk.get_by_role("button", name="Past runs").click()
     desk.get_by_label("Words", exact=True).fill("sugar find")
-    expect(desk.locator("#runs tbody tr")).to_have_count(2)
-    for box in desk.locator("#runs tbody input").all():
+    expect(desk.locator("#runs tbody tr")).to_have_count(3)
+    for box in desk.locator("#runs tbody input").all()[:2]:  # the latest first
         box.check()
     desk.get_by_role("button", name="Two side by side").click()
     expect(desk.locator("#two .moment").last).to_contain_text("Tick", timeout=PATIENCE_MS)

@@ -123,16 +123,34 @@ def run_mission(
     change: Change = as_they_are,
     build: Build = mission_tree,
 ) -> Run:
-    """Run one mission; without `answers` the person is the always-right oracle.
+    """Run one mission in the instant world.
 
-    It is searched by the paper's stages: where the robot looks and asks is then the same in every
-    home. With `search="plan"` it goes by the ways, too, as missions do by default.
-
-    Two things can go wrong: `fault` says of each goal of the robot why it fails, or None, and
-    `mishaps` are what `--fault` orders of the world, as in `moved=mug:desk@1`.
-
-    `during` is called at the start of every goal of the robot, and may post events; `first` are
-    posted before the mission starts. `change` puts in other parts, and `build` makes the tree.
+    Args:
+        words: the command.
+        answers: what the person answers, one after the other (None: nothing); without, the person
+            is the always-right oracle.
+        replies: what the model replies, one after the other.
+        llm: whether there is a model.
+        remembers: whether the model is given the dialogue so far, as in the paper's third system.
+        defaults: whether the ontology knows default locations.
+        elicit: `rank` or `generate`.
+        search: `paper`: where the robot looks and asks is the same in every home; `plan`: it goes
+            by the ways, too, as missions do by default.
+        place: where things are, if not where the home file has them.
+        fault: says of each goal of the robot why it fails, or None.
+        mishaps: what `--fault` orders of the world, as in `moved=mug:desk@1`.
+        seed: of what is left to chance.
+        during: is called at the start of every goal of the robot, and may post events.
+        parameters: limits of patience and effort that are not the usual ones.
+        person: makes another person.
+        model: makes another scripted model.
+        first: events that are posted before the mission starts.
+        notebook: keeps the records; without, a new one does.
+        facts: a memory; without, nothing is remembered.
+        sources: who else knows where things are.
+        detector: makes another detector.
+        change: puts in other parts.
+        build: makes the tree.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
     settings = Settings(

@@ -91,9 +91,7 @@ class Ontology:
                 that the ontology does not have, a thing is called like something else, or nobody
                 knows the person.
         """
-        paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
-        read_files = (file if isinstance(file, OwlFile) else read(file) for file in paths)
-        self._library = Library(read_files, replaceable=(HOUSEHOLD.name, DEFAULTS.name))
+        self._library = _library(defaults, files)
         self._graph = Graph(t for file in self._library.files for t in file.triples)
         self._expect_vocabulary()
         self._graph.expect_bounded([_class(root) for root in ROOTS])
@@ -107,19 +105,16 @@ class Ontology:
         for own in things:
             self._home.add_thing(own)
         self._properties = Properties(self._graph, CLASSES)
-        label, names = self._graph.label, self._graph.names
+        label = self._graph.label
         self._things = tuple(self._graph.downwards(_class("Object")))
         self._things_by_name = {label(thing): thing for thing in reversed(self._things)}
         self._objects = self._graph.leaves(_class("Object"))
-        self._objects_by_words = self._index()
+        self._objects_by_words = self._index_of_objects()
         self._descriptions = self._describe()
         self._uses = Uses(
             (label(thing), texts(self._properties.every(thing, USE))) for thing in self._objects
         )
-        self._names_by_words = index_by_words(
-            [(words_of(label(thing)), label(thing)) for thing in self._things],
-            [(words_of(name), label(thing)) for thing in self._things for name in names(thing)],
-        )
+        self._names_by_words = self._index_of_names()
         self._person = self._person_named(person) if person else None
         self.place_names = PlaceNames(self.places(), self._called())
         """What the furniture and the rooms of the home are called."""
@@ -372,7 +367,15 @@ class Ontology:
         where = f"person {printable(name)}"
         raise InputError(where, "the ontology knows nobody of this name", right)
 
-    def _index(self) -> dict[str, tuple[str, ...]]:
+    def _index_of_names(self) -> dict[str, tuple[str, ...]]:
+        """Words, run together -> names of the things, also of kinds of things, that have them."""
+        label, names = self._graph.label, self._graph.names
+        return index_by_words(
+            [(words_of(label(thing)), label(thing)) for thing in self._things],
+            [(words_of(name), label(thing)) for thing in self._things for name in names(thing)],
+        )
+
+    def _index_of_objects(self) -> dict[str, tuple[str, ...]]:
         """Words, run together -> names of the objects that they may mean."""
         graph, known = self._graph, set(self._objects)
         objects = [(graph.called(thing), graph.label(thing)) for thing in self._objects]
@@ -407,6 +410,13 @@ class Ontology:
             for kinds in self._home.kinds.values()
             for name, kind in kinds.items()
         }
+
+
+def _library(defaults: bool, files: Sequence[Path | OwlFile]) -> Library:
+    """Ours and a person's own files, of which one with the IRI of one of ours takes its place."""
+    paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
+    read_files = (file if isinstance(file, OwlFile) else read(file) for file in paths)
+    return Library(read_files, replaceable=(HOUSEHOLD.name, DEFAULTS.name))
 
 
 def _class(name: str) -> URIRef:

@@ -10,11 +10,15 @@ from executive.geometry import Floats
 from executive.types.geometry import Pose
 from sim.body.arm import hold
 from sim.body.hardware import Hardware
-from sim.body.skill import CONTROL_S, CannotError, Skill
+from sim.body.skill import CONTROL_S, CannotError, Skill, pause, wait_until
 from sim.bullet.client import GRAVITY_M_S2
 from sim.manipulation.grasps import HandPose
 from sim.objects.objects import ObjectModel
 
+CLOSING_S = 2.0
+"""The fingers take no longer to close, or to come off a thing."""
+SETTLING_S = 0.3
+"""So long the fingers need to set off, and a thing to come to rest once they are off it."""
 _UNFELT_S = 0.2
 """What the fingers have not felt for longer has fallen."""
 _WEIGHING_S = 0.2
@@ -101,6 +105,11 @@ class Hand:
         """Press with this force (newtons): what both fingers will feel is this."""
         self._around, self._opened = held, False
         self._hardware.squeeze(force)
+
+    def until_still(self) -> Skill:
+        """Wait until the fingers, told to move just now, are still."""
+        yield from pause(SETTLING_S)
+        yield from wait_until(lambda: self._hardware.fingers_still, CLOSING_S)
 
     def open(self, gap: float) -> None:
         """Let go; a thing is in the hand as long as it is felt there."""

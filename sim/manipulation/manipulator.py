@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from executive.geometry import Floats
+from executive.geometry import Floats, vector3
 from executive.types.geometry import Pose
 from executive.types.perception import Detection
 from sim.body.arm import SLOW, follow
@@ -25,7 +25,7 @@ from sim.home.furniture import Furniture, Surface
 from sim.home.home import Home
 from sim.manipulation.clutter import over
 from sim.manipulation.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, grip_force, varied
-from sim.manipulation.hand import Hand, Held, LostError
+from sim.manipulation.hand import CLOSING_S, SETTLING_S, Hand, Held, LostError
 from sim.manipulation.placing import free_spots, stands
 from sim.manipulation.planning import PlanningWorld
 from sim.manipulation.reaching import (
@@ -48,17 +48,17 @@ RISES_M = (0.10, 0.05, 0.02)
 _RETREATS = 2
 """How often the robot backs off to fold its arm."""
 FEWEST_POINTS = 30
+"""A thing of which fewer points were seen is not well enough seen to be grasped."""
 _GOOD = 0.06
 """Grasps that cost more are tried only if no better one can be reached."""
 _GRASPS_TRIED = 8
+"""So many, of as different kinds as there are, are looked at for a way to them."""
 _SPOTS_TRIED, _TIMES = 12, 4
 """How many free spots are tried together, and how often, where none of them is in reach."""
 _FOLDED_WITHIN = 0.05
 """Farther than this from the folded pose (any joint but the last), the arm is out."""
-_CLOSING_S = 2.0
 _ALIKE = np.radians(30.0)
 """Grasps whose hands are turned by less are the same approach."""
-_SETTLING_S = 0.3
 _UPRIGHT = 0.99
 """Cosine of the tilt up to which a hand points down."""
 _DOWN = np.array([0.0, 0.0, -1.0])
@@ -212,8 +212,7 @@ class Manipulator:
         yield from self._look_at(point)
 
     def _look_at(self, point: Floats) -> Skill:
-        x, y, z = (float(value) for value in point)
-        yield from look_at(self._hardware, (x, y, z))
+        yield from look_at(self._hardware, vector3(point))
 
     def _choose_grasp(
         self, model: ObjectModel, pose: Pose, points: Floats, piece: Furniture | None
@@ -267,8 +266,7 @@ class Manipulator:
         facing = float(hardware.base_pose[2])
         held = Held.taken(model, pose, reach.hand, grasp.gap, facing)
         self.hand.close_on(held, grip_force(model, pose, reach.hand))
-        yield from pause(_SETTLING_S)
-        yield from wait_until(lambda: hardware.fingers_still, _CLOSING_S)
+        yield from self.hand.until_still()
         if not self.hand.touches:
             self.hand.open(grasp.gap)
             yield from follow(hardware, reach.way_back, SLOW)
@@ -281,7 +279,7 @@ class Manipulator:
             if self.hand.is_lifted(model, weight):
                 return
             self.hand.open(2 * FINGER_TRAVEL)
-            yield from wait_until(lambda: not self.hand.holding, _CLOSING_S)
+            yield from wait_until(lambda: not self.hand.holding, CLOSING_S)
         self.hand.settle()
         raise CannotError(f"the {model.name} slipped from my fingers")
 
@@ -344,8 +342,8 @@ class Manipulator:
         set_down = partial(self.hand.meets, weight)
         yield from self.hand.keep(follow(hardware, reach.last, SLOW, set_down))
         self.hand.open(gap)
-        yield from wait_until(lambda: not self.hand.touches, _CLOSING_S)
-        yield from pause(_SETTLING_S)
+        yield from wait_until(lambda: not self.hand.touches, CLOSING_S)
+        yield from pause(SETTLING_S)
         yield from follow(hardware, reach.way_back, SLOW)
 
     def _check_stands(self, model: ObjectModel, spot: Pose, piece: Furniture) -> Skill:

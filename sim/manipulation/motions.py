@@ -13,7 +13,7 @@ from executive.geometry import Floats, carried_by, heading
 from executive.types.geometry import Pose
 from sim.body.arm import follow
 from sim.body.hardware import ARM, Hardware
-from sim.body.skill import CannotError, Skill, Thinker, pause, wait_until
+from sim.body.skill import CannotError, Skill, Thinker
 from sim.goals import NO_MOTION, UNREACHABLE, Grip, MoveHand, MoveJoints
 from sim.manipulation.grasps import HandPose
 from sim.manipulation.hand import Hand
@@ -22,7 +22,6 @@ from sim.manipulation.reaching import POSTURES, any_path
 
 SHORT_M, TURNED = 0.2, 0.2
 """A way of the hand that is no longer, and no more of a turn (radians), is tried straight first."""
-_CLOSING_S, _SETTLING_S = 2.0, 0.3
 _IN_HAND = HandPose(np.zeros(3), Rotation.identity())
 """A load is told as the hand sees it."""
 Plan = Callable[[Floats, Floats], Sequence[Floats]]
@@ -67,8 +66,7 @@ class Motions:
             self._hand.open(goal.gap)
         else:
             self._hardware.squeeze(goal.force)
-        yield from pause(_SETTLING_S)
-        yield from wait_until(lambda: self._hardware.fingers_still, _CLOSING_S)
+        yield from self._hand.until_still()
 
     def _go(self, plan: Plan, goal: MoveHand | MoveJoints) -> Skill:
         base, arm = self._hardware.base_pose, self._hardware.arm_positions
