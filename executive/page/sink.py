@@ -87,7 +87,7 @@ class PageSink:
     def flush(self) -> None:
         """Tell the pages. Of all the ways that the robot went since the last time, they see one."""
         if self._pose is not None:
-            self._board.put("robot", _planar(self._pose))
+            self._board.put("robot", _planar(self._pose), waits=True)
         self._board.flush()
 
     def close(self) -> None:
@@ -147,7 +147,7 @@ class PageSink:
             _add(self._shown, frame)
         height, width, _ = frame.color.shape
         shown = {"number": frame.number, "width": width, "height": height, "seen": boxes}
-        self._board.put("camera", shown)
+        self._board.put("camera", shown, waits=boxes is None)
 
     def _finish(self, outcome: Outcome) -> None:
         self._board.put("doing", {"state": "rest"})

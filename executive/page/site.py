@@ -243,9 +243,9 @@ async def news(board: Board, known: int) -> AsyncIterator[str]:
     """
     loop, changed = asyncio.get_running_loop(), asyncio.Event()
 
-    def wake() -> None:
+    def wake(after_s: float) -> None:
         if not loop.is_closed():
-            loop.call_soon_threadsafe(changed.set)
+            loop.call_soon_threadsafe(loop.call_later, after_s, changed.set)
 
     board.wait_with(wake)
     try:
