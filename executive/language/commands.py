@@ -196,7 +196,8 @@ def _number(task: Task, members: Sequence[Thing]) -> int:
     if len(members) > 1:
         several = task.things and not task.things.one_of
         return len(members) if several or not task.things else task.things.number % len(members)
-    if not members or not task.verb.means.searches:
+    counts = task.verb.means.searches or task.verb == CommandKind.CLEAR
+    if not members or not counts:
         return 0
     number = members[0].number or 0
     return number if number != 1 or task.source else 0

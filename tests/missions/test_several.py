@@ -242,6 +242,23 @@ def test_furniture_is_cleared_of_all_that_is_seen_on_it() -> None:
     assert truly_done(table)
 
 
+def test_as_many_are_cleared_away_as_were_asked_for() -> None:
+    two = run("Clear two fruits from the dining table")
+    assert (two.outcome.status, on(two, "dining_table")) == (DONE, {"strawberry", "cracker_box"})
+    three = run("Clear three things from the coffee table")
+    assert three.outcome.status == NOT_DONE
+    assert three.outcome.reason.endswith("on the dining table; I know of no more.")
+
+
+def test_of_what_is_cleared_it_is_told_where_it_is_now_though_something_is_left() -> None:
+    table = run("Clear the dining table, but leave the banana")
+    assert table.outcome.reason == (
+        "I cleared away all three: the apple and the strawberry on the high table "
+        "and the cracker box in the cabinet in the kitchen."
+    )
+    assert table.outcome.visited == ("dining_table",) * 3
+
+
 def test_what_belongs_nowhere_else_goes_to_one_place_that_is_told() -> None:
     shelf = run("Clear the shelf in the lobby")
     assert {"hammer", "power_drill", "tennis_ball"} <= on(shelf, "sideboard")

@@ -110,8 +110,10 @@ class PutEachAway(Step):
         for name, here in found.items():
             goal = goals[name] or spare
             part = replace(command, kind=CommandKind.PUT, target=name, source=here, goal=goal)
-            parts.append(replace(part, exceptions=(), purpose=""))
-        self.situation.agenda.split(command, parts, len(parts), not_seen(self.context))
+            parts.append(replace(part, exceptions=(), purpose="", number=0))
+        wanted = command.number if command.number > 0 else len(parts)
+        unseen = "" if wanted < len(parts) else not_seen(self.context)
+        self.situation.agenda.split(command, parts, min(wanted, len(parts)), unseen)
         return self.succeed(", ".join(found))
 
     def _usual(self, name: str) -> list[str]:
