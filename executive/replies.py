@@ -9,6 +9,7 @@ from executive.language.commands import in_words
 from executive.language.meaning import (
     About,
     Question,
+    Relation,
     Request,
     Said,
     Statement,
@@ -195,7 +196,7 @@ def _told_of_one(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
     if name not in facts.beliefs():
         return "Thank you; but I may learn nothing, and shall not remember it."
     say = Wording(knowledge.called)
-    there = say.at(places[0]) if len(places) == 1 else _at(where)
+    there = say.at(places[0]) if len(places) == 1 else _at(where, places, knowledge)
     return f"Thank you: I remember that {say.are(name)} {there}."
 
 
@@ -259,6 +260,9 @@ def _one(things: Things, knowledge: Knowledge) -> tuple[str, str]:
     return "", f"'{words}' may be {Wording(knowledge.called).any_of(names)}: say which."
 
 
-def _at(where: Where) -> str:
-    """As it was said: "on the sofa"."""
-    return f"{where.relation.replace('_', ' ')} the {in_words(where)}"
+def _at(where: Where, named: Collection[str], knowledge: Knowledge) -> str:
+    """As it was said: "on the table"; what is at a room is in it."""
+    rooms = {place.room for place in knowledge.places() if place.name in named}
+    in_it = where.relation == Relation.AT and len(rooms) == 1
+    relation = Relation.IN if in_it else where.relation
+    return f"{relation.replace('_', ' ')} the {in_words(where)}"

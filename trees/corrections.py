@@ -106,9 +106,19 @@ def _correct_later(context: MissionContext, said: Correction, at_hand: Command, 
     if not task or not isinstance(commands, tuple):
         return ""
     [[command], *others] = commands
+    wanted = [at_hand, *(one.command for one in agenda.tasks if one is not task)]
+    if not others and any(_asks_for_the_same(context, command, one) for one in wanted):
+        agenda.strike_out(task)
+        return f"Then I do not {in_one_breath(context, (task.command,))}."
     agenda.change(task, command)
     agenda.add(others)
     return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} instead."
+
+
+def _asks_for_the_same(context: MissionContext, command: Command, other: Command) -> bool:
+    """Whether both are the same deed with the same things: one of them is enough."""
+    same = (command.kind, command.goal) == (other.kind, other.goal)
+    return same and objects_of(context, command) == objects_of(context, other)
 
 
 def _to_go_elsewhere(said: Correction) -> Things | None:

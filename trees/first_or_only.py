@@ -14,6 +14,8 @@ def first_of_all(
     context: MissionContext, things: Things, at_hand: Command, words: str, now: str
 ) -> str:
     """Do what is named before all else: what waits, or the deed at hand with it."""
+    if any(thing.pronoun for thing in things.members):
+        return f"{context.interpreter.not_understood(words)}. {now}"
     if said := waiting_first(context, things, at_hand, now):
         return said
     commands = corrected(Correction(things), at_hand, words)

@@ -268,7 +268,7 @@ def _name(thing: Thing) -> str:
 
     How many there are to be is no part of that, unless it is one: "one" may belong to the name.
     """
-    named = thing.words or thing.purpose or thing.pronoun
+    named = thing.words or thing.purpose or thing.pronoun or thing.superlative
     if thing.number not in (None, 1) and thing.words:
         return f"{thing.superlative} {thing.words}".strip()
     return thing.said if named else THING

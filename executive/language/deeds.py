@@ -91,7 +91,8 @@ class Deeds(Nouns):
 
     def further(self, parts: list[Part]) -> Further:
         """As in "... and the pear on the desk", "..., then to the sofa"."""
-        return Further(tuple(p for p in parts if not isinstance(p, Token)))
+        said = tuple(p for p in parts if not isinstance(p, Token))
+        return Further(said, by_and=is_a(parts[0], "AND"))
 
     def once_more(self, task: Task, further: Further, *, alone: bool) -> tuple[Task, ...]:
         """The same deed with other things, or at other places.
@@ -105,6 +106,8 @@ class Deeds(Nouns):
         places = [p for p in further.parts if not isinstance(p, Things)]
         if alone and task.things and things and not places:
             return (replace(task, things=things),)
+        if further.by_and and task.goal and task.things and things and not places:
+            return (replace(task, things=things, source=None),)  # "... and the pear, too"
         if task.conditional or (not (things and places) and task.verb not in _ELSEWHERE):
             raise Unfit(task.said)
         if things and places and task.things is None:  # "go to the desk and dance there"

@@ -8,6 +8,8 @@ from executive.types.commands import CommandKind
 
 _ALONE = (CommandKind.FIND, CommandKind.TAKE, CommandKind.BRING)
 """Deeds that another one with "it" may follow, which has them in it."""
+_THERE = (*_ALONE, CommandKind.CHECK, CommandKind.COUNT)
+"""What is done where the robot was just told to go: "go to the kitchen and find the mug"."""
 
 
 def folded(tasks: Sequence[Task]) -> tuple[Task, ...]:
@@ -32,7 +34,7 @@ def _is_on_the_way(task: Task) -> bool:
 
 def _places(task: Task) -> bool:
     """Whether it has a thing that may be where the robot was told to go before."""
-    return task.verb in _ALONE and task.source is None and not is_it(task.things)
+    return task.verb in _THERE and task.source is None and not is_it(task.things)
 
 
 def _goes_on(task: Task, done: Sequence[Task]) -> bool:

@@ -57,6 +57,8 @@ class Further:
     """Other things, or another place, of the deed that was said last."""
 
     parts: tuple[Part, ...]
+    by_and: bool
+    """Whether they are joined to it by more than a comma."""
 
 
 def is_a(part: Part, *types: str) -> bool:

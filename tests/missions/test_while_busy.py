@@ -713,3 +713,20 @@ def test_where_two_things_are_may_be_told_at_once() -> None:
     assert len(told_so) == 1
     assert "the hammer is on the sofa" in told_so[0]
     assert "the mug is on the bed" in told_so[0]
+
+
+@pytest.mark.parametrize("just", ["just ", "only ", ""])
+def test_not_this_but_that_takes_back_this_alone(just: str) -> None:
+    mission = run("Bring the hammer and the mug", f"not the hammer, {just}the mug")
+    assert brought(mission) == ["mug"]
+
+
+def test_what_is_to_be_first_has_to_be_named() -> None:
+    mission = run("Bring the mug, then the hammer", "first the last one")
+    assert brought(mission) == ["mug", "hammer"]
+    assert any(said.startswith("I do not understand") for said in answers(mission))
+
+
+@pytest.mark.parametrize("words", ["No no, to the sofa", "No, no, to the sofa"])
+def test_who_says_no_twice_means_it(words: str) -> None:
+    assert run("Bring the hammer", words).world.resting_place("hammer") == "sofa"

@@ -4,6 +4,7 @@ import pytest
 
 from executive.language.grammar import EnglishInterpreter
 from executive.language.meaning import About, Choice, Courtesy, Question, Refusal, Request
+from executive.language.spoken import Spoken
 
 read = EnglishInterpreter()
 
@@ -198,3 +199,48 @@ def test_wishes_in_other_words_are_wishes(words: str) -> None:
 def test_as_well_as_is_and() -> None:
     words = "Bring the apple as well as the pear"
     assert read.read(words) == read.read("Bring the apple and the pear")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Mind fetching me the mug?",
+        "I was hoping you could bring me the mug",
+        "Would it be too much to ask for the mug?",
+        "How about you bring the mug?",
+        "A mug would be nice",
+        "Alexa, bring me the mug",
+        "Bring me that mug",
+        "Bring the mug, wherever it is",
+    ],
+)
+def test_an_indirect_wish_is_one(words: str) -> None:
+    [[command]] = read.commands(words)
+    assert (command.kind, command.target) == ("bring", "mug")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Can you carry two things at once?",
+        "Can you lift heavy things?",
+        "Are you able to find things?",
+    ],
+)
+def test_what_it_can_do_is_asked_and_not_commanded(words: str) -> None:
+    assert read.commands(words) == ()
+    assert read.talk(words).startswith("I can find")
+
+
+@pytest.mark.parametrize("words", ["Have you got the mug?", "Do you have my mug?"])
+def test_whether_it_has_a_certain_thing_is_a_question(words: str) -> None:
+    assert read.commands(words) == ()
+    assert read.read(words) == Question(About.HAND)
+
+
+@pytest.mark.parametrize("this", ["this", "that", "these", "those"])
+def test_a_thing_that_is_pointed_to_is_named_all_the_same(this: str) -> None:
+    [[named]] = read.commands(f"Put {this} red mugs on the desk")
+    assert (named.target, named.goal) == ("red mugs", "desk")
+    [[other]] = read.commands(f"Put {this} on the desk", Spoken(("pear",)))
+    assert (other.target, other.goal) == ("pear", "desk")

@@ -173,9 +173,25 @@ def test_what_may_be_denied_or_wanted_is_neither_done_nor_passed_over(words: str
 
 @pytest.mark.parametrize("but", ["other than", "apart from", "excluding"])
 def test_what_is_left_out_of_what_is_not_understood_becomes_no_deed(but: str) -> None:
-    words = f"bring me anything {but} that peach"
+    words = f"bring me anything {but} the peach that she likes"
     assert not read.commands(words)
     assert read.denial(words) == but
+
+
+@pytest.mark.parametrize(
+    "but", ["but", ", but", "except", ", except for", "other than", "apart from"]
+)
+@pytest.mark.parametrize("peach", ["the peach", "that peach", "a peach"])
+def test_what_is_left_out_may_stand_behind_a_comma(but: str, peach: str) -> None:
+    [[command]] = read.commands(f"Bring me anything {but} {peach}")
+    assert (command.target, command.exceptions) == ("thing", ("peach",))
+
+
+@pytest.mark.parametrize("verb", ["get me", "hand me", "find"])
+def test_who_says_that_one_could_not_and_asks_whether_one_could_asks_for_it(verb: str) -> None:
+    [[command]] = read.commands(f"You couldn't {verb} the mug, could you?")
+    assert command.target == "mug"
+    assert not read.commands(f"You couldn't {verb} the mug.")
 
 
 def test_who_only_looks_need_not_be_told_to_leave_it() -> None:
