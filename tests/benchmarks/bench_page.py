@@ -1,7 +1,8 @@
 """What the page costs: `python tests/benchmarks/bench_page.py`, with Debian's chromium.
 
 How long it takes from what happens to its being in the page; what an open page costs while nothing
-happens; what missions in physics take while pages show them, and the page's part of it.
+happens; what missions in physics take while pages show them, the page's part of it, and what the
+browser takes beside it.
 """
 
 import argparse
@@ -17,6 +18,7 @@ from tempfile import TemporaryDirectory
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
+import psutil
 from browsing import chromium, opened
 from playwright.sync_api import Browser
 from playwright.sync_api import Page as Tab
@@ -94,12 +96,14 @@ class Cost:
     """What one mission took (s): wall time, processor time of this process, and the page's of it.
 
     Attributes:
+        browser: processor time of all of Chromium's processes meanwhile; no part of `process`.
         page: by part: its own thread, the log's thread while it writes what pages show, and the
             threads in which pictures are made.
     """
 
     wall: float
     process: float
+    browser: float
     page: dict[str, float]
 
     @property
@@ -120,10 +124,12 @@ def mission(page: Page | None, runs: Path, seed: int) -> Cost:
         if page:
             page.follow(session)
             with_page(watch, page.sink)
-        serving, cpu, began = serving_s(), time.process_time(), time.monotonic()
+        drawn, serving = browser_s(), serving_s()
+        cpu, began = time.process_time(), time.monotonic()
         session.run(WORDS)
         wall, process = time.monotonic() - began, time.process_time() - cpu
-        return Cost(wall, process, {"served": serving_s() - serving, **watch.seconds})
+        page_s = {"served": serving_s() - serving, **watch.seconds}
+        return Cost(wall, process, browser_s() - drawn, page_s)
 
 
 def with_page(watch: Stopwatch, sink: PageSink) -> None:
@@ -140,11 +146,22 @@ def serving_s() -> float:
     return time.clock_gettime(time.pthread_getcpuclockid(thread.ident))
 
 
+def browser_s() -> float:
+    """Processor time of all of Chromium's processes so far (s)."""
+    spent = 0.0
+    for process in psutil.Process().children(recursive=True):
+        if process.name().startswith("chromium"):
+            times = process.cpu_times()
+            spent += times.user + times.system
+    return spent
+
+
 def overhead(browser: Browser, page: Page, runs: Path, missions: int) -> None:
     """Missions in turn: without a page, with one that nobody has opened, with one open, with two.
 
     Wall time tells of the browser, too, which draws on the same cores; from one mission to the next
-    it differs by more than the page takes. Processor time of the page's own parts does not.
+    it differs by more than the page takes. Processor time of the page's own parts, and of the
+    browser, does not.
     """
     mission(None, runs, 0)
     ways = {"without a page": None, "none open": 0, "one open": 1, "two open": 2}
@@ -158,10 +175,14 @@ def overhead(browser: Browser, page: Page, runs: Path, missions: int) -> None:
     for way, costs in took.items():
         pairs = zip(costs, took["without a page"], strict=True)
         longer = median(one.wall / plain.wall - 1 for one, plain in pairs)
-        wall, process, share = (
-            median(getattr(one, name) for one in costs) for name in ("wall", "process", "share")
+        wall, process, browser_took, share = (
+            median(getattr(one, name) for one in costs)
+            for name in ("wall", "process", "browser", "share")
         )
-        print(f"a mission, {way}: {wall:.2f} s ({longer:+.1%}), processor {process:.2f} s")
+        print(
+            f"a mission, {way}: {wall:.2f} s ({longer:+.1%}), processor {process:.2f} s, "
+            f"and of the browser {browser_took:.2f} s"
+        )
         if way != "without a page":
             parts = ", ".join(
                 f"{part} {median(one.page.get(part, 0.0) for one in costs):.3f} s"
