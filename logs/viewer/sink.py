@@ -2,6 +2,7 @@
 
 import atexit
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import assert_never
 
@@ -66,6 +67,7 @@ class RerunSink:
 
         Raises:
             ExecutiveError: if the viewer does not start.
+            OSError: if the file cannot be opened, or that does not end.
         """
         self._path = path
         self._viewer = program.start() if view else None
@@ -77,7 +79,11 @@ class RerunSink:
         if self._viewer is not None:
             sinks.append(rr.GrpcSink(self._viewer.address))
         layout = blueprint.mission_blueprint()
-        self._stream.set_sinks(*sinks, default_blueprint=layout)
+        _within(
+            FLUSH_S,
+            lambda: self._stream.set_sinks(*sinks, default_blueprint=layout),
+            "rerun does not open its file",
+        )
         layout.let_go()
         self._stream.set_time(MISSION_TIME, duration=0.0)
         self._stream.set_time(TICK, sequence=0)
@@ -151,16 +157,11 @@ class RerunSink:
         """Write the footer and close the file.
 
         Raises:
-            OSError: if that does not end, as rerun may wait for ever for a disk that is full; or if
-                the file is not whole then, of which rerun itself says nothing to us.
+            OSError: if that does not end, or the file is not whole then, of which rerun itself says
+                nothing to us.
         """
         self._send_kept()
-        closing = threading.Thread(target=self._let_go, name="rerun", daemon=True)
-        closing.start()
-        closing.join(FLUSH_S)
-        if closing.is_alive():
-            atexit.unregister(rr.rerun_shutdown)  # it would wait, too
-            raise OSError(f"rerun does not finish its file within {FLUSH_S:g} s")
+        _within(FLUSH_S, self._let_go, "rerun does not finish its file")
         if self._path is not None and not check_for_rrd_footer(self._path):
             raise OSError("rerun has not finished its file")
 
@@ -226,6 +227,30 @@ class RerunSink:
     def _tell(self, kind: str, error: Exception) -> None:
         if note := self._unwritten.note(kind, error):
             self._write_line(note)
+
+
+def _within(seconds: float, do: Callable[[], None], fault: str) -> None:
+    """Do it, but wait no longer: rerun may wait for ever for a disk that is full.
+
+    Raises:
+        OSError: if it does not end, or fails.
+    """
+    failed: list[Exception] = []
+
+    def work() -> None:
+        try:
+            do()
+        except Exception as error:
+            failed.append(error)
+
+    working = threading.Thread(target=work, name="rerun", daemon=True)
+    working.start()
+    working.join(seconds)
+    if working.is_alive():
+        atexit.unregister(rr.rerun_shutdown)  # it would wait, too
+        raise OSError(f"{fault} within {seconds:g} s")
+    if failed:
+        raise OSError(f"{fault}: {failed[0]}") from failed[0]
 
 
 def _document(markdown_text: str) -> rr.TextDocument:

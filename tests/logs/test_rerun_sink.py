@@ -1,9 +1,11 @@
 """A mission's rerun recording, read with rerun's own reader."""
 
+import atexit
 import os
 import resource
 import signal
 import sys
+import threading
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -20,6 +22,7 @@ from executive.records import Picture, Record, Scene, Seen, Shape
 from executive.types.perception import Box
 from logs.recorder import Stamp
 from logs.viewer import program
+from logs.viewer import sink as module
 from logs.viewer.display import DISPLAYS
 from logs.viewer.sink import RerunSink
 
@@ -224,6 +227,18 @@ def test_a_viewer_that_cannot_start_is_said_in_a_sentence(
         RerunSink(tmp_path / "a.rrd", view=True)
     with pytest.raises(ExecutiveError, match="does not start"):
         program.show(tmp_path / "a.rrd")
+
+
+def test_a_file_that_rerun_never_opens_is_not_waited_for(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    released = threading.Event()
+    monkeypatch.setattr(module, "FLUSH_S", 0.01)
+    monkeypatch.setattr(rr.RecordingStream, "set_sinks", lambda *_, **__: released.wait())
+    monkeypatch.setattr(atexit, "unregister", lambda _: None)
+    with pytest.raises(OSError, match="rerun does not open its file within 0.01 s"):
+        RerunSink(tmp_path / "a.rrd")
+    released.set()
 
 
 def test_a_file_that_the_disk_has_no_room_to_finish_is_an_error(tmp_path: Path) -> None:
