@@ -27,7 +27,7 @@ class RobotClock:
 
     def restart(self) -> None:
         """Call this moment 0."""
-        self._now = 0.0
+        self._now = self._ahead = 0.0
         self._seen, self._looked = self._senses.elapsed, time.monotonic()
 
     def wait(self, deadline: float | None) -> None:
@@ -38,11 +38,14 @@ class RobotClock:
             self._look()
 
     def _look(self) -> None:
+        """Count what has passed; what real time has counted already, the robot's does not again."""
         seen, looked = self._senses.elapsed, time.monotonic()
         if looked - self._senses.clock_heard > SILENT_S:
             self._now += looked - self._looked
-        else:
-            self._now += seen - self._seen
+            self._ahead += looked - self._looked
+        elif seen > self._seen:
+            self._now += max(0.0, seen - self._seen - self._ahead)
+            self._ahead = 0.0
         self._seen, self._looked = seen, looked
 
 

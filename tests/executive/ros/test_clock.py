@@ -1,10 +1,13 @@
 """Mission time by the robot's own clock: as far as a goal is under way, and as that time passes."""
 
 import logging
+import time
 from typing import Any
 
 import pytest
 
+from executive.events import Inbox
+from executive.ros import clock
 from executive.ros.acting import Acting
 from executive.ros.profile import load_profile
 from executive.ros.senses import Senses
@@ -62,6 +65,20 @@ def test_that_it_is_set_is_told(
     with caplog.at_level(logging.WARNING):
         wire.tell(100.0, 7300.0)
     assert caplog.messages == ["the robot's clock was set by +7200 s, which do not count"]
+
+
+def test_time_in_which_the_clock_was_silent_counts_once(
+    wire: Any, senses: Senses, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(clock, "SILENT_S", 0.1)
+    wire.tell(0.0)
+    mission = clock.RobotClock(Inbox(), senses)
+    time.sleep(0.2)
+    mission.wait(0.0)
+    assert mission.now() > 0.1
+    wire.tell(50.0)
+    mission.wait(0.0)
+    assert mission.now() == pytest.approx(50.0)
 
 
 def test_only_the_time_at_goals_is_measured(wire: Any, senses: Senses) -> None:
