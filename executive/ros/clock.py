@@ -27,8 +27,8 @@ class RobotClock:
 
     def restart(self) -> None:
         """Call this moment 0."""
-        self._now = 0.0
-        self._seen, self._looked = self._senses.clock, time.monotonic()
+        self._now = self._ahead = 0.0
+        self._seen, self._looked = self._senses.elapsed, time.monotonic()
 
     def wait(self, deadline: float | None) -> None:
         """Sleep until an event is in the inbox or the deadline is reached."""
@@ -38,11 +38,14 @@ class RobotClock:
             self._look()
 
     def _look(self) -> None:
-        seen, looked = self._senses.clock, time.monotonic()
+        """Count what has passed; what real time has counted already, the robot's does not again."""
+        seen, looked = self._senses.elapsed, time.monotonic()
         if looked - self._senses.clock_heard > SILENT_S:
             self._now += looked - self._looked
-        elif seen is not None and self._seen is not None:
-            self._now += max(0.0, seen - self._seen)
+            self._ahead += looked - self._looked
+        elif seen > self._seen:
+            self._now += max(0.0, seen - self._seen - self._ahead)
+            self._ahead = 0.0
         self._seen, self._looked = seen, looked
 
 
@@ -83,12 +86,9 @@ class GoalTime:
         return self.passed()
 
     def passed(self) -> float:
-        """How much of it has passed since this was asked last (s).
-
-        None of it where its clock goes back: it was begun anew, while there was no link to it.
-        """
+        """How much of it has passed since this was asked last (s)."""
         before, self._counted = self._counted, self._robot.acted_s()
-        return max(0.0, self._counted - before)
+        return self._counted - before
 
     def close(self) -> None:
         """Nothing to free."""

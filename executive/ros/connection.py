@@ -14,11 +14,12 @@ from executive.ros.arm import Hands, NoHands
 from executive.ros.camera import LateError, Shutter, WireCamera
 from executive.ros.checking import faults
 from executive.ros.clock import GoalClock, RobotClock
+from executive.ros.deeds import Deeds, Places, Remote
 from executive.ros.link import Link, LinkError
 from executive.ros.losses import Losses
 from executive.ros.profile import Profile
 from executive.ros.rclpy_link import RclpyLink
-from executive.ros.robot import Places, WireRobot
+from executive.ros.robot import WireRobot
 from executive.ros.rosbridge import RosbridgeLink
 from executive.ros.senses import Senses
 from executive.ros.stopping import Brake
@@ -130,20 +131,9 @@ def connect(
 
     losses = Losses(line.link, profile.link_wait_s, brake.settled, tell_the_person)
     camera = WireCamera(line.wire, Shutter(line.link, profile, senses), losses)
-    robot = WireRobot(
-        line.wire,
-        line.link,
-        profile,
-        senses,
-        brake,
-        losses,
-        places,
-        ways,
-        inbox,
-        tell,
-        hands or NoHands(),
-        camera.points,
-    )
+    remote = Remote(line.link, profile, senses, brake, losses)
+    deeds = Deeds(remote, places, hands or NoHands(), camera.points)
+    robot = WireRobot(line.wire, remote, deeds, inbox, ways, tell)
     return Connection(line, robot, camera, _clock(profile, inbox, robot, senses), tell)
 
 

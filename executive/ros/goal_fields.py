@@ -66,7 +66,8 @@ def _misfits(goal: Mapping[str, Any], kind: str, fields: Fields) -> Iterator[tup
         return
     for name, value in goal.items():
         if name not in fields[kind]:
-            yield f"{kind} has no field {name}", f"it has {', '.join(fields[kind])}"
+            there = ", ".join(f"{one} ({told})" for one, told in fields[kind].items())
+            yield f"{kind} has no field {name}", f"it has {there}"
             continue
         told = fields[kind][name]
         for one in value if isinstance(value, list) else [value]:

@@ -1,6 +1,6 @@
 """A profile for a robot that nobody has described yet, guessed from what it offers."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from executive.ros.offers import Offers
 from executive.ros.templates import GOALS
@@ -90,7 +90,9 @@ def _action(offers: Offers, section: str, kinds: Iterable[str]) -> list[str]:
             return _section(section, {"action": names[0], "type": kind})
     untold = [name for name, kind in offers.actions.items() if not kind]
     if section == "drive":
-        return _section("drive", {"action": _first(untold), "type": next(iter(GOALS))})
+        there = [f"{name} ({kind or 'type not told'})" for name, kind in offers.actions.items()]
+        drive = {"action": _first(untold), "type": next(iter(GOALS))}
+        return _section("drive", drive, there)
     return []
 
 
@@ -112,16 +114,23 @@ def _camera(offers: Offers) -> list[str]:
     infos = offers.topics_of("sensor_msgs/msg/CameraInfo")
     beside = color.rpartition("/")[0] + "/camera_info"
     info = beside if beside in infos else _first(infos)
-    return _section("camera", {"color": color, "depth": _first(aligned or depths), "info": info})
+    others = [name for name in images if name != color]
+    topics = {"color": color, "depth": _first(aligned or depths), "info": info}
+    return _section("camera", topics, others)
 
 
-def _section(name: str, keys: dict[str, str]) -> list[str]:
-    return [f"[{name}]", *(f"{key} = {_quoted(value)}" for key, value in keys.items()), ""]
+def _section(name: str, keys: dict[str, str], there: Sequence[str] = ()) -> list[str]:
+    """The lines of a section; beside what was not found stands what there is instead."""
+    lines = [f"{key} = {_quoted(value, there)}" for key, value in keys.items()]
+    return [f"[{name}]", *lines, ""]
 
 
-def _quoted(value: str) -> str:
+def _quoted(value: str, there: Sequence[str] = ()) -> str:
     plain = printable(value).replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{plain}"' + ("" if value else "  # not found")
+    if value:
+        return f'"{plain}"'
+    others = printable(", ".join(there[:MOST_FRAMES]))
+    return '""  # not found' + (f"; there is {others}" if others else "")
 
 
 def _first(names: Iterable[str]) -> str:

@@ -1,12 +1,13 @@
 """What the robot says about itself all the time: frames, motion, hand and clock."""
 
 import asyncio
+import logging
 import math
 import time
 from collections.abc import Callable
 from contextlib import suppress
 
-from executive.ros.frames import FrameTree
+from executive.ros.frames import BACK_S, FrameTree
 from executive.ros.link import Link
 from executive.ros.messages import seconds, stamp_of, vector
 from executive.ros.packets import PacketError, numbers
@@ -19,8 +20,13 @@ RESTING_M_S, RESTING_RAD_S = 0.01, 0.02
 
 MOST_JOINTS = 2000
 """So many names are remembered."""
+LEAP_S = 60.0
+"""A clock that goes further at once was set: that time has not passed."""
 FEELING_S = 0.3
 """So long it may take until the hand is told of again."""
+
+
+log = logging.getLogger(__name__)
 
 
 class Senses:
@@ -31,6 +37,10 @@ class Senses:
         self.frames = FrameTree()
         self.clock: float | None = None
         """The robot's own time (s); None before it was heard of, or if nobody says it."""
+        self.elapsed = 0.0
+        """How much of its own time has passed since it was first heard of (s)."""
+        self._counted: float | None = None
+        """Up to which time that is."""
         self.clock_heard = 0.0
         """When that was (real time, s)."""
         self.joints: frozenset[str] = frozenset()
@@ -132,6 +142,14 @@ class Senses:
 
     def _take_clock(self, message: Message) -> None:
         self.clock, self.clock_heard = seconds(message["clock"]), time.monotonic()
+        passed = 0.0 if self._counted is None else self.clock - self._counted
+        if -BACK_S <= passed < 0.0:
+            return  # it came late, behind what was told after it
+        self._counted = self.clock
+        if 0.0 <= passed <= LEAP_S:
+            self.elapsed += passed
+        else:
+            log.warning("the robot's clock was set by %+.0f s, which do not count", passed)
 
     def _take_odometry(self, message: Message) -> None:
         twist = message["twist"]["twist"]

@@ -68,7 +68,7 @@ def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def house(tmp_path: Path, wait_s: float) -> Iterator[House]:
     inbox, file = Inbox(), tmp_path / "mine.toml"
-    look = f'{LOOK}goal = {{ at = "$point" }}\n'
+    look = f'{LOOK}goal = {{ where = {{ header = {{ frame_id = "$place" }} }} }}\n'
     rest = PROFILE.read_text().replace("[camera]", f"[camera]\nlate_s = {LATE_S}")
     file.write_text(f"link_wait_s = {wait_s}\n{rest}\n{look}")
     start = four_rooms().robot_start

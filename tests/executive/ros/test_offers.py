@@ -17,9 +17,9 @@ class Babbler(SecondRobot):
         super().__init__()
         self._wrong = service, values
 
-    def _answer(self, service: str) -> dict[str, Any]:
+    def _answer(self, service: str, args: dict[str, Any]) -> dict[str, Any]:
         wrong, values = self._wrong
-        return values if service == wrong else super()._answer(service)
+        return values if service == wrong else super()._answer(service, args)
 
 
 @pytest.mark.parametrize(

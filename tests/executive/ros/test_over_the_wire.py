@@ -154,6 +154,8 @@ def test_look_lists_what_the_robot_offers_and_proposes_a_profile(
     assert "/acme/go  acme_msgs/action/Go" in said
     assert 'map = "map"  # not told; there are body, ' in said
     assert '\ntopic = "/acme/odom"' in said
+    assert 'action = ""  # not found; there is /acme/go (acme_msgs/action/Go), ' in said
+    assert 'depth = ""  # not found; there is /acme/range\n' in said
     assert "# [joints]  # if velocities are told there" in said
     assert '# topic = "/acme/fingers"' in said
 
@@ -190,9 +192,13 @@ def test_check_says_what_only_messages_tell(
 @pytest.mark.parametrize(
     ("then", "now", "said"),
     [
-        ('where = "$pose"', 'wher = "$pose"', "Go_Goal has no field wher; it has where, hurry"),
+        (
+            'where = "$pose"',
+            'wher = "$pose"',
+            "no field wher; it has where (geometry_msgs/PoseStamped), ",
+        ),
         ('where = "$pose"', 'where = "$place"', "in acme_msgs/Go_Goal, and $place is not; $pose"),
-        ('"$pose"', '{ pos = "$pose" }', "PoseStamped has no field pos; it has header, pose"),
+        ('"$pose"', '{ pos = "$pose" }', "PoseStamped has no field pos; it has header (std_msgs/"),
         ('"$pose"', '{ header = { frame_id = 1 }, pose = "$pose" }', "frame_id is string in std"),
         ("hurry = true", 'hurry = "yes"', "hurry is boolean in acme_msgs/Go_Goal, and yes is not"),
         ("hurry = true", "hurry = 1", "hurry is boolean in acme_msgs/Go_Goal, and 1 is not"),
