@@ -22,6 +22,7 @@ import psutil
 from browsing import chromium, opened
 from playwright.sync_api import Browser
 from playwright.sync_api import Page as Tab
+from served import served_process
 from stopwatch import Stopwatch
 
 from executive import Session, load_settings
@@ -31,6 +32,7 @@ from executive.page.page import Page
 from executive.page.plan import plan
 from executive.page.sink import PageSink
 from executive.records import PlannedPath
+from executive.user import Scripted
 from logs.recorder import FanOut
 from sim.home.home_file import load_home
 
@@ -191,12 +193,36 @@ def overhead(browser: Browser, page: Page, runs: Path, missions: int) -> None:
             print(f"  the page's of it: {share:.2%} ({parts})")
 
 
+def in_real_time(browser: Browser, page: Page, runs: Path, missions: int) -> None:
+    """Missions of a robot for which a second is a second, in turn without a page and with two."""
+    took: dict[int, list[float]] = {0: [], 2: []}
+    for count, walls in list(took.items()) * missions:
+        inbox = Inbox()
+        shown = {"sinks": [page.sink]} if count else {}
+        with ExitStack() as stack:
+            robot = stack.enter_context(served_process("--speed", "1"))
+            settings = load_settings(llm="none", runs=runs, robot=robot, profile="served")
+            user = Scripted(inbox, ["on the counter wagon"])
+            session = stack.enter_context(Session(settings, inbox=inbox, user=user, **shown))
+            for _ in range(count):
+                stack.enter_context(opened(browser, page))
+            if count:
+                page.follow(session)
+            began = time.monotonic()
+            outcome = session.run(WORDS)
+            walls.append(time.monotonic() - began)
+            print(f"{count} pages: {walls[-1]:.2f} s, {outcome.status}")
+    longer = median(two / none - 1 for none, two in zip(took[0], took[2], strict=True))
+    print(f"a mission in real time, two open: {longer:+.1%}")
+
+
 def main() -> None:
     """Measure."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--times", type=int, default=200)
     parser.add_argument("--idle-s", type=float, default=20.0)
     parser.add_argument("--missions", type=int, default=7)
+    parser.add_argument("--real-time", type=int, default=1, metavar="MISSIONS")
     options = parser.parse_args()
     with ExitStack() as stack:
         runs = Path(stack.enter_context(TemporaryDirectory()))
@@ -211,6 +237,8 @@ def main() -> None:
                 idle(options.idle_s)
         if options.missions:
             overhead(browser, page, runs, options.missions)
+        if options.real_time:
+            in_real_time(browser, page, runs, options.real_time)
 
 
 if __name__ == "__main__":
