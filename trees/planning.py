@@ -87,7 +87,8 @@ class PlanNext(Step):
         search, parameters = self.situation.search, self.context.parameters
         whereabouts, looks = search.whereabouts, search.looks
         worth = [o for o in belief.places if whereabouts.may_look_at(o.place, looks)]
-        likely = [] if whereabouts.is_hidden(looks) else worth[: parameters.planned]
+        ends = whereabouts.is_hidden(looks) and not whereabouts.thinks
+        likely = [] if ends else worth[: parameters.planned]
         places = [one.place for one in likely]
         from_here = self._from_here(places)
         whereabouts.away = dict(zip(places, from_here, strict=True))
