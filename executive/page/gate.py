@@ -54,7 +54,7 @@ class Gate:
                 self._number += 1
                 self._held.append(Held(self._number, entry))
             else:
-                self._show(entry)
+                self._show_unchanged(entry)
         if held:
             self.changed()
 
@@ -68,10 +68,9 @@ class Gate:
             if (one := self.find(number)) is None:
                 return False
             self._held.remove(one)
-            if words != one.text:
-                self._changed[one.text] = words
-                while len(self._changed) > MOST_CHANGED:
-                    self._changed.popitem(last=False)
+            self._changed[one.text] = words
+            while len(self._changed) > MOST_CHANGED:
+                self._changed.popitem(last=False)
             if words:
                 self._show({**one.entry, "text": words})
         self.changed()
@@ -82,9 +81,14 @@ class Gate:
         with self._lock:
             self.holds = False
             for one in self._held:
-                self._show(one.entry)
+                self._show_unchanged(one.entry)
             self._held.clear()
         self.changed()
+
+    def _show_unchanged(self, entry: dict[str, Any]) -> None:
+        """Whatever was made of the same sentence before, it is said now; the lock is held."""
+        self._changed.pop(entry["text"], None)
+        self._show(entry)
 
     def as_said(self, text: str) -> str | None:
         """How a sentence was said, however it was made; None if the person did not hear it."""

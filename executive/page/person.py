@@ -65,6 +65,12 @@ class PagePerson(Console):
             self._doubt = session.doubt
             self._doubt.changed = self._show_asked_back
 
+    @property
+    def asked(self) -> str:
+        """The question that was asked last; empty if a command is listened for."""
+        question = self._question
+        return question.text if question else ""
+
     # --- the robot speaks ---
 
     def ask(self, question: Question) -> int:

@@ -61,7 +61,7 @@ class Wizard:
         by = _line(sent.get("by"))[:LONGEST_NAME] or SOMEBODY
         match sent:
             case {"deed": Deed.ANSWER, "question": int(question), "words": str(words)}:
-                done = bool(_line(words)) and self._person.answers(_line(words), question, by)
+                done = bool(_line(words)) and self._answer(by, question, _line(words))
             case {"deed": Deed.HOLD, "on": bool(on)}:
                 done = self._hold(by, on)
             case {"deed": Deed.WORDS, "number": int(number), "words": str(words)}:
@@ -79,6 +79,15 @@ class Wizard:
         if not done:
             raise InputError(str(sent["deed"]), OVER)
         return {}
+
+    def _answer(self, by: str, question: int, words: str) -> bool:
+        """A question that is still held when it is answered is said no more."""
+        asked = self._person.asked
+        done = self._person.answers(words, question, by)
+        for held in self._person.gate.held if done else ():
+            if held.text == asked:
+                self._say(by, held.number, "")
+        return done
 
     def _hold(self, by: str, on: bool) -> bool:
         gate = self._person.gate

@@ -11,6 +11,7 @@ from paging import Robot, heard, notice, robot, step_in, their_token, told
 
 from executive.events import Intervened
 from executive.page.experiment.wizard import AS_BEFORE
+from executive.page.gate import Gate
 from executive.page.page import Page
 from executive.records import Intervention
 from executive.replay import replay
@@ -92,6 +93,40 @@ def test_words_that_are_held_are_said_otherwise_or_never(stepped: Robot) -> None
     assert deeds[2][2] == ""
     said = [json.loads(c.json)["text"] for c in page.board.since(0) if c.name == "said"]
     assert deeds[2][1] not in said
+
+
+def test_a_question_that_is_held_and_answered_in_their_stead_is_said_no_more(
+    stepped: Robot,
+) -> None:
+    page = stepped.page
+    step_in(page, "hold", on=True)
+    page.says("Find the peach")
+    asked = "Where is the peach?"
+    notice(page, "words", holds=True, held=[{"number": 1, "text": asked}])
+    with closing(told(page, token=their_token(page), path="/experiment/events")) as reading:
+        waits = next(one.value for one in reading if one.name == "question" and one.value)
+    step_in(page, "answer", question=waits["id"], words="high_table")
+    outcome = stepped.ended(1)
+    step_in(page, "hold", on=False)
+    assert outcome.status == "done"
+    said = [json.loads(c.json)["text"] for c in page.board.since(0) if c.name == "said"]
+    assert "high_table" in said
+    assert asked not in said
+    deeds = [(deed, was, became) for _, deed, was, became in interventions(outcome)]
+    assert deeds[1:3] == [("answer", asked, "high_table"), ("words", asked, "")]
+
+
+def test_a_sentence_that_was_once_not_said_is_heard_when_it_is_said_again() -> None:
+    heard: list[str] = []
+    gate = Gate(lambda entry: heard.append(entry["text"]))
+    gate.holds = True
+    gate.say({"text": "Where?"})
+    gate.let_go(1, "")
+    assert gate.as_said("Where?") is None
+    gate.holds = False
+    gate.say({"text": "Where?"})
+    assert gate.as_said("Where?") == "Where?"
+    assert heard == ["Where?"]
 
 
 def test_what_was_held_is_said_in_order_when_nothing_is_held_any_more(stepped: Robot) -> None:
