@@ -36,6 +36,13 @@ class Wording:
         called = self._of(name)
         return _in_room(called) if called.says_room else _the(called)
 
+    def label(self, name: str) -> str:
+        """The same without an article: "cabinet in the kitchen"."""
+        called = self._of(name)
+        if called.says_room and called.room:
+            return f"{called.words} in {_with_article(called.room)}"
+        return called.words
+
     def are(self, name: str) -> str:
         """As in "the mug is", "the scissors are"."""
         return f"{self.the(name)} {self.is_(name)}"

@@ -10,6 +10,7 @@ from executive.app.speaking import vocabulary
 from executive.errors import InputError
 from executive.events import Inbox
 from executive.language.phrases import spoken
+from executive.language.wording import Wording
 from executive.page.address import Address
 from executive.page.board import Board
 from executive.page.experiment.desk import Desk
@@ -97,9 +98,10 @@ class Page:
     def follow(self, session: "Session") -> None:
         """Show the home and the missions of this session."""
         home = session.parts.home
+        wording = Wording(session.parts.knowledge.called)
         self._runs = Runs(session.settings.runs)
         self._portraits = Portraits(home.drawn_models())
-        self.board.put("home", plan(home))
+        self.board.put("home", plan(home, wording))
         self.board.put("things", _things(session, self._portraits))
         known = vocabulary(session.parts.knowledge)
         self.person.follow(session, (*known.things, *known.places))
@@ -109,7 +111,7 @@ class Page:
             self.desk.live.name = lambda: session.folder.name if session.folder else ""
             self.desk.look_in(session.settings.runs)
             if self.desk.wizard:
-                self.desk.wizard.know({p.name: spoken(p.name) for p in home.furniture})
+                self.desk.wizard.know({p.name: wording.label(p.name) for p in home.furniture})
                 session.standing = self.desk.wizard.standing
 
     @property

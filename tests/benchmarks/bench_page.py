@@ -27,6 +27,7 @@ from stopwatch import Stopwatch
 
 from executive import Session, load_settings
 from executive.events import Inbox
+from executive.language.wording import Wording
 from executive.page.address import Address
 from executive.page.page import Page
 from executive.page.plan import plan
@@ -61,7 +62,7 @@ def said(page: Page) -> None:
 
 def from_event_to_page(page: Page, tab: Tab, times: int) -> None:
     """Sentences come at once; what is recorded, with the recorder's next round."""
-    page.board.put("home", plan(load_home("four_rooms")))
+    page.board.put("home", plan(load_home("four_rooms"), Wording(lambda name: None)))
     page.board.flush()
     recorder = FanOut(lambda: 0.0)
     recorder.open([page.sink], datetime.now(UTC))

@@ -70,7 +70,7 @@ function rooms(home, question, say) {
     return here.length && element("fieldset", {},
       element("legend", {}, room.label),
       element("div", {}, ...here.map((piece) =>
-        button(piece.searched ? piece.label : text("delivery"), () => say(piece.name)))));
+        button(piece.searched ? piece.words : text("delivery"), () => say(piece.name)))));
   });
   return element("div", { class: "rooms" }, ...groups.filter(Boolean));
 }

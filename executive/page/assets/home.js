@@ -22,7 +22,7 @@ export function showHome(plan) {
   const [left, lower, right, upper] = plan.extent;
   map.setAttribute("viewBox", [left - MARGIN_M, -upper - MARGIN_M,
     right - left + 2 * MARGIN_M, upper - lower + 2 * MARGIN_M].join(" "));
-  for (const name of ["floor", "furniture", "way", "marks", "people", "robot"]) {
+  for (const name of ["floor", "way", "robot", "furniture", "marks", "people"]) {
     layers[name] = drawn("g");
     map.append(layers[name]);
   }
@@ -51,7 +51,7 @@ export function offerPlaces(choose, mayBe) {
     return drawn("g", choice,
       drawn("rect", { class: "furniture", transform: turned, rx: 0.04,
         x: -depth / 2, y: -width / 2, width: depth, height: width }),
-      piece.searched ? drawn("text", { class: "label", ...within(x, piece.label), y: -y + 0.07 }, piece.label) : null);
+      piece.searched ? drawn("text", { class: "label", ...within(x, piece.words), y: -y + 0.07 }, piece.words) : null);
   }));
 }
 
@@ -125,7 +125,8 @@ export function showPlaces(found) {
   layers.marks.replaceChildren(...[sighting, ...places.map(mark)].filter(Boolean));
 }
 
-function labelOf(name) {
+/** A piece of furniture as the robot calls it. */
+export function labelOf(name) {
   return home?.furniture.find((piece) => piece.name === name)?.label ?? spoken(name);
 }
 

@@ -4,7 +4,7 @@ import { mayBe, showAnswers, showAskedBack, showSuggestions } from "./answers.js
 import { showCamera } from "./camera.js";
 import * as conversation from "./conversation.js";
 import * as ears from "./ears.js";
-import { offerPlaces, showHome, showPlaces, showRobot, showWay } from "./home.js";
+import { labelOf, offerPlaces, showHome, showPlaces, showRobot, showWay } from "./home.js";
 import { OVER, answer, follow, say as send, settle, stop as sendStop } from "./robot.js";
 import { load, spoken, text, textOr } from "./texts.js";
 import * as voice from "./voice.js";
@@ -103,7 +103,7 @@ function sentenceOf(state) {
     activity,
     thing: spoken(state.thing || "thing"),
     held: spoken(state.held ?? ""),
-    place: spoken(state.place ?? ""),
+    place: labelOf(state.place ?? ""),
   };
   if (!activity) return text("doing.busy");
   if (activity === "driving" && state.place) return text("doing.driving_to", values);

@@ -29,6 +29,11 @@ def test_names_are_said_in_words(name: str, words: str) -> None:
     assert say.the(name) == words
 
 
+def test_a_label_is_what_is_said_without_an_article() -> None:
+    assert say.label("cabinet_kitchen") == "cabinet in the kitchen"
+    assert say.label("high_table") == "high table"
+
+
 def test_the_room_is_said_where_it_helps_and_never_twice() -> None:
     assert say.at("counter_wagon") == "on the counter wagon"
     assert say.at_in_full("counter_wagon") == "on the counter wagon in the kitchen"
