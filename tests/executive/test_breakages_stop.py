@@ -60,6 +60,7 @@ class _Typing:
     def __init__(self, house: House) -> None:
         self.house = house
         self.left = list(self.commands)
+        self.is_recorded = house.session.is_recorded
 
     @property
     def stopped_by(self) -> str:
