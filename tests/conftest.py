@@ -13,6 +13,8 @@ from patience import PATIENCE_S
 
 from executive.testing.bench import four_rooms
 
+pytest.register_assert_rewrite("executive.testing.contracts")  # so that they tell what was there
+
 LIMITS = {
     "executive.campaign.cluster": ("CONNECTING_S",),
     "executive.ros.actions": ("LINK_S", "PATH_S"),

@@ -58,7 +58,12 @@ class ThinWire:
         to.setblocking(False)
         await self._loop.sock_connect(to, (host, int(port)))
         far, farther = await asyncio.open_connection(sock=to, limit=BUFFER)
-        await asyncio.gather(self._carry(near, farther), self._carry(far, nearer))
+        try:
+            await asyncio.gather(self._carry(near, farther), self._carry(far, nearer))
+        except asyncio.CancelledError:  # the wire ends
+            for writer in (nearer, farther):
+                writer.transport.abort()
+            raise
 
     async def _carry(self, one: asyncio.StreamReader, other: asyncio.StreamWriter) -> None:
         other.transport.set_write_buffer_limits(BUFFER)
