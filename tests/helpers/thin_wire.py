@@ -4,7 +4,7 @@ import asyncio
 import socket
 import threading
 import time
-from contextlib import suppress
+from contextlib import closing, suppress
 
 from patience import PATIENCE_S
 
@@ -53,17 +53,16 @@ class ThinWire:
 
     async def _pass(self, near: asyncio.StreamReader, nearer: asyncio.StreamWriter) -> None:
         host, port = self._to.removeprefix("ws://").split(":")
-        to = socket.socket()
-        to.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER)
-        to.setblocking(False)
-        await self._loop.sock_connect(to, (host, int(port)))
-        far, farther = await asyncio.open_connection(sock=to, limit=BUFFER)
-        try:
-            await asyncio.gather(self._carry(near, farther), self._carry(far, nearer))
-        except asyncio.CancelledError:  # the wire ends
-            for writer in (nearer, farther):
-                writer.transport.abort()
-            raise
+        with closing(nearer.transport), socket.socket() as to:
+            to.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER)
+            to.setblocking(False)
+            await self._loop.sock_connect(to, (host, int(port)))
+            far, farther = await asyncio.open_connection(sock=to, limit=BUFFER)
+            try:
+                await asyncio.gather(self._carry(near, farther), self._carry(far, nearer))
+            finally:  # also when the wire ends
+                for writer in (nearer, farther):
+                    writer.transport.abort()
 
     async def _carry(self, one: asyncio.StreamReader, other: asyncio.StreamWriter) -> None:
         other.transport.set_write_buffer_limits(BUFFER)
@@ -72,7 +71,8 @@ class ThinWire:
                 await self._wait_for(len(chunk))
                 other.write(chunk)
                 await other.drain()
-        other.close()
+            other.close()
+            await other.wait_closed()
 
     async def _wait_for(self, size: int) -> None:
         async with self._turn:
