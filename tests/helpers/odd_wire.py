@@ -2,12 +2,11 @@
 
 import asyncio
 import random
-import threading
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from patience import PATIENCE_S
+from beside import Beside
 from websockets.asyncio.client import connect
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
@@ -27,50 +26,28 @@ class Mischief:
 
 
 @dataclass
-class OddWire:
+class OddWire(Beside):
     """Stands before a server; `with` ends it."""
 
     to: str
     seed: int = 0
     mischief: Mischief = field(default_factory=Mischief)
     cuts: int = 0
-    port: int = 0
     passing: int = 0
     """So many connections pass through now."""
 
-    def __enter__(self) -> "OddWire":
+    def __post_init__(self) -> None:
         self._chance = random.Random(self.seed)
-        self._loop = asyncio.new_event_loop()
-        self._over = asyncio.Event()
-        self._started = threading.Event()
-        self._thread = threading.Thread(target=self._run, daemon=True)
-        self._thread.start()
-        assert self._started.wait(PATIENCE_S)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._loop.call_soon_threadsafe(self._over.set)
-        self._thread.join(PATIENCE_S)
 
     @property
     def is_whole(self) -> bool:
         """Whether a robot's link passes through, with both of its sockets."""
         return self.passing >= 2
 
-    @property
-    def url(self) -> str:
-        return f"ws://127.0.0.1:{self.port}"
-
-    def _run(self) -> None:
-        with asyncio.Runner(loop_factory=lambda: self._loop) as runner:
-            runner.run(self._serve())
-
-    async def _serve(self) -> None:
+    async def serve(self) -> None:
         options: dict[str, Any] = {"compression": None, "max_size": LARGEST}
         async with serve(self._pass, "127.0.0.1", 0, **options) as server:
-            self.port = next(iter(server.sockets)).getsockname()[1]
-            self._started.set()
-            await self._over.wait()
+            await self.listens(next(iter(server.sockets)).getsockname()[1])
 
     async def _pass(self, here: ServerConnection) -> None:
         with suppress(OSError, ConnectionClosed):

@@ -6,7 +6,6 @@ It glides in straight lines, in real time; what it may grab lies within its reac
 import asyncio
 import json
 import math
-import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -14,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from beside import Beside
 from patience import PATIENCE_S
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
@@ -71,7 +71,7 @@ EYE_M = 1.0
 WIDTH, HEIGHT, FOCAL = 64, 48, 60.0
 
 
-class SecondRobot:
+class SecondRobot(Beside):
     """The robot and its server, on a thread of its own; `with` ends it."""
 
     topics, actions = TOPICS, ACTIONS
@@ -96,29 +96,10 @@ class SecondRobot:
         self.shut = False
         """Whether nobody is let in."""
         self.headers: list[dict[str, str]] = []
-        self.port = 0
         self._clients: dict[ServerConnection, dict[str, Subscribe]] = {}
         self._under_way: dict[str, tuple[ServerConnection, SendActionGoal]] = {}
         self.time_s = 1000.0
         """The robot's own time, which a busy machine slows as it slows all else."""
-        self._loop = asyncio.new_event_loop()
-        self._started = threading.Event()
-        self._over = asyncio.Event()
-        self._thread = threading.Thread(target=self._run, daemon=True)
-
-    def __enter__(self) -> "SecondRobot":
-        self._thread.start()
-        assert self._started.wait(PATIENCE_S)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._loop.call_soon_threadsafe(self._over.set)
-        self._thread.join(PATIENCE_S)
-        self._loop.close()
-
-    @property
-    def url(self) -> str:
-        return f"ws://127.0.0.1:{self.port}"
 
     @property
     def busy(self) -> bool:
@@ -153,16 +134,11 @@ class SecondRobot:
 
     # --- the server ---
 
-    def _run(self) -> None:
-        self._loop.run_until_complete(self._serve())
-
-    async def _serve(self) -> None:
+    async def serve(self) -> None:
         how: dict[str, Any] = {"compression": None, "process_request": self._let_in}
         async with serve(self._talk, "127.0.0.1", 0, **how) as server:
-            self.port = next(iter(server.sockets)).getsockname()[1]
             life = asyncio.create_task(self._live())
-            self._started.set()
-            await self._over.wait()
+            await self.listens(next(iter(server.sockets)).getsockname()[1])
             life.cancel()
 
     def _let_in(self, client: ServerConnection, _: Request) -> Response | None:

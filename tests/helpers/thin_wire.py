@@ -2,54 +2,29 @@
 
 import asyncio
 import socket
-import threading
 import time
 from contextlib import closing, suppress
 
-from patience import PATIENCE_S
+from beside import Beside
 
 CHUNK = 2048
 BUFFER = 8192
 """So little waits on the way: what is sent waits with who sends it."""
 
 
-class ThinWire:
+class ThinWire(Beside):
     """Stands before a server, and lets so many bytes through in a second; `with` ends it."""
 
     def __init__(self, to: str, bytes_per_s: float) -> None:
         self.bytes_per_s = bytes_per_s
         """0: it is there, and nothing comes through any more."""
-        self.port = 0
         self._to = to
         self._free_at = 0.0
         self._turn = asyncio.Lock()
-        self._over = asyncio.Event()
-        self._started = threading.Event()
-        self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(target=self._run, daemon=True)
 
-    def __enter__(self) -> "ThinWire":
-        self._thread.start()
-        assert self._started.wait(PATIENCE_S)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._loop.call_soon_threadsafe(self._over.set)
-        self._thread.join(PATIENCE_S)
-
-    @property
-    def url(self) -> str:
-        return f"ws://127.0.0.1:{self.port}"
-
-    def _run(self) -> None:
-        with asyncio.Runner(loop_factory=lambda: self._loop) as runner:
-            runner.run(self._serve())
-
-    async def _serve(self) -> None:
+    async def serve(self) -> None:
         async with await asyncio.start_server(self._pass, "127.0.0.1", 0, limit=BUFFER) as server:
-            self.port = server.sockets[0].getsockname()[1]
-            self._started.set()
-            await self._over.wait()
+            await self.listens(server.sockets[0].getsockname()[1])
 
     async def _pass(self, near: asyncio.StreamReader, nearer: asyncio.StreamWriter) -> None:
         host, port = self._to.removeprefix("ws://").split(":")

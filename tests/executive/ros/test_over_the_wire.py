@@ -183,8 +183,7 @@ def test_check_says_what_only_messages_tell(
     now: str,
     said: str,
 ) -> None:
-    file = tmp_path / "slip.toml"
-    file.write_text(PROFILE.read_text().replace(then, now))
+    file = with_slip(tmp_path, then, now)
     assert look(["check", there.url, "--profile", str(file)]) == 2
     assert said in capsys.readouterr().err
 
@@ -214,20 +213,25 @@ def test_a_goal_that_does_not_fit_the_action_is_said_before_anything_moves(
     now: str,
     said: str,
 ) -> None:
-    file = tmp_path / "slip.toml"
-    text = PROFILE.read_text()
-    assert then in text
-    file.write_text(text.replace(then, now))
+    file = with_slip(tmp_path, then, now)
     assert look(["check", there.url, "--profile", str(file)]) == 2
     assert said in capsys.readouterr().err
+
+
+def with_slip(folder: Path, then: str, now: str) -> Path:
+    """The robot's profile, with something else in it."""
+    text = PROFILE.read_text()
+    assert then in text
+    file = folder / "slip.toml"
+    file.write_text(text.replace(then, now))
+    return file
 
 
 def test_check_says_that_a_picture_may_come_too_late(
     there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     there.told["/acme/range"] = {"header": {"stamp": {"sec": 0, "nanosec": 0}}}
-    file = tmp_path / "late.toml"
-    file.write_text(PROFILE.read_text().replace("[camera]", "[camera]\nlate_s = 0.5"))
+    file = with_slip(tmp_path, "[camera]", "[camera]\nlate_s = 0.5")
     assert look(["check", there.url, "--profile", str(file)]) == 2
     assert "over a slow link, give camera.late_s more" in capsys.readouterr().err
 
