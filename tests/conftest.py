@@ -19,7 +19,6 @@ LIMITS = {
     "executive.campaign.cluster": ("CONNECTING_S",),
     "executive.ros.actions": ("LINK_S", "PATH_S"),
     "executive.ros.camera": ("FRAME_S", "LINK_S"),
-    "executive.ros.deeds": ("FACING_S",),
     "executive.ros.rclpy_link": ("SERVER_S",),
     "executive.ros.thread": ("LEAVING_S",),
     "kb.llm.llama": ("CLOSING_S",),

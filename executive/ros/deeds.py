@@ -35,6 +35,8 @@ from executive.types.results import Failed, Succeeded
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
 FACING_S = 2.0
+TURNS = 2
+"""So often it is turned to a point: where it was may have been told too late for the first."""
 MOVED_M = 0.3
 """A base that is so far from where it arrived is somewhere else."""
 TELLING_S = 1.0
@@ -228,25 +230,29 @@ class Deeds:
         if not 0 <= view < self.views(place):
             return Failed(f"there are only {self.views(place)} views of the {place}")
         target = point or self._looking.target(place, view)
-        if self._profile.look is not None:
-            end = await self._act("look", self._looking.goal(place, target))
-            if not end.succeeded:
-                return self._actions.failure(end, f"I cannot look at the {place}")
-            if self._profile.look.type.endswith("/PointHead"):
+        look = self._profile.look
+        for _ in range(TURNS if look is not None else 1):
+            if look is not None:
+                end = await self._act("look", self._looking.goal(place, target))
+                if not end.succeeded:
+                    return self._actions.failure(end, f"I cannot look at the {place}")
+                if look.type.endswith("/PointHead"):
+                    return Succeeded()
+            if await self._faces(target):
                 return Succeeded()
-        return await self._checked(place, target)
+        return Failed(f"I cannot turn to look at the {place}")
 
-    async def _checked(self, place: str, target: Vector3) -> Succeeded | Failed:
-        """Whether the robot faces what it is to look at, as far as its frames tell.
+    async def _faces(self, target: Vector3) -> bool:
+        """Whether the robot faces a point of `map`, as far as its frames tell.
 
         They may come a little later than the end of the goal that turned it.
         """
         latest = asyncio.get_running_loop().time() + FACING_S
         while self._looking.away(target) > BESIDE_RAD:
             if asyncio.get_running_loop().time() > latest:
-                return Failed(f"I cannot turn to look at the {place}")
+                return False
             await asyncio.sleep(0.02)
-        return Succeeded()
+        return True
 
     # --- handling ---
 

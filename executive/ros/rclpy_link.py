@@ -9,6 +9,9 @@ import threading
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any
+from uuid import uuid4
+
+import numpy as np
 
 from executive.guards import in_words
 from executive.ros.link import GoalEnd, LinkError, Receive
@@ -19,8 +22,9 @@ from executive.ros.rclpy_messages import fill, to_table, type_named
 NODE = "robot_executive"
 SERVER_S = 3.0
 """So long an action's server may take to be found."""
-MATCHING_S = 0.5
-"""A server that is found may find who asks it this much later: a goal in between would be lost."""
+MEETING_S = 4.0
+"""So long a server that is found may take to find who asks it."""
+AGAIN_S = 0.2
 DISCOVERY_S, QUIET_S = 15.0, 3.5
 """So long a graph may take to be discovered; one to which nothing is added for so long is whole: a
 heartbeat, every 3 s by Fast DDS's defaults, tells again what a lost packet hid."""
@@ -58,8 +62,8 @@ class RclpyLink:
         self._spinning.start()
         self._greeter: asyncio.Task[None] | None = None
         self._actions: dict[str, Any] = {}
-        self._new: set[str] = set()
-        """Actions to which no goal was sent yet."""
+        self._met: set[str] = set()
+        """Actions whose server has found who asks it."""
         self._clients: dict[str, Any] = {}
         self._publishers: dict[str, Any] = {}
 
@@ -121,7 +125,11 @@ class RclpyLink:
             self._loop.call_soon_threadsafe(feedback, to_table(message.feedback))
 
         sent = client.send_goal_async(fill(made.Goal(), goal), feedback_callback=hear)
-        handle = await self._awaited(sent)
+        try:
+            handle = await self._awaited(sent)
+        except asyncio.CancelledError:
+            sent.add_done_callback(_call_off)
+            raise
         if not handle.accepted:
             return GoalEnd(GoalStatus.ABORTED, {}, f"{action} refuses the goal")
         try:
@@ -137,17 +145,36 @@ class RclpyLink:
         made = type_named(kind)
         if action not in self._actions:
             self._actions[action] = ActionClient(self._node, made, action)
-            self._new.add(action)
         client = self._actions[action]
         latest = self._loop.time() + SERVER_S
         while not client.server_is_ready():
             if self._loop.time() > latest:
                 raise LinkError(f"nobody serves {action}")
             await asyncio.sleep(LOOK_S)
-        if action in self._new:
-            await asyncio.sleep(MATCHING_S)
-            self._new.discard(action)
+        if action not in self._met:
+            await self._meet(action)
+            self._met.add(action)
         return client, made
+
+    async def _meet(self, action: str) -> None:
+        """Wait until the server of an action has found who asks it; its answers are lost before.
+
+        What a node has is found in the order in which it was made, so once a client that is newer
+        than the action's is answered, the action's will be. It asks to cancel a goal that is none.
+        """
+        kind = type_named("action_msgs/srv/CancelGoal")
+        asker = self._node.create_client(kind, f"{action}/_action/cancel_goal")
+        none = {"goal_info": {"goal_id": {"uuid": np.frombuffer(uuid4().bytes, np.uint8)}}}
+        latest = self._loop.time() + MEETING_S
+        try:
+            while self._loop.time() < latest:
+                with suppress(TimeoutError):
+                    async with asyncio.timeout(AGAIN_S):
+                        await self._awaited(asker.call_async(fill(kind.Request(), none)))
+                        return
+            log.warning("%s does not answer: I send it a goal nevertheless", action)
+        finally:
+            self._node.destroy_client(asker)
 
     async def _awaited(self, future: Any) -> Any:
         """The result of one of rclpy's futures."""
@@ -208,6 +235,11 @@ async def _greet(greeting: Callable[[], Awaitable[None]]) -> None:
         await greeting()
     except Exception as error:
         log.warning("the robot was not greeted: %s", in_words(error))
+
+
+def _call_off(sent: Any) -> None:
+    if sent.exception() is None and sent.result().accepted:
+        sent.result().cancel_goal_async()
 
 
 def _settle(done: "asyncio.Future[Any]", ended: Any) -> None:

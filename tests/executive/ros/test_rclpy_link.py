@@ -91,7 +91,7 @@ def node() -> Iterator[Node]:
 @pytest.fixture
 def wire(node: Node, monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[WireThread, RclpyLink]]:
     """A link that has found the node, and that the node has found."""
-    monkeypatch.setattr(rclpy_link, "MATCHING_S", 2.0)
+    monkeypatch.setattr(rclpy_link, "MEETING_S", PATIENCE_S)
     thread = WireThread()
 
     async def join() -> RclpyLink:

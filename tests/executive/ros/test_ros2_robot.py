@@ -44,7 +44,7 @@ def _patient() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(checking, "HEARING_S", PATIENCE_S)
         patch.setattr(door, "LISTENING_S", 5.0)
-        patch.setattr(rclpy_link, "MATCHING_S", 2.0)
+        patch.setattr(rclpy_link, "MEETING_S", PATIENCE_S)
         yield
 
 
@@ -103,6 +103,12 @@ def test_it_drives_in_legs_and_looks_by_turning(here: tuple[Connection, Bench], 
         bench.do(LookAt("desk", point=(x - math.sin(yaw), y + math.cos(yaw), 0.0))) == Succeeded()
     )
     assert robot.at[2] == pytest.approx(yaw + math.pi / 2, abs=0.1)
+
+
+def test_it_turns_again_if_where_it_was_is_told_late(here: tuple[Connection, Bench]) -> None:
+    _, bench = here
+    assert bench.do(DriveTo("shelf_lobby")) == Succeeded()
+    assert bench.do(LookAt("shelf_lobby")) == Succeeded()
 
 
 def test_a_picture_is_of_colour_and_depth_where_the_camera_is(
