@@ -8,6 +8,7 @@ from executive.clock import RealClock
 from executive.errors import InputError
 from executive.events import BodyTold, Inbox
 from executive.guards import in_words
+from executive.heap import keep_what_is_freed
 from executive.interfaces.runtime import Clock
 from executive.ros.address import ROS2, Address
 from executive.ros.arm import Hands, NoHands
@@ -107,6 +108,7 @@ def connect(
     Raises:
         InputError: if nobody answers there, or the profile does not fit the robot.
     """
+    keep_what_is_freed()
     line = dial(address)
 
     async def sense() -> tuple[Senses, Brake, list[InputError]]:

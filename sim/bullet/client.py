@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from functools import partial
 from inspect import isbuiltin
 
+from executive.heap import keep_what_is_freed
 from sim.engine import BulletClient
 from sim.engine import pybullet as p
 
@@ -15,6 +16,7 @@ GRAVITY_M_S2 = 9.81
 
 def connect(gui: bool = False) -> BulletClient:
     """An empty world with gravity, computed in this process; `gui` opens PyBullet's own window."""
+    keep_what_is_freed()
     with _without_stdout():
         client = BulletClient(p.GUI if gui else p.DIRECT)
     for name, function in vars(p).items():
