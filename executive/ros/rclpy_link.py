@@ -22,8 +22,11 @@ from executive.ros.rclpy_messages import fill, to_table, type_named
 NODE = "robot_executive"
 SERVER_S = 3.0
 """So long an action's server may take to be found."""
+MATCHING_S = 0.5
+"""A server that is found has mostly found who asks it by then. Asked before, it cannot answer, and
+one that is made with rclpy may go down by that."""
 MEETING_S = 4.0
-"""So long a server that is found may take to find who asks it."""
+"""So long it may take at most."""
 AGAIN_S = 0.2
 DISCOVERY_S, QUIET_S = 15.0, 3.5
 """So long a graph may take to be discovered; one to which nothing is added for so long is whole: a
@@ -165,8 +168,9 @@ class RclpyLink:
         kind = type_named("action_msgs/srv/CancelGoal")
         asker = self._node.create_client(kind, f"{action}/_action/cancel_goal")
         none = {"goal_info": {"goal_id": {"uuid": np.frombuffer(uuid4().bytes, np.uint8)}}}
-        latest = self._loop.time() + MEETING_S
         try:
+            await asyncio.sleep(MATCHING_S)
+            latest = self._loop.time() + MEETING_S
             while self._loop.time() < latest:
                 with suppress(TimeoutError):
                     async with asyncio.timeout(AGAIN_S):

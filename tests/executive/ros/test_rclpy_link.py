@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from patience import PATIENCE_S, until
+from ros2.spinning import spin
 
 from executive.ros import rclpy_link
 from executive.ros.link import LinkError
@@ -52,7 +53,7 @@ class Node:
         self.heard: list[str] = []
         self.node.create_subscription(String, "/in", lambda said: self.heard.append(said.data), 5)
         self.out = self.node.create_publisher(String, "/out", 5)
-        threading.Thread(target=self.executor.spin, daemon=True).start()
+        threading.Thread(target=spin, args=(self.executor,), daemon=True).start()
 
     def echo(self, request: Any, response: Any) -> Any:
         response.int32_value, response.string_value = request.int32_value, request.string_value
@@ -91,6 +92,7 @@ def node() -> Iterator[Node]:
 @pytest.fixture
 def wire(node: Node, monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[WireThread, RclpyLink]]:
     """A link that has found the node, and that the node has found."""
+    monkeypatch.setattr(rclpy_link, "MATCHING_S", 2.0)
     monkeypatch.setattr(rclpy_link, "MEETING_S", PATIENCE_S)
     thread = WireThread()
 

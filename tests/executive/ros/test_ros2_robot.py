@@ -44,6 +44,7 @@ def _patient() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(checking, "HEARING_S", PATIENCE_S)
         patch.setattr(door, "LISTENING_S", 5.0)
+        patch.setattr(rclpy_link, "MATCHING_S", 2.0)
         patch.setattr(rclpy_link, "MEETING_S", PATIENCE_S)
         yield
 

@@ -4,7 +4,6 @@ import math
 import threading
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from nav_msgs.msg import Odometry
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from ros2.spinning import spin
 from sensor_msgs.msg import CameraInfo, Image
 from tf2_msgs.msg import TFMessage
 
@@ -46,14 +46,7 @@ class Nav2Robot:
         )
         self._out = self._publishers()
         self.node.create_timer(PERIOD_S, self._tell)
-        threading.Thread(target=self._run, daemon=True).start()
-
-    def _run(self) -> None:
-        """A client that goes away in the wrong moment ends what rclpy of Kilted is at: go on."""
-        while True:
-            with suppress(SystemError):
-                self.executor.spin()
-                return
+        threading.Thread(target=spin, args=(self.executor,), daemon=True).start()
 
     def close(self) -> None:
         self.executor.shutdown(timeout_sec=1.0)
