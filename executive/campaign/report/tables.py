@@ -205,14 +205,15 @@ def differences(found: Sequence[Variant], title: str) -> Table:
         table = []
         for defaults in (False, True):
             commands, missions = system_tests(variant.rows, column, defaults)
-            for command, mission in zip(commands, missions, strict=True):
+            p_of_missions = {(test.a, test.b): _p(test) for test in missions}
+            for test in commands:
                 table.append(
                     [
                         situation(defaults),
-                        f"{command.a} - {command.b}",
-                        f"{command.difference:+.2f}",
-                        _p(command),
-                        _p(mission),
+                        f"{test.a} - {test.b}",
+                        f"{test.difference:+.2f}",
+                        _p(test),
+                        p_of_missions.get((test.a, test.b), "-"),
                     ]
                 )
         return table
@@ -225,7 +226,10 @@ Tests = list[Comparison[KnowledgeSystem]]
 
 
 def system_tests(rows: Iterable[Row], column: Column, defaults: bool) -> tuple[Tests, Tests]:
-    """Each two systems compared in a situation: by command, and by mission."""
+    """Each two systems compared in a situation: by command, and by mission.
+
+    Two with the same commands, but none with the same seed, are compared only by command.
+    """
     mine = {
         system: one
         for system in paper.SYSTEMS
