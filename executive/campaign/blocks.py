@@ -67,7 +67,7 @@ class Block:
     @property
     def settings_used(self) -> Settings:
         """The settings with those of the policy."""
-        return self.settings.model_copy(update=dict(policy_named(self.policy).settings))
+        return policy_named(self.policy).applied_to(self.settings)
 
 
 def entries_of(block: Block, entries: Sequence[Entry]) -> list[Entry]:

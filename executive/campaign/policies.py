@@ -17,7 +17,7 @@ from executive.app.own import Named
 from executive.app.parts import Change, Parts, advised, as_they_are, guarded_model
 from executive.campaign.names import DESCRIPTIONS
 from executive.campaign.routes import routes_of
-from executive.config import KnowledgeSystem
+from executive.config import KnowledgeSystem, Settings
 from executive.events import Inbox
 from executive.interfaces.llm import Advice, LanguageModel
 from executive.plan import EXACT
@@ -61,6 +61,10 @@ class Policy:
     def __call__(self, parts: Parts) -> Parts:
         """The parts as it has them."""
         return self.change(parts)
+
+    def applied_to(self, settings: Settings) -> Settings:
+        """The settings of a mission, with those that it sets."""
+        return settings.model_copy(update=dict(self.settings))
 
 
 # --- baselines: an order of places without a language model ---

@@ -7,7 +7,7 @@ from textwrap import fill
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from kb.benchmark.calibration import Calibration
+from kb.benchmark.calibration import BINS, Calibration
 from kb.benchmark.measures import Measures
 
 KINDS = (".svg", ".png", ".pdf")
@@ -20,27 +20,39 @@ WIDTH, LEGEND, TITLE, BAR = 8.0, 0.3, 0.7, 0.33
 
 
 def draw_reliability(path: Path, told: Mapping[str, Calibration]) -> None:
-    """How often the first place is right, over how likely it was said to be; a panel for each.
+    """Draw `reliability` into a file.
 
     Raises:
         OSError: if the file cannot be written.
     """
     mpl.rcParams.update({"svg.hashsalt": "robot-executive", "svg.fonttype": "none"})
+    figure = reliability(told)
+    figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+
+
+def reliability(told: Mapping[str, Calibration]) -> Figure:
+    """How often the first place is right, over how likely it was said to be; a panel for each.
+
+    Above each tenth of the scale stands how many things are in it.
+    """
     figure = Figure(figsize=(SIDE * max(1, len(told)), SIDE), layout="constrained")
     panels = figure.subplots(1, max(1, len(told)), squeeze=False)[0]
     for axes, (title, found) in zip(panels, told.items(), strict=False):
         axes.plot([0, 1], [0, 1], color="grey", linewidth=1, linestyle="--")
         chances, right, numbers = zip(*found.bins, strict=True)
-        axes.plot(chances, right, color=PRECISION, marker="o")
-        for chance, so, number in zip(chances, right, numbers, strict=True):
-            axes.annotate(str(number), (chance, so), (4, -10), textcoords="offset points")
+        axes.plot(chances, right, color=PRECISION, marker="o", clip_on=False)
+        tenths = [(min(int(chance * BINS), BINS - 1) + 0.5) / BINS for chance in chances]
+        above = axes.secondary_xaxis("top")
+        above.set_xticks(tenths, list(map(str, numbers)), fontsize=8)
+        above.set_xlabel("things", fontsize=8)
+        above.tick_params(length=0)
         error = f"calibration error {found.error:.2f}, log score {found.log_score:.2f}"
         axes.set_title(f"{fill(title, LETTERS)}\n{error}", loc="left", fontsize=8)
         axes.set_xlabel("said to be so likely", fontsize=8)
         axes.set_ylabel("so often right", fontsize=8)
         axes.set_xlim(0, 1)
         axes.set_ylim(0, 1)
-    figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+    return figure
 
 
 def draw(path: Path, tables: Mapping[str, Sequence[tuple[str, Measures]]]) -> None:

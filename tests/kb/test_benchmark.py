@@ -17,7 +17,7 @@ from executive.types.home import Place
 from executive.types.llm import RankRequest
 from kb.advice.prompts import Prompts
 from kb.advice.ranking import Known
-from kb.benchmark.calibration import calibration
+from kb.benchmark.calibration import Calibration, calibration
 from kb.benchmark.measures import Measures, expected_of_chance, mean, measure
 from kb.benchmark.placements import Placements, preposition
 from kb.benchmark.questions import DataSet, Item, placements, survey
@@ -320,6 +320,24 @@ def test_the_reliability_is_drawn(tmp_path) -> None:
     told = [({"desk": 0.75, "sofa": 0.25}, ["desk"]), ({"desk": 0.2, "sofa": 0.8}, ["desk"])]
     plot.draw_reliability(tmp_path / "it.svg", {"a data set": calibration(told)})
     assert "calibration error 0.53" in (tmp_path / "it.svg").read_text()
+
+
+def test_numbers_of_like_probabilities_are_drawn_beside_each_other() -> None:
+    pytest.importorskip("matplotlib")
+    from matplotlib.text import Text
+
+    from kb.benchmark import plot
+
+    found = Calibration(0.1, -1.0, ((0.19, 0.25, 120), (0.21, 0.25, 104), (0.99, 1.0, 3)))
+    figure = plot.reliability({"a data set": found})
+    figure.draw_without_rendering()
+    boxes = {
+        text.get_text(): text.get_window_extent()
+        for text in figure.findobj(Text)
+        if text.get_text() in {"120", "104", "3"}
+    }
+    assert len(boxes) == 3
+    assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes.values(), 2))
 
 
 def test_what_the_robot_does_tells_probabilities(data) -> None:

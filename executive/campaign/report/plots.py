@@ -17,9 +17,10 @@ from matplotlib.patches import Patch
 
 from executive.campaign.journal import Row
 from executive.campaign.report import paper
+from executive.campaign.report.cells import name, situation
 from executive.campaign.report.document import Figure
 from executive.campaign.report.statistics import Summary, stars
-from executive.campaign.report.tables import ACTIVITIES, MEASURES, name, situation, system_tests
+from executive.campaign.report.tables import ACTIVITIES, MEASURES, system_tests
 from executive.campaign.report.variants import Variant, select, summary_of
 from executive.config import KnowledgeSystem
 

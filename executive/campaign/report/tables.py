@@ -4,15 +4,25 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from os.path import relpath
 from pathlib import Path
 from statistics import fmean
-from typing import Any
 
 from executive.campaign.journal import Row
 from executive.campaign.report import paper
+from executive.campaign.report.cells import (
+    Lines,
+    each_variant,
+    in_brackets,
+    interval,
+    mean_beside,
+    mean_of,
+    name,
+    of_paper,
+    p_value,
+    situation,
+)
 from executive.campaign.report.document import Cell, Link, Table
 from executive.campaign.report.paper import Condition
 from executive.campaign.report.statistics import (
     Comparison,
-    Summary,
     compare,
     pairwise,
     stars,
@@ -29,8 +39,6 @@ from executive.campaign.report.variants import (
 from executive.config import KnowledgeSystem
 from executive.types.outcome import MissionStatus
 from kb.benchmark.calibration import calibration
-
-Lines = list[list[str]]
 
 MEASURES: Mapping[str, tuple[Column, dict[Condition, tuple[float, float]]]] = {
     "inquiries": (lambda row: row.inquiries, paper.INQUIRIES),
@@ -73,10 +81,10 @@ def overview(found: Sequence[Variant]) -> Table:
         for title, (column, figures) in MEASURES.items():
             for defaults in (False, True):
                 cells = (
-                    _mean_cell(
+                    mean_beside(
                         select(variant.rows, (system, defaults)),
                         column,
-                        _theirs(variant, figures[system, defaults][0]),
+                        of_paper(variant, figures[system, defaults][0]),
                     )
                     for system in paper.SYSTEMS
                 )
@@ -84,17 +92,17 @@ def overview(found: Sequence[Variant]) -> Table:
         figures_s = paper.COST["list generation [s]"]
         for defaults in (False, True) if asked(variant.rows) else ():
             thinking = [
-                _mean_cell(
+                mean_beside(
                     asked(select(variant.rows, (system, defaults))),
                     lambda row: row.thinking_time_s,
-                    _theirs(variant, figures_s.get((system, defaults))),
+                    of_paper(variant, figures_s.get((system, defaults))),
                 )
                 for system in paper.SYSTEMS
             ]
             table.append([f"list generation, {situation(defaults)} [s]", *thinking])
         return table
 
-    return _each(found, ["", *map(str, paper.SYSTEMS)], lines)
+    return each_variant(found, ["", *map(str, paper.SYSTEMS)], lines)
 
 
 def completion(found: Sequence[Variant]) -> Table:
@@ -112,7 +120,7 @@ def completion(found: Sequence[Variant]) -> Table:
                     [
                         system,
                         f"{done.mean:.1f} %"
-                        + _beside(variant, f"{100 * paper.COMPLETION[system]:.1f} %"),
+                        + in_brackets(variant, f"{100 * paper.COMPLETION[system]:.1f} %"),
                         interval(done, 1),
                         f"{said.mean:.1f} %",
                         f"{spl.mean:.2f}",
@@ -123,7 +131,7 @@ def completion(found: Sequence[Variant]) -> Table:
         return table
 
     heads = ["system", "completed", "95 %", "said to be done", "SPL", "95 %", "n"]
-    return _each(found, heads, lines)
+    return each_variant(found, heads, lines)
 
 
 def times(found: Sequence[Variant]) -> Table:
@@ -135,10 +143,10 @@ def times(found: Sequence[Variant]) -> Table:
             [
                 kind,
                 *(
-                    _mean_cell(
+                    mean_beside(
                         select(done, condition, kind),
                         lambda row: row.mission_time_s,
-                        _theirs(variant, t),
+                        of_paper(variant, t),
                         1,
                     )
                     for condition, t in figures.items()
@@ -147,7 +155,7 @@ def times(found: Sequence[Variant]) -> Table:
             for kind, figures in paper.TIME_S.items()
         ]
 
-    return _each(found, ["", *map(name, paper.CONDITIONS)], lines)
+    return each_variant(found, ["", *map(name, paper.CONDITIONS)], lines)
 
 
 def time_split(found: Sequence[Variant]) -> Table:
@@ -165,7 +173,7 @@ def time_split(found: Sequence[Variant]) -> Table:
         ]
 
     heads = [f"{activity} [s]" for activity in ACTIVITIES]
-    return _each(found, ["condition", *heads, "with thinking / without"], lines)
+    return each_variant(found, ["condition", *heads, "with thinking / without"], lines)
 
 
 def _lengthened(rows: Sequence[Row]) -> str:
@@ -186,15 +194,15 @@ def measure(found: Sequence[Variant], title: str) -> Table:
                 table.append(
                     [
                         name(condition),
-                        f"{summary.mean:.2f}" + _beside(variant, f"{mean:.2f}"),
+                        f"{summary.mean:.2f}" + in_brackets(variant, f"{mean:.2f}"),
                         interval(summary, 2),
-                        f"{summary.sd:.2f}" + _beside(variant, f"{sd:.2f}"),
+                        f"{summary.sd:.2f}" + in_brackets(variant, f"{sd:.2f}"),
                         str(summary.n),
                     ]
                 )
         return table
 
-    return _each(found, ["condition", "mean", "95 %", "SD", "n"], lines)
+    return each_variant(found, ["condition", "mean", "95 %", "SD", "n"], lines)
 
 
 def differences(found: Sequence[Variant], title: str) -> Table:
@@ -205,27 +213,31 @@ def differences(found: Sequence[Variant], title: str) -> Table:
         table = []
         for defaults in (False, True):
             commands, missions = system_tests(variant.rows, column, defaults)
-            for command, mission in zip(commands, missions, strict=True):
+            p_of_missions = {(test.a, test.b): p_value(test) for test in missions}
+            for test in commands:
                 table.append(
                     [
                         situation(defaults),
-                        f"{command.a} - {command.b}",
-                        f"{command.difference:+.2f}",
-                        _p(command),
-                        _p(mission),
+                        f"{test.a} - {test.b}",
+                        f"{test.difference:+.2f}",
+                        p_value(test),
+                        p_of_missions.get((test.a, test.b), "-"),
                     ]
                 )
         return table
 
     heads = ["situation", "systems", "difference", "p by command", "p by mission"]
-    return _each(found, heads, lines)
+    return each_variant(found, heads, lines)
 
 
 Tests = list[Comparison[KnowledgeSystem]]
 
 
 def system_tests(rows: Iterable[Row], column: Column, defaults: bool) -> tuple[Tests, Tests]:
-    """Each two systems compared in a situation: by command, and by mission."""
+    """Each two systems compared in a situation: by command, and by mission.
+
+    Two with the same commands, but none with the same seed, are compared only by command.
+    """
     mine = {
         system: one
         for system in paper.SYSTEMS
@@ -241,7 +253,7 @@ def policies(found: Sequence[Variant]) -> Table:
     """Every variant beside the first in its home, in each condition with a language model."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
-        mine = {v.name: one for v in found if (one := select(v.own, condition))}
+        mine = _by_variant(found, condition)
         if len(mine) < 2:
             continue
         p = {title: _against_first(mine, column) for title, (column, _) in MEASURES.items()}
@@ -250,11 +262,11 @@ def policies(found: Sequence[Variant]) -> Table:
                 [
                     name(condition),
                     variant,
-                    *(_mean(rows, MEASURES[t][0]) + p[t].get(variant, "") for t in MEASURES),
-                    _mean(rows, lambda row: row.failed_visits),
+                    *(mean_of(rows, MEASURES[t][0]) + p[t].get(variant, "") for t in MEASURES),
+                    mean_of(rows, lambda row: row.failed_visits),
                     f"{sum(row.invented for row in rows)} of {sum(row.named for row in rows)}",
                     f"{100 * fmean(row.completed for row in rows):.1f} %",
-                    _mean(rows, lambda row: row.spl),
+                    mean_of(rows, lambda row: row.spl),
                     str(len(rows)),
                 ]
             )
@@ -282,8 +294,8 @@ def trust(found: Sequence[Variant]) -> Table:
                     [
                         name(condition),
                         variant.name,
-                        _mean(rows, lambda row: row.sure),
-                        _mean(rows, _right),
+                        mean_of(rows, lambda row: row.sure),
+                        mean_of(rows, _right),
                         f"{was.error:.2f}",
                         f"{was.log_score:.2f}",
                         str(len(rows)),
@@ -310,7 +322,7 @@ def searching(found: Sequence[Variant]) -> Table:
     """How long the thing was looked for, and what that cost with the questions."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
-        mine = {v.name: one for v in found if (one := select(v.own, condition))}
+        mine = _by_variant(found, condition)
         p = _against_first(mine, lambda row: row.cost_s) if len(mine) > 1 else {}
         for variant, rows in mine.items():
             search = summary_of(rows, lambda row: row.search_s)
@@ -322,7 +334,7 @@ def searching(found: Sequence[Variant]) -> Table:
                         variant or "-",
                         f"{search.mean:.1f}",
                         interval(search, 1),
-                        _mean(rows, lambda row: row.inquiries),
+                        mean_of(rows, lambda row: row.inquiries),
                         f"{cost.mean:.1f}" + p.get(variant, ""),
                         interval(cost, 1),
                         str(len(rows)),
@@ -336,7 +348,7 @@ def cost_differences(found: Sequence[Variant]) -> Table:
     """By how much the cost of a search differs from that of the first variant in its home."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
-        mine = {v.name: one for v in found if (one := select(v.own, condition))}
+        mine = _by_variant(found, condition)
         for test in _beside_first(mine, lambda row: row.cost_s):
             theirs, ours = (
                 by_command(mine[one], lambda row: row.cost_s) for one in (test.a, test.b)
@@ -350,7 +362,7 @@ def cost_differences(found: Sequence[Variant]) -> Table:
                         test.a,
                         f"{less.mean:+.1f}",
                         interval(less, 1),
-                        _p(test),
+                        p_value(test),
                     ]
                 )
     return Table(["condition", "variant", "beside", "cost [s]", "95 %", "p"], lines)
@@ -369,11 +381,11 @@ def cost(found: Sequence[Variant]) -> Table:
             for condition, figure in figures.items():
                 mine = select(consulted, condition)
                 ours = f"{COST[title](mine):.2f}" if mine else "-"
-                cells.append(ours + _beside(variant, f"{figure:.2f}"))
+                cells.append(ours + in_brackets(variant, f"{figure:.2f}"))
             table.append([title, *cells])
         return table
 
-    return _each(found, ["", *map(name, next(iter(paper.COST.values())))], lines)
+    return each_variant(found, ["", *map(name, next(iter(paper.COST.values())))], lines)
 
 
 def failures(rows: Iterable[Row], folder: Path) -> Table:
@@ -394,55 +406,14 @@ def failures(rows: Iterable[Row], folder: Path) -> Table:
     return Table(["status", "reason", "policy", "condition", "missions", "recordings"], lines)
 
 
-def name(condition: Condition) -> str:
-    """A condition as the head of a column."""
-    system, defaults = condition
-    return f"{system}, {situation(defaults)}"
-
-
-def situation(defaults: bool) -> str:
-    """Whether the ontology knows default locations."""
-    return "defaults" if defaults else "no defaults"
-
-
 def asked(rows: Iterable[Row]) -> list[Row]:
     """The missions in which a language model was asked."""
     return [row for row in rows if row.llm_calls and row.llm != "none"]
 
 
-def interval(summary: Summary, digits: int) -> str:
-    """From the low to the high end."""
-    return f"{summary.low:.{digits}f} to {summary.high:.{digits}f}"
-
-
-def _each(
-    found: Sequence[Variant], heads: Sequence[str], lines: Callable[[Variant], Lines]
-) -> Table:
-    """One table of all variants, named in a column of their own if there are several."""
-    if len(found) == 1:
-        return Table(heads, lines(found[0]))
-    named = [[variant.name, *line] for variant in found for line in lines(variant)]
-    return Table(["variant", *heads], named)
-
-
-def _mean(rows: Sequence[Row], column: Column) -> str:
-    return f"{fmean(map(column, rows)):.2f}"
-
-
-def _mean_cell(rows: Sequence[Row], column: Column, theirs: float | None, digits: int = 2) -> str:
-    """Our mean, and the paper's in brackets; empty if neither is known."""
-    ours = f"{fmean(map(column, rows)):.{digits}f}" if rows else "" if theirs is None else "-"
-    return ours + (f" ({theirs:.{digits}f})" if theirs is not None else "")
-
-
-def _theirs(variant: Variant, figure: float | None) -> float | None:
-    """The paper's figure, where it is of the same commands and home."""
-    return figure if variant.as_in_paper else None
-
-
-def _beside(variant: Variant, figure: str) -> str:
-    """The same, as it stands beside ours."""
-    return f" ({figure})" if variant.as_in_paper else ""
+def _by_variant(found: Sequence[Variant], condition: Condition) -> dict[str, list[Row]]:
+    """The missions of a condition, of each variant that has some."""
+    return {variant.name: mine for variant in found if (mine := select(variant.own, condition))}
 
 
 def _against_first(rows: Mapping[str, Sequence[Row]], column: Column) -> dict[str, str]:
@@ -464,8 +435,3 @@ def _reason(row: Row) -> str:
     if row.status != MissionStatus.DONE:
         return row.reason
     return f"said to be done, but the {row.object} is truly {row.truth or 'on no furniture'}"
-
-
-def _p(comparison: Comparison[Any]) -> str:
-    p = "< 0.001" if comparison.p < 0.001 else f"{comparison.p:.3f}"
-    return f"{p} {stars(comparison.p)} (n = {comparison.pairs})".replace("  ", " ")

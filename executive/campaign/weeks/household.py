@@ -66,7 +66,7 @@ class Household:
     @property
     def settings_used(self) -> Settings:
         """The settings with those of the policy."""
-        return self.settings.model_copy(update=dict(policy_named(self.policy).settings))
+        return policy_named(self.policy).applied_to(self.settings)
 
     @property
     def name(self) -> tuple[str, str, str, int]:

@@ -56,3 +56,13 @@ def test_a_report_of_missions_without_a_model_has_empty_tables(tmp_path: Path) -
     text = to_markdown(report([row(model_failure="HTTP 429")], {}, tmp_path), "plots")
     assert "# Campaign: 0 missions" in text
     assert "1 mission had no working language model" in text
+
+
+def test_systems_that_share_commands_but_no_seed_are_compared_by_command_alone() -> None:
+    done = {"status": "done", "completed": True}
+    rows = [
+        Row("ours", "four_rooms", "default", system, False, seed, "Find an apple.", 0, **done)
+        for system, seed in (("okb", 0), ("okb+llm", 1))
+    ]
+    text = to_markdown(report(rows, {}), "plots")
+    assert "| no defaults | okb - okb+llm | +0.00 | 1.000 (n = 1) | - |" in text
