@@ -153,8 +153,20 @@ def _reply(context: MissionContext, said: Question | Statement | Request, now: s
     asked = situation.request.words
     standing = Standing(situation.hand.in_hand, now, visits, visited, asked=asked)
     answer = reply(meant, standing, context.knowledge, context.facts)
-    is_it = about(meant, context.knowledge) == (situation.request.object,)
-    searches = situation.search.found is None and not situation.has_it
-    if isinstance(meant, Statement) and is_it and searches:
-        situation.agenda.instead = situation.request.command
+    if isinstance(meant, Statement) and situation.search.found is None and not situation.has_it:
+        _look_elsewhere(context, meant)
     return answer
+
+
+def _look_elsewhere(context: MissionContext, said: Statement) -> None:
+    """Search anew, if that is about the thing; go on, if the robot looks where it may be."""
+    request, search = context.situation.request, context.situation.search
+    if about(said, context.knowledge) != (request.object,):
+        return
+    denied = context.facts.denials().get(request.object or "", ())
+    if not said.denied or said.more or (search.candidate and search.candidate.place in denied):
+        is_source = bool(request.from_places) and {*request.from_places} <= {*denied}
+        command = request.command
+        context.situation.agenda.instead = (
+            replace(command, source="") if command and is_source else command
+        )
