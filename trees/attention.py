@@ -146,8 +146,10 @@ def _goes_somewhere(command: Command | None) -> bool:
 
 def _reply(context: MissionContext, said: Question | Statement | Request, now: str) -> str:
     """Answer; if the thing that is looked for is elsewhere, look there from now on."""
-    situation = context.situation
-    meant = resolved(said, spoken_now(situation))
+    situation, spoken = context.situation, spoken_now(context.situation)
+    if isinstance(said, Statement) and said.denied and (next_one := situation.search.candidate):
+        spoken = replace(spoken, place=next_one.place)  # "it is not there": where the robot looks
+    meant = resolved(said, spoken)
     visited = situation.search.looks.visited
     visits = [one for one in situation.search.candidates if one.place in visited]
     asked = situation.request.words
