@@ -135,6 +135,8 @@ def _known(things: Things, knowledge: Knowledge) -> str:
     if any(thing.pronoun for thing in things.members):
         return f"I do not know what '{words}' is."
     names = knowledge.objects_named(words)
+    if not names and (stands := _where_it_stands(words, knowledge)):
+        return stands
     if len(names) != 1:
         known = listed([say.the(name) for name in names])
         return f"I know {known}." if names else f"I know no '{words}'."
@@ -184,7 +186,9 @@ def _told(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
 
 def _told_of_one(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
     name, unknown = _one(said.things, knowledge)
-    if not name:
+    [thing, *_] = said.things.members
+    each = knowledge.objects_named(thing.words) if said.denied else ()  # "no fruit": none of them
+    if not (names := (name,) if name else each):
         return unknown
     where, words = said.where, in_words(said.where)
     if not where.relation.is_plain:
@@ -192,12 +196,14 @@ def _told_of_one(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
     places = knowledge.places_named(words) if knowledge.is_place(words) else ()
     if not places:
         return f"I know no place '{words}', so I cannot remember that."
-    facts.heard(name, places)
-    if name not in facts.beliefs():
+    for name in names:
+        (facts.heard_not if said.denied else facts.heard)(name, places)
+    if names[0] not in (facts.denials() if said.denied else facts.beliefs()):
         return "Thank you; but I may learn nothing, and shall not remember it."
     say = Wording(knowledge.called)
     there = say.at(places[0]) if len(places) == 1 else _at(where, places, knowledge)
-    return f"Thank you: I remember that {say.are(name)} {there}."
+    are = say.are(name) if len(names) == 1 else f"{listed([say.the(one) for one in names])} are"
+    return f"Thank you: I remember that {are}{' not' * said.denied} {there}."
 
 
 def _where_is(things: Things, standing: Standing, knowledge: Knowledge, facts: Facts) -> str:

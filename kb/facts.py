@@ -25,6 +25,8 @@ MOST_BELIEFS, MOST_PLACES, MOST_NAME = 10_000, 100, 200
 """Objects that are believed to be anywhere; places of one; letters of a name."""
 EVERYTHING = "everything"
 """What is looked at where a place is looked at all over."""
+SAID_THERE, DENIED_THERE = 0, -1
+"""In the column `seen` of what is believed: nobody has seen it there, but the person says so."""
 MOST_LOOKED_BACK = 20_000
 """Facts among which it is looked for where the robot took things from: some milliseconds."""
 
@@ -37,6 +39,8 @@ class FactKind(StrEnum):
     """Looked for, and not seen."""
     SAID = "said"
     """The person said that it is there."""
+    DENIED = "denied"
+    """The person said that it is not there."""
     TAKEN = "taken"
     """The robot picked it up there: it is nowhere now."""
     PUT = "put"
@@ -92,12 +96,14 @@ class FactStore:
         cls,
         beliefs: Mapping[str, Sequence[str]],
         origins: Mapping[str, Sequence[str]] = MappingProxyType({}),
+        denials: Mapping[str, Sequence[str]] = MappingProxyType({}),
         *,
         learns: bool = True,
     ) -> Self:
         """A store that lasts as long as the process and believes what another one did."""
         store = cls()
-        for kind, known in ((FactKind.TAKEN, origins), (FactKind.SAID, beliefs)):
+        kinds = (FactKind.TAKEN, FactKind.SAID, FactKind.DENIED)
+        for kind, known in zip(kinds, (origins, beliefs, denials), strict=True):
             store.load(
                 Fact(kind, name, place, 0.0)
                 for name, places in known.items()
@@ -122,6 +128,11 @@ class FactStore:
         for place in reversed(tuple(places)):
             self._add(FactKind.SAID, name, place)
 
+    def heard_not(self, name: str, places: Iterable[str]) -> None:
+        """The person said that it is at none of these places."""
+        for place in places:
+            self._add(FactKind.DENIED, name, place)
+
     def took(self, name: str, place: str) -> None:
         """The robot has it, from there."""
         self._add(FactKind.TAKEN, name, place)
@@ -133,11 +144,11 @@ class FactStore:
     def places_of(self, name: str) -> tuple[str, ...]:
         """Where it was last seen or put; before that, where the person has since said that it is.
 
-        A look in vain contradicts what was known before it about that place. Once taken, it is
-        nowhere until seen again.
+        A look in vain, or a person who says that it is not there, contradicts what was known before
+        about that place. Once taken, it is nowhere until seen again.
         """
         try:
-            places = self._believed(name)
+            places = tuple(place for place, there in self._believed(name).items() if there)
         except _FAILURES as error:
             self._warn(f"facts about the {name} could not be read", error)
             return ()
@@ -160,6 +171,18 @@ class FactStore:
             return {}
         known = {name: self.places_of(name) for name in names if _is_name(name)}
         return {name: places for name, places in known.items() if places}
+
+    def denials(self) -> dict[str, tuple[str, ...]]:
+        """Each object that was said not to be somewhere, and where, if nothing came since."""
+        query = "SELECT DISTINCT object FROM belief WHERE seen = ? ORDER BY object LIMIT ?"
+        try:
+            names = [n for (n,) in self._database.execute(query, (DENIED_THERE, MOST_BELIEFS))]
+            known = {name: self._believed(name) for name in names if _is_name(name)}
+        except _FAILURES as error:
+            self._warn("facts could not be read", error)
+            return {}
+        denied = {name: [p for p, there in of.items() if not there] for name, of in known.items()}
+        return {name: tuple(places) for name, places in denied.items() if places}
 
     def origins(self) -> dict[str, tuple[str, ...]]:
         """Each object that the robot took, and from where, the last time first."""
@@ -212,11 +235,14 @@ class FactStore:
 
     def load(self, facts: Iterable[Fact]) -> None:
         """Add facts with the times that they have."""
-        rows = [(fact.time_s, fact.kind, fact.object, fact.place) for fact in facts]
+        insert = "INSERT INTO fact (time_s, kind, object, place) VALUES (?, ?, ?, ?)"
+        deny = "INSERT OR REPLACE INTO belief VALUES (?, ?, ?, ?)"
         with self._database:
-            self._database.executemany(
-                "INSERT INTO fact (time_s, kind, object, place) VALUES (?, ?, ?, ?)", rows
-            )
+            for fact in facts:
+                values = (fact.time_s, fact.kind, fact.object, fact.place)
+                number = self._database.execute(insert, values).lastrowid
+                if fact.kind == FactKind.DENIED:  # files of before have no trigger for it
+                    self._database.execute(deny, (fact.object, fact.place, DENIED_THERE, number))
 
     def forget(self, name: str | None = None) -> int:
         """Remove the facts about one object, or all; return how many there were.
@@ -236,18 +262,19 @@ class FactStore:
         """Close the file."""
         self._database.close()
 
-    def _believed(self, name: str) -> tuple[str, ...]:
+    def _believed(self, name: str) -> dict[str, bool]:
+        """Whether it is there, of each place of which that is known; the newest first."""
         newest_first = self._database.execute(
             "SELECT place, seen FROM belief WHERE object = ? ORDER BY number DESC LIMIT ?",
             (name, MOST_PLACES),
         )
-        places: list[str] = []
+        places: dict[str, bool] = {}
         for place, seen in newest_first:
             if _is_name(place):
-                places.append(place)
-            if seen:
+                places.setdefault(place, seen != DENIED_THERE)
+            if seen not in (SAID_THERE, DENIED_THERE) and places.get(place, True):
                 break
-        return tuple(dict.fromkeys(places))
+        return places
 
     def _add(self, kind: FactKind, name: str, place: str) -> None:
         if not self._learns:

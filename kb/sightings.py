@@ -85,12 +85,16 @@ class Sightings:
         default_factory=lambda: defaultdict(list)
     )
     """Of each place, when it was looked at all over, and what was there."""
+    denied: dict[str, list[tuple[float, str]]] = field(default_factory=lambda: defaultdict(list))
+    """Of each thing, when the person said of which place that it is not there."""
     _open: dict[str, _Look] = field(default_factory=dict)
 
     def add(self, facts: Iterable[Fact]) -> None:
         """Take in the facts, the oldest first."""
         for fact in facts:
             self._look(fact)
+            if fact.kind == FactKind.DENIED:
+                self.denied[fact.object].append((fact.time_s, fact.place))
             if fact.kind in _SEEN:
                 taken, said = fact.kind == FactKind.TAKEN, fact.kind == FactKind.SAID
                 self.known[fact.object].append(Known(fact.time_s, fact.place, taken, said))
@@ -131,5 +135,8 @@ class Sightings:
             for place, looks in self.looks.items()
             for time_s, seen in looks[bisect_right(looks, since_s, key=_time) :]
             if thing not in seen
+        ]
+        found += [
+            (time_s, place) for time_s, place in self.denied.get(thing, ()) if time_s > since_s
         ]
         return sorted(found)

@@ -146,15 +146,29 @@ def _goes_somewhere(command: Command | None) -> bool:
 
 def _reply(context: MissionContext, said: Question | Statement | Request, now: str) -> str:
     """Answer; if the thing that is looked for is elsewhere, look there from now on."""
-    situation = context.situation
-    meant = resolved(said, spoken_now(situation))
+    situation, spoken = context.situation, spoken_now(context.situation)
+    if isinstance(said, Statement) and said.denied and (next_one := situation.search.candidate):
+        spoken = replace(spoken, place=next_one.place)  # "it is not there": where the robot looks
+    meant = resolved(said, spoken)
     visited = situation.search.looks.visited
     visits = [one for one in situation.search.candidates if one.place in visited]
     asked = situation.request.words
     standing = Standing(situation.hand.in_hand, now, visits, visited, asked=asked)
     answer = reply(meant, standing, context.knowledge, context.facts)
-    is_it = about(meant, context.knowledge) == (situation.request.object,)
-    searches = situation.search.found is None and not situation.has_it
-    if isinstance(meant, Statement) and is_it and searches:
-        situation.agenda.instead = situation.request.command
+    if isinstance(meant, Statement) and situation.search.found is None and not situation.has_it:
+        _look_elsewhere(context, meant)
     return answer
+
+
+def _look_elsewhere(context: MissionContext, said: Statement) -> None:
+    """Search anew, if that is about the thing; go on, if the robot looks where it may be."""
+    request, search = context.situation.request, context.situation.search
+    if about(said, context.knowledge) != (request.object,):
+        return
+    denied = context.facts.denials().get(request.object or "", ())
+    if not said.denied or said.more or (search.candidate and search.candidate.place in denied):
+        is_source = bool(request.from_places) and {*request.from_places} <= {*denied}
+        command = request.command
+        context.situation.agenda.instead = (
+            replace(command, source="") if command and is_source else command
+        )

@@ -65,6 +65,9 @@ class NoFacts:
     def heard(self, name: str, places: Iterable[str]) -> None:
         """Forget it."""
 
+    def heard_not(self, name: str, places: Iterable[str]) -> None:
+        """Forget it."""
+
     def took(self, name: str, place: str) -> None:
         """Forget it."""
 
@@ -79,6 +82,10 @@ class NoFacts:
         return ()
 
     def beliefs(self) -> dict[str, tuple[str, ...]]:
+        """None."""
+        return {}
+
+    def denials(self) -> dict[str, tuple[str, ...]]:
         """None."""
         return {}
 

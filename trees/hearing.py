@@ -29,6 +29,8 @@ ONTOLOGY_TRUST = 0.95
 PERSON_TRUST = 0.95
 LIST_TRUST = 0.75
 """That a thing is at one of the places of a list that a language model wrote."""
+DENIED = 0.001
+"""What is left of a place where the person says that it is not: all others are looked at first."""
 CLEAR = 0.5
 """Where a place is as likely as this, nobody else is asked before it was looked at."""
 
@@ -81,7 +83,9 @@ def believed(context: MissionContext) -> Belief:
     """Where the thing may be, by all that was said and seen so far."""
     search, home = context.situation.search, context.knowledge.places()
     looks, named = search.looks, search.whereabouts.named
-    left = {
+    denied = context.facts.denials().get(context.situation.request.object or "", ())
+    left = dict.fromkeys(denied, DENIED)
+    left |= {
         place: 1 - looks.share_seen(place) * (1 - MISSED)
         for place in looks.visited
         if place not in named

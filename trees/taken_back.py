@@ -15,12 +15,15 @@ from trees.wishes import named_in, objects_of, replaced, still_held
 
 _IT = frozenset(("it", "that", "this", "them"))
 _SEVERAL = frozenset(("them", "both", "those", "these"))
-_OTHERS = re.compile(r"\b(?:the|all) (?:rest|others?)\b(?: (?:one|two|three|four|five|ones)\b)?")
+_REST = re.compile(r"(?:^|\bthe )rest\b|\b(?:every|any)thing else\b")
+_OTHERS = re.compile(r"\b(?:the|all) others?\b(?: (?:one|two|three|four|five|ones)\b)?")
 _ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
 
 
 def refused(context: MissionContext, words: str, at_hand: Command | None) -> str:
     """Do nothing that the words are about, now or later; empty if none of it was to be done."""
+    if at_hand and _REST.search(words.lower()):
+        return _nothing_more(context, named_in(context, words))
     agenda = context.situation.agenda
     named = named_in(context, words) or _of_those_asked_for(context, words, at_hand)
     everything = not named and _means_all(words)
@@ -46,6 +49,23 @@ def refused(context: MissionContext, words: str, at_hand: Command | None) -> str
             left_out.append(_leave_out(context, task, named))
     wishes = [in_one_sentence(context, command) for command in left_out]
     return f"Then I do not {either(wishes)}.{still_held(context)}" if wishes else ""
+
+
+def _nothing_more(context: MissionContext, named: set[str]) -> str:
+    """Do the task at hand, and of what was not begun nothing; nothing of these, if they are named.
+
+    As in "forget the rest", "forget the rest of the fruit".
+    """
+    waiting = [
+        task
+        for task in context.situation.agenda.tasks
+        if not named or named & objects_of(context, task.command)
+    ]
+    left_out = [_leave_out(context, task, named) for task in waiting]
+    wishes = [in_one_sentence(context, command) for command in left_out]
+    return (
+        f"Then I do not {either(wishes)}." if wishes else "There is nothing else that I was to do."
+    )
 
 
 def _of_those_asked_for(context: MissionContext, words: str, at_hand: Command | None) -> set[str]:

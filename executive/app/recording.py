@@ -55,8 +55,8 @@ class Recording:
             **self.parts.knowledge.files(),
             "facts.json": json.dumps(self.parts.facts.beliefs()).encode(),
         }
-        if origins := self.parts.facts.origins():
-            attachments["origins.json"] = json.dumps(origins).encode()
+        known = {"origins": self.parts.facts.origins(), "denials": self.parts.facts.denials()}
+        attachments |= {f"{name}.json": json.dumps(of).encode() for name, of in known.items() if of}
         if self.parts.sources:
             attachments["sources.json"] = written(self.parts.sources)
         metadata = {

@@ -94,6 +94,10 @@ class Facts(Protocol):
         """The person said that it is at one of these places, the likeliest first."""
         ...
 
+    def heard_not(self, name: str, places: Iterable[str]) -> None:
+        """The person said that it is at none of these places."""
+        ...
+
     def took(self, name: str, place: str) -> None:
         """The robot has it, from there."""
         ...
@@ -112,6 +116,13 @@ class Facts(Protocol):
 
     def beliefs(self) -> Mapping[str, Sequence[str]]:
         """Each object that is believed to be anywhere, and where: what a recording keeps."""
+        ...
+
+    def denials(self) -> Mapping[str, Sequence[str]]:
+        """Each object that the person said is not somewhere, and where, if nothing came since.
+
+        It is so until the object is seen, or said to be there.
+        """
         ...
 
     def origins(self) -> Mapping[str, Sequence[str]]:

@@ -67,7 +67,9 @@ def _beside(
     match said:
         case Courtesy() | Answer(choice=Choice.YES, things=None):
             return (), None
-        case Statement(things=Things(members=[thing]), where=where, more=None) if not thing.pronoun:
+        case Statement(things=Things(members=[thing]), where=where, denied=False, more=None) if (
+            not thing.pronoun
+        ):
             return (thing.words,), where
         case Answer(told=True, where=[where]):
             return (), where

@@ -182,21 +182,34 @@ class Builder(Deeds):
     def statement(self, parts: list[Part]) -> Statement:
         """As in "the mug is on the sofa and the pear is on the desk"."""
         more: Statement | None = None
-        for told in reversed([p for p in parts if isinstance(p, Statement)]):
+        for told in reversed([one for p in parts if isinstance(p, list) for one in p]):
             more = replace(told, more=more)
         assert more
         return more
 
-    def told(self, parts: list[Part]) -> Statement:
-        """As in "the mug is on the sofa", "I took the mug to the kitchen"."""
-        things = next(p for p in parts if isinstance(p, Things))
-        match parts[-1]:
-            case Where() as place:
-                return Statement(things, place)
-            case To(place) if any(is_a(p, "I_PUT") for p in parts):
-                return Statement(things, place)
-            case place:
-                raise Unfit(place.place.words)
+    def told(self, parts: list[Part]) -> list[Statement]:
+        """As in "the mug is on the sofa", "it is not on the sofa but on the desk".
+
+        As in "I took the mug to the kitchen", too.
+        """
+        it = "them" if any(is_a(p, "THEY_ARE_NOT") for p in parts) else "it"
+        spoken_of = Things((Thing(it, pronoun=True, definite=True, said=it),))
+        things = next((p for p in parts if isinstance(p, Things)), spoken_of)
+        told: list[Statement] = []
+        denied = False
+        for part in parts:
+            match part:
+                case Token(type="NOT" | "IT_IS_NOT" | "THEY_ARE_NOT" | "NONE_THERE"):
+                    denied = True
+                case Token(type="BUT"):
+                    denied = False
+                case Where() as place:
+                    told.append(Statement(things, place, denied))
+                case To(place) if any(is_a(p, "I_PUT") for p in parts):
+                    told.append(Statement(things, place))
+                case From() | To():
+                    raise Unfit(part.place.words)
+        return told
 
     def named(self, parts: list[Part]) -> Answer:
         """As in "I think the apple", "the second one"."""

@@ -249,10 +249,12 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """Where something is, as the person says; and `more` that is said in the same breath."""
+    """Where something is, or is not, as the person says; and `more` said in the same breath."""
 
     things: Things
     where: Where
+    denied: bool = False
+    """Whether it is said that it is not there."""
     more: "Statement | None" = None
 
 

@@ -25,7 +25,7 @@ from executive.language.second_thoughts import answered_in_one_breath, corrected
 from executive.text import LONGEST, too_long
 
 ASSETS = Path(__file__).parent / "assets"
-_PAUSES = re.compile(r"[.!?;:\"“”…)\]]+(?=\s|$|,)|(?<!\S)[-–—(\[\"“”]+")
+_PAUSES = re.compile(r"[.!?;:\"“”…)\]]+(?=\s|$|,)|(?<!\S)[-–—(\[\"“”]+(?!\d)")
 _QUOTES = re.compile('["“”„«»]')
 _LEADING_SIGNS = re.compile("^[\\s\U0001f300-\U0001faff\u2600-\u27bf\ufe0f]+(?=[^\\W\\d_])")
 """Pictures of hands and faces, as one writes them before a sentence."""

@@ -71,7 +71,8 @@ def recorded_parts(
         model=absent if thinks == str(True) else None,
         prompts=_prompts(run.attachments.get("prompts.toml")),
         facts=FactStore.believing(
-            _places(run, "facts.json"), _places(run, "origins.json"), learns=settings.learn
+            *(_places(run, f"{name}.json") for name in ("facts", "origins", "denials")),
+            learns=settings.learn,
         ),
         experience=_experience(run),
         sources=_sources(run),
@@ -111,8 +112,8 @@ def _policy(run: Run) -> Change:
 
 
 def _places(run: Run, name: str) -> dict[str, list[str]]:
-    """Places of objects, from an attachment; the robot did not always keep where it took them."""
-    if name == "origins.json" and name not in run.attachments:
+    """Places of objects, from an attachment; there is not always more than what was believed."""
+    if name != "facts.json" and name not in run.attachments:
         return {}
     try:
         return _PLACES.validate_json(kept(run, run.attachments, name))

@@ -30,7 +30,7 @@ MORE = (
     *("canel", "cancl", "abrt", "st0p", "5T0P!", "c4ncel", "stoppe", "Stoppen!", "aborting"),
     *("I changed my mind", "Actually, I've changed my mind", "I don't want it anymore"),
     *("I changed my mind about that", "I changed my mind, bring the mug, no, stop"),
-    *("Forget the whole thing", "forget about the mission", "Forget the rest", "Forget it"),
+    *("Forget the whole thing", "forget about the mission", "Forget it"),
     *(
         "I changed my mind, leave it",
         "Forget the pear and stop",

@@ -16,7 +16,7 @@ from kb.experience import Experience
 from kb.facts import Fact, FactKind, FactStore
 
 HOUR_S, DAY_S = 3600.0, 86400.0
-SEEN, MISSED, SAID, TAKEN, PUT, LOOKED = FactKind
+SEEN, MISSED, SAID, DENIED, TAKEN, PUT, LOOKED = FactKind
 CLASSES = {"mug": "kitchenware", "spatula": "kitchenware", "hammer": "tool"}
 
 
@@ -150,6 +150,14 @@ def test_a_look_for_something_else_tells_that_it_is_gone() -> None:
     looks = [(SEEN, "hammer", "desk", 10.0), (MISSED, "spatula", "desk", 10.0)]
     assert shares(learned([seen, looks[0]], 10.1), "mug")["desk"] > 0.9
     assert shares(learned([seen, *looks], 10.1), "mug")["desk"] < 0.7
+
+
+def test_who_says_that_it_is_not_there_says_so_of_that_thing_alone() -> None:
+    facts = [(SEEN, "mug", "desk", 9.0), (SEEN, "hammer", "desk", 9.0)]
+    denied = (DENIED, "mug", "desk", 10.0)
+    assert shares(learned(facts, 10.1), "mug")["desk"] > 0.9
+    assert shares(learned([*facts, denied], 10.1), "mug")["desk"] < 0.7
+    assert shares(learned([*facts, denied], 10.1), "hammer")["desk"] > 0.9
 
 
 def test_a_look_at_all_of_a_place_tells_of_what_was_not_seen_whatever_was_found_there() -> None:

@@ -52,6 +52,49 @@ def test_a_look_in_vain_contradicts_what_was_known_before_it(facts: FactStore) -
     assert facts.places_of("mug") == ("sofa",)
 
 
+def test_what_was_said_not_to_be_there_is_not_until_it_is_seen_or_said_to_be(
+    facts: FactStore,
+) -> None:
+    facts.saw(["mug"], "desk")
+    facts.heard_not("mug", ["desk", "sofa"])
+    assert facts.places_of("mug") == ()
+    assert facts.denials() == {"mug": ("sofa", "desk")}
+    facts.heard("mug", ["sofa"])
+    assert facts.places_of("mug") == ("sofa",)
+    assert facts.denials() == {"mug": ("desk",)}
+    facts.saw(["mug"], "desk")
+    assert facts.places_of("mug") == ("desk",)
+    assert facts.denials() == {}
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.sampled_from(["saw", "heard", "heard_not", "missed", "took"]), st.integers(0, 2)
+        )
+    )
+)
+def test_no_place_is_believed_and_denied_at_once(told: list[tuple[str, int]]) -> None:
+    store = FactStore()
+    for what, place in told:
+        things: dict[str, tuple[object, object]] = {
+            "saw": (["mug"], str(place)),
+            "heard": ("mug", [str(place)]),
+            "heard_not": ("mug", [str(place)]),
+        }
+        getattr(store, what)(*things.get(what, ("mug", str(place))))
+    believed, denied = store.places_of("mug"), store.denials().get("mug", ())
+    assert not {*believed} & {*denied}
+    if told and told[-1][0] == "heard_not":
+        assert str(told[-1][1]) in denied
+    if told and told[-1][0] in ("saw", "heard"):
+        assert believed[0] == str(told[-1][1])
+    again = FactStore.believing(store.beliefs(), denials=store.denials())
+    assert (again.places_of("mug"), {*again.denials().get("mug", ())}) == (believed, {*denied})
+    again.close()
+    store.close()
+
+
 def test_a_taken_thing_is_nowhere_until_it_is_put_down(facts: FactStore) -> None:
     facts.saw(["mug"], "desk")
     facts.took("mug", "desk")
@@ -67,7 +110,7 @@ def believed(facts: list[Fact]) -> tuple[str, ...]:
     for fact in reversed(facts):
         if fact.kind == FactKind.TAKEN:
             break
-        if fact.kind == FactKind.MISSED:
+        if fact.kind in (FactKind.MISSED, FactKind.DENIED):
             missed.add(fact.place)
         elif fact.kind != FactKind.LOOKED and fact.place not in missed:
             places.append(fact.place)

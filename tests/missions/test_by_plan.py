@@ -60,6 +60,16 @@ def test_with_a_free_question_the_person_is_asked_at_once() -> None:
     assert plans(run)[0].decision == "ask"
 
 
+def test_where_the_person_says_that_it_is_not_is_looked_at_last() -> None:
+    facts = FactStore()
+    facts.saw(["mug"], "coffee_table")
+    facts.heard_not("mug", ["coffee_table"])
+    run = run_mission("Find the mug", llm=False, answers=["I don't know"], facts=facts)
+    assert run.outcome.status == MissionStatus.DONE
+    assert run.outcome.visited[-1] == "coffee_table"
+    assert {*run.outcome.visited} == {*HOME}
+
+
 def test_a_silent_person_is_not_asked_again_and_all_is_looked_at() -> None:
     run = run_mission(
         "Find the mug",

@@ -77,6 +77,31 @@ def test_what_is_to_be_forgotten_is_not_done_and_the_rest_is(words: str) -> None
     assert mission.world.resting_place("mug") != "delivery"
 
 
+@pytest.mark.parametrize(
+    "words", ["Forget the rest", "Never mind the rest", "Skip everything else"]
+)
+@pytest.mark.parametrize(
+    "asked", ["Bring the hammer, then the mug", "Bring the hammer and the mug"]
+)
+def test_who_has_the_rest_forgotten_still_wants_what_is_at_hand(asked: str, words: str) -> None:
+    mission = run(asked, words)
+    resting = {thing: mission.world.resting_place(thing) for thing in ("hammer", "mug")}
+    assert sorted(status for _, _, status in tasks(mission)) == [DONE, NOT_DONE]
+    assert [*resting.values()].count("delivery") == 1
+
+
+def test_of_a_task_in_parts_the_rest_is_what_was_not_begun() -> None:
+    mission = run("Bring all the fruit", "forget the rest")
+    assert mission.outcome.status == NOT_DONE
+    assert mission.outcome.reason.startswith("I brought one of six: ")
+
+
+def test_where_nothing_waits_there_is_no_rest() -> None:
+    mission = run("Bring the hammer", "forget the rest")
+    assert "There is nothing else that I was to do." in answers(mission)
+    assert tasks(mission) == [("bring", "hammer", DONE)]
+
+
 def test_forgetting_what_nobody_knows_ends_all() -> None:
     mission = run("Bring the hammer, then the mug", "Forget the coffee")
     assert {status for _, _, status in tasks(mission)} == {NOT_DONE}
@@ -713,6 +738,32 @@ def test_where_two_things_are_may_be_told_at_once() -> None:
     assert len(told_so) == 1
     assert "the hammer is on the sofa" in told_so[0]
     assert "the mug is on the bed" in told_so[0]
+
+
+def test_the_robot_turns_away_from_where_the_thing_is_said_not_to_be() -> None:
+    facts, during = FactStore(), saying("The hammer is not on the shelf, it's on the sofa", 1)
+    mission = run_mission("Bring the hammer", llm=False, during=during, facts=facts, search="plan")
+    assert mission.outcome.visited[0] == "sofa"
+
+
+@pytest.mark.parametrize("words", ["It is not on the coffee table", "it's not there"])
+@pytest.mark.parametrize("asked", ["Find the mug", "Find the mug on the coffee table"])
+def test_it_looks_everywhere_else_first_when_the_thing_is_not_where_it_goes(
+    asked: str, words: str
+) -> None:
+    facts, during = FactStore(), saying(words, 1)
+    mission = run_mission(asked, llm=False, during=during, facts=facts, search="plan")
+    assert "Thank you: I remember that the mug is not on the coffee table." in answers(mission)
+    assert mission.outcome.status == DONE
+    assert mission.outcome.visited[0] != "coffee_table"
+    assert len(mission.outcome.visited) > 1
+
+
+def test_it_goes_on_where_the_thing_may_still_be() -> None:
+    facts, during = FactStore(), saying("The mug is not on the bed", 1)
+    mission = run_mission("Find the mug", llm=False, during=during, facts=facts, search="plan")
+    drives = [goal for goal in mission.goals if isinstance(goal, DriveTo)]
+    assert [goal.place for goal in drives] == ["coffee_table", "person"]
 
 
 @pytest.mark.parametrize("just", ["just ", "only ", ""])

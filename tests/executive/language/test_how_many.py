@@ -28,6 +28,11 @@ def test_a_bound_is_as_many_as_it_allows(words: str, number: int) -> None:
     assert (command.target, command.number) == ("fruits", number)
 
 
+@pytest.mark.parametrize("words", ["Bring -1 apples", "Bring 0 apples", "Bring -2 of the apples"])
+def test_fewer_than_one_is_no_number_of_things(words: str) -> None:
+    assert "apples" not in [one.target for group in read.commands(words) for one in group]
+
+
 @pytest.mark.parametrize("words", ["Bring two more fruits", "Bring two more", "Bring another two"])
 def test_more_are_others_than_those_of_before(words: str) -> None:
     before = after(read.read("Bring two fruits"), NOTHING, things=("apple", "pear"))

@@ -34,6 +34,56 @@ def test_each_of_them_is_heard(each: list[tuple[str, str]], joined: str, full: b
     assert told(joined.join(parts)) == [(thing, place.split()[-1]) for thing, place in each]
 
 
+WHERE = st.lists(PLACES, min_size=1, max_size=2, unique=True)
+
+
+def is_there(words: str) -> dict[str, bool]:
+    """Of each place that is told of, whether the thing is there."""
+    said = resolved(english().read(words), NOTHING)
+    found = {}
+    while said is not None:
+        assert isinstance(said, Statement), words
+        for place in (said.where, *said.where.others):
+            found[place.words] = not said.denied
+        said = said.more
+    return found
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        "The {} is not {}",
+        "the {} isn't {}",
+        "There is no {} {}",
+        "There isn't any {} {}",
+        "I think the {} is not {}",
+        "I don't think the {} is {}",
+        "the {} is no longer {}",
+        "The {} is not {} any more",
+    ],
+)
+@given(THINGS, WHERE, st.sampled_from([" or ", " and not "]))
+def test_where_it_is_not_is_told(form: str, thing: str, places: list[str], joined: str) -> None:
+    joined = " or " if "any more" in form or "think the {} is {}" in form else joined
+    denied = is_there(form.format(thing, joined.join(places)))
+    assert denied == {place.split()[-1]: False for place in places}
+
+
+@pytest.mark.parametrize(
+    ("words", "there"),
+    [
+        ("The mug is on the desk, not on the bed", {"desk": True, "bed": False}),
+        ("The mug is not on the desk but on the bed", {"desk": False, "bed": True}),
+        ("The mug is not on the desk, it's on the bed", {"desk": False, "bed": True}),
+        ("The mug is neither on the desk nor on the bed", {"desk": False, "bed": False}),
+        ("It is not on the desk", {"desk": False}),
+        ("They are not on the desk or on the bed", {"desk": False, "bed": False}),
+    ],
+)
+def test_where_it_is_and_where_it_is_not_are_told_apart(words: str, there: dict[str, bool]) -> None:
+    assert is_there(words) == there
+
+
 @pytest.mark.parametrize(
     ("words", "places"),
     [
