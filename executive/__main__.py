@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from executive.config import Settings, load_settings
 from executive.errors import ExecutiveError, InputError
+from executive.needs import check_needs
 from executive.options import add_settings
 from executive.page.address import Address, add_page, address_of
 from executive.shell import (
@@ -62,6 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     said = options.pop("words")
     words = " ".join(said) if said else None
     as_json, verbose = options.pop("json"), options.pop("verbose")
+    given = {name for name, value in options.items() if value is not None and value is not False}
     view, gui = options.pop("view"), options.pop("gui")
     address = address_of(options)
     with on_stop_signals(end_at_once):
@@ -69,6 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         let_no_reader_hold_the_robot()
         try:
             settings = load_settings(**options)
+            check_needs(settings, given)
             if address and settings.user != "console":
                 right = "use --user console, or leave --page out"
                 raise InputError("--page", "it is the person, and the settings name another", right)

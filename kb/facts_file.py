@@ -73,6 +73,8 @@ def opened(file: Path | None, *, learns: bool) -> sqlite3.Connection:
             right = "name a file that --memory made, or one that does not exist yet"
             if "readonly" in str(error):
                 right = "let it be written, or add --no-learn"
+            elif "unable to open" in str(error):
+                right = "name a file in a folder that is there and may be written"
             raise InputError(printable(file), f"is no memory: {printable(error)}", right) from None
         on_error.pop_all()
     return database

@@ -181,7 +181,7 @@ class NotHere(Step):
         assert search.candidate
         place = search.candidate.place
         if not search.looks.all_without(place):
-            return self.fail(search.looks.why_not_all(name, place, say))
+            return self.fail(search.looks.why_not(name, place, say))
         self.context.facts.missed(name, place)
         search.gone = search.detection is not None
         return self.fail(f"no {say.words(name)} {say.at(place)}")

@@ -11,6 +11,7 @@ from executive.language.commands import THING
 from executive.language.wording import Wording, listed
 from executive.records import Activity
 from executive.situation import candidates_from
+from executive.situation.looks import alike
 from executive.types.home import DELIVERY
 from executive.types.knowledge import Candidate, Source
 from executive.types.perception import Detection
@@ -191,12 +192,16 @@ class SawSomething(Step):
 def not_seen(context: MissionContext) -> str:
     """Which places, or parts of them, were not seen, and why, as a clause; empty if all was."""
     looks, say = context.situation.search.looks, context.say
-    reached = [p for p in context.situation.survey.seen if p not in looks.unreached]
-    clauses = [f"I could not get to {say.the(p)}: {why}" for p, why in looks.unreached.items()]
-    for place in reached:
-        if not looks.all_without(place):
-            why = looks.unseen.get(place, "")
-            clauses.append(f"I did not see all of {say.the(place)}" + f": {why}" * bool(why))
+    seen = (p for p in context.situation.survey.seen if p not in looks.unreached)
+    in_part = {p: looks.unseen.get(p, "") for p in seen if not looks.all_without(p)}
+    clauses = [
+        f"I {failed} {listed([say.the(place) for place in places])}" + f": {why}" * bool(why)
+        for failed, all_places in (
+            ("could not get to", looks.unreached),
+            ("did not see all of", in_part),
+        )
+        for why, places in alike(all_places).items()
+    ]
     return "; ".join(clauses)
 
 

@@ -1,6 +1,5 @@
 """The two simulated bodies: in PyBullet, and in the instant world."""
 
-import logging
 from collections.abc import Callable
 
 from executive.app.embodiment import Embodiment, Setup
@@ -16,8 +15,6 @@ from sim.faults.injector import FaultInjector, FaultyCamera, FaultyDetector
 from sim.faults.orders import Fault, parse_faults, refuse_physical
 from sim.home.home import Home
 from sim.home.state import with_room
-
-log = logging.getLogger(__name__)
 
 
 def faults_of(settings: Settings, home: Home) -> tuple[Fault, ...]:
@@ -39,8 +36,6 @@ def fake(setup: Setup) -> Embodiment:
         InputError: if a fault is none, or takes physics.
     """
     faults = faults_of(setup.settings, setup.home)
-    if (file := setup.settings.detector).endswith(".onnx"):
-        log.warning("%s is not used: the instant world knows what is in its pictures", file)
     world = FakeWorld(setup.home, setup.inbox, setup.recorder)
     clock = SimulatedClock(setup.inbox, world)
     injector = _injector(setup, faults, clock.now)

@@ -1,10 +1,13 @@
 """What came of going to places to look for a thing: only what was seen is known."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import TypeVar
 
-from executive.language.wording import Wording, either
+from executive.language.wording import Wording, either, listed
 from executive.situation.snapshot import NOT_LOGGED
+
+T = TypeVar("T")
 
 
 @dataclass
@@ -70,23 +73,40 @@ class Looks:
         parts = self._parts.get(place, 0)
         return len(self._without.get(place, ())) / parts if parts else 0.0
 
-    def why_not_all(self, thing: str, place: str, say: Wording) -> str:
-        """Why it is not known whether the thing is at a place that was reached, as a clause."""
-        if place not in self.unseen:
-            return f"I am not sure whether {say.are(thing)} {say.at(place)}"
-        some = "saw only a part of" if self._without.get(place) else "could not look at"
-        return f"I {some} {say.the(place)}: {self.unseen[place]}"
-
     def why_not(self, thing: str, place: str, say: Wording) -> str:
         """Why it is not known whether the thing is at a place, as a clause."""
-        if why := self.unreached.get(place):
-            return f"I could not get to {say.the(place)}: {why}"
-        return self.why_not_all(thing, place, say)
+        return _clause(self._failure(place), [place], thing, say)
 
     def clauses(self, thing: str, say: Wording) -> Iterator[str]:
-        """What the search came to, at most a clause for each place."""
+        """What the search came to: a clause for what was seen, and one for each failure."""
         there = [p for p in dict.fromkeys(self.visited) if p not in self.unreached]
         if seen := [place for place in there if self.all_without(place)]:
             yield f"I did not find {say.the(thing)} {either(say.at_each(seen))}"
         others = (p for p in there if not self.all_without(p))
-        yield from (self.why_not(thing, place, say) for place in (*others, *self.unreached))
+        failures = {place: self._failure(place) for place in (*others, *self.unreached)}
+        for failure, places in alike(failures).items():
+            yield _clause(failure, places, thing, say)
+
+    def _failure(self, place: str) -> tuple[str, str]:
+        """What became of looking at a place, and why; both empty if that is not known."""
+        if why := self.unreached.get(place):
+            return "could not get to", why
+        if place not in self.unseen:
+            return "", ""
+        some = "saw only a part of" if self._without.get(place) else "could not look at"
+        return some, self.unseen[place]
+
+
+def alike(places: Mapping[str, T]) -> dict[T, list[str]]:
+    """The places of which the same is to be told, together."""
+    together: dict[T, list[str]] = {}
+    for place, what in places.items():
+        together.setdefault(what, []).append(place)
+    return together
+
+
+def _clause(failure: tuple[str, str], places: list[str], thing: str, say: Wording) -> str:
+    failed, why = failure
+    if not failed:
+        return f"I am not sure whether {say.are(thing)} {either(say.at_each(places))}"
+    return f"I {failed} {listed([say.the(place) for place in places])}: {why}"

@@ -119,6 +119,11 @@ def test_what_is_no_file_is_no_memory(tmp_path: Path, make: Callable[[Path], obj
         FactStore(tmp_path / "x")
 
 
+def test_a_memory_in_a_folder_that_is_not_there_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="name a file in a folder that is there"):
+        FactStore(tmp_path / "none" / "facts.sqlite")
+
+
 def test_a_damaged_memory_is_refused(file: Path) -> None:
     data = bytearray(file.read_bytes())
     data[4096 + 8 : 4096 * 3] = os.urandom(4096 * 2 - 8)

@@ -42,8 +42,7 @@ def test_all_of_a_room_that_could_not_be_reached_is_told() -> None:
     doors = {DriveTo(place): "it is shut" for place in ("shelf_lobby", "sideboard")}
     shut = run_mission("Go to the lobby", llm=False, fault=doors.get)
     assert shut.outcome.reason == (
-        "I could not get to the shelf in the lobby: it is shut; "
-        "I could not get to the sideboard: it is shut"
+        "I could not get to the shelf in the lobby and the sideboard: it is shut"
     )
 
 

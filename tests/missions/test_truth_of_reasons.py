@@ -172,6 +172,17 @@ def test_it_is_said_not_to_be_where_every_part_was_seen_without_it_and_nowhere_e
     assert all(sum(p in clause for clause in clauses) == 1 for p in looks.visited)
 
 
+def test_places_where_the_same_went_wrong_are_told_in_one_clause() -> None:
+    looks = Looks()
+    looks.not_reached("desk", "it is shut")
+    looks.not_reached("sofa", "the way is blocked")
+    looks.not_reached("bed", "it is shut")
+    assert list(looks.clauses("mug", Wording(lambda name: None))) == [
+        "I could not get to the desk and the bed: it is shut",
+        "I could not get to the sofa: the way is blocked",
+    ]
+
+
 def test_the_log_does_not_say_of_an_unseen_place_that_the_thing_was_not_seen_there(
     tmp_path,
 ) -> None:

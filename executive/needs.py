@@ -1,0 +1,143 @@
+"""What settings do nothing without: told to who gives one alone, and not ignored."""
+
+import logging
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+
+from executive.config import KnowledgeSystem, Settings
+from executive.errors import InputError
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """What some settings need to have an effect.
+
+    Attributes:
+        of: the settings, and options of the command line that are none, by the names of fields.
+        is_met: whether the settings have what is needed.
+        lack: what there is instead, as a clause.
+        right: what would be right, beside leaving it out.
+    """
+
+    of: tuple[str, ...]
+    is_met: Callable[[Settings], bool]
+    lack: str
+    right: str
+
+
+_MODEL = ("elicit", "grammar", "prompts", "temperature", "top_p", "context_tokens", "max_tokens")
+_NO_MODEL = "there is no language model"
+
+NEEDS = (
+    Need(
+        ("world", "place", "ycb", "camera_hz", "gui"),
+        lambda s: s.robot is None,
+        "a robot over the wire is no world of this program",
+        "leave out --robot",
+    ),
+    Need(
+        ("ycb", "camera_hz", "gui"),
+        lambda s: s.world != "fake",
+        "the instant world draws nothing",
+        "give --world physics",
+    ),
+    Need(
+        ("detector",),
+        lambda s: s.robot is not None or s.world != "fake" or s.detector == "simulated",
+        "the instant world knows what is in its pictures",
+        "give --world physics",
+    ),
+    Need(
+        ("llm",),
+        lambda s: s.uses_llm or s.llm == "none",
+        "the system okb asks no language model",
+        "give --knowledge okb+llm",
+    ),
+    Need(
+        ("knowledge",),
+        lambda s: s.uses_llm or s.knowledge == KnowledgeSystem.OKB,
+        _NO_MODEL,
+        "give --llm embedded",
+    ),
+    Need(
+        (*_MODEL, "llm_timeout_s"),
+        lambda s: s.uses_llm,
+        _NO_MODEL,
+        "give --llm embedded with --knowledge okb+llm",
+    ),
+    Need(
+        ("threads", "gpu_layers"),
+        lambda s: s.uses_llm and not s.llm.startswith("http"),
+        "no language model runs in this process",
+        "give --llm embedded",
+    ),
+    Need(
+        ("llm_model",),
+        lambda s: s.uses_llm and s.llm.startswith("http"),
+        "no server has the language model",
+        "give --llm http://host:port/v1",
+    ),
+    Need(
+        ("question_s",),
+        lambda s: s.search == "plan",
+        "the paper's stages weigh nothing",
+        "give --search plan",
+    ),
+    Need(
+        ("microphone",),
+        lambda s: s.ears is not None,
+        "nobody hears by it",
+        "give --ears pocketsphinx",
+    ),
+    Need(
+        ("ears_model", "ears_timeout_s"),
+        lambda s: (s.ears or "").startswith("http"),
+        "no server hears",
+        "give --ears http://host:port/v1",
+    ),
+    Need(
+        ("ears_language",),
+        lambda s: s.ears not in (None, "pocketsphinx"),
+        "nobody hears who knows another language",
+        "give --ears http://host:port/v1",
+    ),
+    Need(
+        ("hours_between",),
+        lambda s: s.habits is not None or s.home_state is not None,
+        "the home is put in order at each start, and nobody lives there",
+        "give --habits household",
+    ),
+)
+"""Beside these, what would be wrong wherever it comes from is refused where it is used."""
+
+
+def check_needs(settings: Settings, given: Collection[str]) -> None:
+    """See that each setting has an effect; warn of one that a file or the environment has in vain.
+
+    Args:
+        settings: all of them.
+        given: those that the command line gives.
+
+    Raises:
+        InputError: if one of those has none.
+    """
+    for name, need in _unmet(settings):
+        if name in given:
+            option = f"--{name.replace('_', '-')}"
+            raise InputError(option, _in_vain(need), f"{need.right}, or leave {option} out")
+        if name in settings.model_fields_set and getattr(settings, name) != _default(name):
+            log.warning("setting '%s' %s", name, _in_vain(need))
+
+
+def _unmet(settings: Settings) -> Iterator[tuple[str, Need]]:
+    return ((name, need) for need in NEEDS if not need.is_met(settings) for name in need.of)
+
+
+def _in_vain(need: Need) -> str:
+    return f"has no effect: {need.lack}"
+
+
+def _default(name: str) -> object:
+    return Settings.model_fields[name].get_default(call_default_factory=True)
