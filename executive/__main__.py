@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from executive.config import Settings, load_settings
 from executive.errors import ExecutiveError, InputError
-from executive.needs import check_needs
+from executive.needs import warn_of_vain
 from executive.options import add_settings
 from executive.page.address import Address, add_page, address_of
 from executive.shell import (
@@ -71,7 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         let_no_reader_hold_the_robot()
         try:
             settings = load_settings(**options)
-            check_needs(settings, given)
+            warn_of_vain(settings, given)
             if address and settings.user != "console":
                 right = "use --user console, or leave --page out"
                 raise InputError("--page", "it is the person, and the settings name another", right)

@@ -1,11 +1,10 @@
-"""What settings do nothing without: told to who gives one alone, and not ignored."""
+"""What settings do nothing without: who gives one alone is told."""
 
 import logging
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 
 from executive.config import KnowledgeSystem, Settings
-from executive.errors import InputError
 
 log = logging.getLogger(__name__)
 
@@ -113,30 +112,24 @@ NEEDS = (
 """Beside these, what would be wrong wherever it comes from is refused where it is used."""
 
 
-def check_needs(settings: Settings, given: Collection[str]) -> None:
-    """See that each setting has an effect; warn of one that a file or the environment has in vain.
+def warn_of_vain(settings: Settings, given: Collection[str]) -> None:
+    """Tell which settings have no effect; of a file's and the environment's, if they say something.
 
     Args:
         settings: all of them.
         given: those that the command line gives.
-
-    Raises:
-        InputError: if one of those has none.
     """
     for name, need in _unmet(settings):
+        lack = f"has no effect: {need.lack}"
         if name in given:
             option = f"--{name.replace('_', '-')}"
-            raise InputError(option, _in_vain(need), f"{need.right}, or leave {option} out")
-        if name in settings.model_fields_set and getattr(settings, name) != _default(name):
-            log.warning("setting '%s' %s", name, _in_vain(need))
+            log.warning("%s %s (%s, or leave %s out)", option, lack, need.right, option)
+        elif name in settings.model_fields_set and getattr(settings, name) != _default(name):
+            log.warning("setting '%s' %s", name, lack)
 
 
 def _unmet(settings: Settings) -> Iterator[tuple[str, Need]]:
     return ((name, need) for need in NEEDS if not need.is_met(settings) for name in need.of)
-
-
-def _in_vain(need: Need) -> str:
-    return f"has no effect: {need.lack}"
 
 
 def _default(name: str) -> object:

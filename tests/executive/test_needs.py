@@ -1,4 +1,4 @@
-"""An option that does nothing without another one is refused; in a file it is told."""
+"""An option that does nothing without another one is told, with what it needs."""
 
 import re
 from pathlib import Path
@@ -7,8 +7,7 @@ import pytest
 
 from executive.__main__ import parsed
 from executive.config import Settings, load_settings
-from executive.errors import InputError
-from executive.needs import NEEDS, check_needs
+from executive.needs import NEEDS, warn_of_vain
 from executive.options import option_of
 
 pytestmark = pytest.mark.usefixtures("own_folder_and_signals")
@@ -38,7 +37,7 @@ LEAVING_OUT = re.compile(r"leave out (--[a-z-]+)")
 def check(words: list[str]) -> None:
     given = {name: value for name, value in vars(parsed(words)).items() if value}
     fields = {name: value for name, value in given.items() if name in Settings.model_fields}
-    check_needs(load_settings(**fields), given)
+    warn_of_vain(load_settings(**fields), given)
 
 
 def test_there_is_a_command_line_for_each_option_of_the_table() -> None:
@@ -48,18 +47,22 @@ def test_there_is_a_command_line_for_each_option_of_the_table() -> None:
 
 
 @pytest.mark.parametrize("name", IN_VAIN)
-def test_an_option_without_effect_is_refused_and_what_is_said_mends_it(name: str) -> None:
+def test_an_option_without_effect_is_told_and_what_is_said_mends_it(
+    name: str, caplog: pytest.LogCaptureFixture
+) -> None:
     words = IN_VAIN[name].split()
     option = f"--{name.replace('_', '-')}"
-    with pytest.raises(InputError, match=f"^{option}: has no effect: ") as error:
-        check(words)
-    mends, _, leaves_out = error.value.args[2].partition(", or ")
+    check(words)
+    said = next(one for one in caplog.messages if one.startswith(f"{option} has no effect: "))
+    mends, _, leaves_out = said.rpartition("(")[2].rstrip(")").partition(", or ")
     assert leaves_out == f"leave {option} out"
     for unwanted in LEAVING_OUT.findall(mends):
         at = words.index(unwanted)
         del words[at : at + 2]
     wanted = [word.replace(":port", ":1") for pair in HAVING.findall(mends) for word in pair]
+    caplog.clear()
     check([*words, *wanted])
+    assert not caplog.messages
 
 
 def test_what_a_file_or_the_environment_says_in_vain_is_told_and_does_no_harm(
@@ -68,7 +71,7 @@ def test_what_a_file_or_the_environment_says_in_vain_is_told_and_does_no_harm(
     file = tmp_path / "mine.toml"
     file.write_text('microphone = "mine.wav"\nquestion_s = 5.0\nseed = 3')
     monkeypatch.setenv("EXECUTIVE_LLM_MODEL", "llama3")
-    check_needs(load_settings(file), {"seed"})
+    warn_of_vain(load_settings(file), {"seed"})
     assert sorted(record.getMessage() for record in caplog.records) == [
         "setting 'llm_model' has no effect: no server has the language model",
         "setting 'microphone' has no effect: nobody hears by it",
@@ -80,5 +83,5 @@ def test_the_settings_that_a_run_keeps_are_no_reason_to_warn(
 ) -> None:
     file = tmp_path / "config.toml"
     file.write_text(load_settings(world="fake", llm="none", search="paper").to_toml())
-    check_needs(load_settings(file), ())
+    warn_of_vain(load_settings(file), ())
     assert not caplog.records
