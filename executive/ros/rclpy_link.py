@@ -6,6 +6,7 @@ rclpy spins on a thread of its own; what comes of it is handed to the thread of 
 import asyncio
 import logging
 import threading
+import time
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any
@@ -78,6 +79,7 @@ class RclpyLink:
             except Exception as error:
                 if self._context.ok():
                     log.info("rclpy broke off, and goes on: %s", in_words(error))
+                    time.sleep(LOOK_S)
 
     async def ready(self, within_s: float) -> None:
         """Wait until the robot is greeted."""
