@@ -15,9 +15,10 @@ from executive.ros.address import read_address
 from executive.ros.connection import check, dial
 from executive.ros.frames import FrameTree
 from executive.ros.link import Link, LinkError
+from executive.ros.messages import FRAMES_TYPE
 from executive.ros.offers import Offers
 from executive.ros.profile import load_profile, packaged_profiles, profile_text
-from executive.ros.proposing import listing, printable_lines, proposal
+from executive.ros.proposing import frame_topics, listing, printable_lines, proposal
 from executive.shell import BAD_INPUT, DONE, entry_point
 from executive.usage import Parser
 
@@ -53,11 +54,10 @@ def _look(address: str) -> int:
 
 
 async def _seen(link: Link) -> tuple[Offers, tuple[str, ...]]:
-    frames = FrameTree()
-    kind = "tf2_msgs/msg/TFMessage"
-    link.subscribe("/tf", kind, frames.take)
-    link.subscribe("/tf_static", kind, lambda message: frames.take(message, fixed=True))
-    offers = await link.offers()
+    offers, frames = await link.offers(), FrameTree()
+    moving, fixed = frame_topics(offers)
+    link.subscribe(moving, FRAMES_TYPE, frames.take)
+    link.subscribe(fixed, FRAMES_TYPE, lambda message: frames.take(message, fixed=True))
     await asyncio.sleep(LISTENING_S)
     return offers, frames.names
 

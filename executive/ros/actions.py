@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from executive.ros.link import GoalEnd, Link, LinkError
-from executive.ros.profile import Profile
+from executive.ros.profile import PATH_TYPE, Profile
 from executive.ros.protocol import GoalStatus, Message
 from executive.ros.stopping import PARTS
 from executive.ros.templates import filled
@@ -17,7 +17,6 @@ from executive.types.results import Failed
 LINK_S = 5.0
 """So long a goal waits for a link that was lost."""
 PATH_S = 10.0
-PATH_TYPE = "nav2_msgs/action/ComputePathToPose"
 MOST_LEGS = 200
 SAID = 200
 """So many characters of a reason are told."""

@@ -52,6 +52,7 @@ class Shutter:
         await self._link.ready(LINK_S)
         color, depth, lens = await self._pair()
         try:
+            self._refuse_other_views(color, depth, lens)
             read = color_of(color), depth_of(depth), lens_of(lens), await self._pose(color)
         except LinkError:
             raise
@@ -86,6 +87,19 @@ class Shutter:
         finally:
             for end in endings:
                 end()
+
+    def _refuse_other_views(self, *messages: Message) -> None:
+        """See that all are of one optical frame, if it is they who say which one that is.
+
+        Raises:
+            LinkError: if they are not.
+        """
+        said = {str(one["header"].get("frame_id", "")).lstrip("/") for one in messages} - {""}
+        if len(said) > 1 and not self._profile.frames.camera:
+            raise LinkError(
+                f"colour, depth and lens are of {', '.join(sorted(said))}: the profile should name"
+                " those of one camera, depth aligned with colour; or frames.camera, if they are"
+            )
 
     async def _pose(self, color: Message) -> Pose:
         """Where the camera was in the map, when the picture was taken."""

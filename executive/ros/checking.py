@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from executive.errors import InputError
 from executive.ros.goal_fields import misfits
 from executive.ros.link import Link, LinkError
+from executive.ros.messages import FRAMES_TYPE
 from executive.ros.moveit import SEMANTICS, SEMANTICS_TYPE, planning_groups
 from executive.ros.offers import Offers, likely, same_type
-from executive.ros.profile import Profile
+from executive.ros.profile import PATH_TYPE, Profile
 from executive.ros.protocol import Message
 from executive.ros.senses import Senses
 
@@ -56,6 +57,8 @@ def _topics(offers: Offers, profile: Profile, where: str) -> list[InputError]:
         ("camera.info", camera.info, "sensor_msgs/msg/CameraInfo"),
         ("odometry.topic", profile.odometry.topic, "nav_msgs/msg/Odometry"),
     ]
+    if camera.in_map:
+        wanted.append(("frames.tf", profile.frames.tf, FRAMES_TYPE))
     if profile.joints:
         wanted.append(("joints.topic", profile.joints.topic, "sensor_msgs/msg/JointState"))
     if profile.hand:
@@ -78,8 +81,7 @@ def _topics(offers: Offers, profile: Profile, where: str) -> list[InputError]:
 def _actions(offers: Offers, profile: Profile, where: str) -> list[InputError]:
     wanted = [(s, action.action, action.type) for s, action in profile.actions().items()]
     if profile.drive.path:
-        kind = "nav2_msgs/action/ComputePathToPose"
-        wanted.append(("drive.path", profile.drive.path, kind))
+        wanted.append(("drive.path", profile.drive.path, PATH_TYPE))
     found = []
     for section, name, kind in wanted:
         if name not in offers.actions:

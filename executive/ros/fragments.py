@@ -1,5 +1,7 @@
 """Long messages in parts: rosbridge's `fragment`."""
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from executive.ros.packets import MOST_BYTES, PacketError
@@ -19,16 +21,16 @@ class Part:
     total: int
 
 
-def split(text: str, size: int, id: str) -> tuple[Part, ...]:
-    """The text in parts of so many characters at most.
+def split(text: str, size: int, id: str) -> Iterator[Part]:
+    """The text in parts of so many characters at most; each is made when its turn comes.
 
     Raises:
         ValueError: if the size is not positive.
     """
     if size < 1:
         raise ValueError("a part has at least one character")
-    pieces = [text[at : at + size] for at in range(0, len(text), size)] or [""]
-    return tuple(Part(id, piece, number, len(pieces)) for number, piece in enumerate(pieces))
+    total = max(1, math.ceil(len(text) / size))
+    return (Part(id, text[n * size : (n + 1) * size], n, total) for n in range(total))
 
 
 @dataclass

@@ -12,6 +12,7 @@ from executive.ros.packets import PacketError
 from executive.ros.protocol import Message
 from executive.types.geometry import Pose, Quaternion, Vector3
 
+FRAMES_TYPE = "tf2_msgs/msg/TFMessage"
 NONE: Message = {"sec": 0, "nanosec": 0}
 """No time: whatever is newest."""
 LATEST_S = 2.0**32

@@ -13,6 +13,7 @@ from typing import Any
 
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidURI
+from websockets.frames import Close, CloseCode
 
 from executive.guards import in_words
 from executive.ros.address import Address
@@ -264,6 +265,8 @@ class Peer:
 def _why(error: Exception) -> str:
     """Why there is no connection, as a clause."""
     match error:
+        case ConnectionClosed(sent=Close(code=CloseCode.MESSAGE_TOO_BIG)):
+            return f"it sent a message of more than {MOST_BYTES:,} bytes"
         case ConnectionClosed():
             return "it broke off"
         case TimeoutError():

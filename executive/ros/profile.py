@@ -24,6 +24,8 @@ from executive.toml_file import (
 )
 
 EXAMPLE = "see docs/own-robot.md"
+PATH_TYPE = "nav2_msgs/action/ComputePathToPose"
+"""Of the action that plans ways."""
 
 
 def _graph_name(name: str) -> str:
@@ -42,7 +44,10 @@ def _type_name(name: str) -> str:
 class _Section(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    @field_validator("action", "topic", "color", "depth", "info", "path", check_fields=False)
+    @field_validator(
+        *("action", "topic", "color", "depth", "info", "path", "tf", "tf_static", "speed_topic"),
+        check_fields=False,
+    )
     @classmethod
     def _names(cls, value: str | None) -> str | None:
         return None if value is None else _graph_name(value)
@@ -54,13 +59,15 @@ class _Section(BaseModel):
 
 
 class Frames(_Section):
-    """Names of frames."""
+    """Names of frames, and the topics that tell where they are."""
 
     map: Annotated[str, Field(min_length=1)] = "map"
     """The home file's frame: the robot has to be localised in it."""
     base: Annotated[str, Field(min_length=1)] = "base_link"
     camera: str = ""
     """The optical frame; empty: the one that pictures say."""
+    tf: str = "/tf"
+    tf_static: str = "/tf_static"
 
 
 class Action(_Section):
@@ -100,7 +107,7 @@ class Drive(Action):
     """
 
     path: str | None = None
-    """Action of type nav2_msgs/action/ComputePathToPose."""
+    """Action of type `PATH_TYPE`."""
     leg_m: Annotated[float, Field(ge=0.2, le=100)] | None = None
 
     @model_validator(mode="after")
@@ -254,12 +261,13 @@ class Limits(_Section):
     Attributes:
         rooms: the rooms of the home that it may be sent to; left out: all.
         hours: from when until when it drives, local time: `["08:00", "20:00"]`.
-        speed_m_s: published once to /speed_limit, which Nav2 heeds.
+        speed_m_s: published once to `speed_topic`, which Nav2 heeds.
     """
 
     rooms: tuple[str, ...] | None = None
     hours: tuple[str, str] | None = None
     speed_m_s: Annotated[float, Field(gt=0, le=10)] | None = None
+    speed_topic: str = "/speed_limit"
 
     @field_validator("hours")
     @classmethod

@@ -1,15 +1,19 @@
 """A profile for a robot that nobody has described yet, guessed from what it offers."""
 
 from collections.abc import Iterable, Sequence
+from os.path import commonprefix
 
+from executive.ros.messages import FRAMES_TYPE
 from executive.ros.offers import Offers
+from executive.ros.profile import PATH_TYPE, Frames
 from executive.ros.templates import GOALS
 from executive.text import printable
 
 IMAGE = "sensor_msgs/msg/Image"
+POINT_HEAD = "control_msgs/action/PointHead"
 ACTIONS = {
     "drive": ("nav2_msgs/action/NavigateToPose",),
-    "look": ("control_msgs/action/PointHead", "nav2_msgs/action/Spin"),
+    "look": (POINT_HEAD, "nav2_msgs/action/Spin"),
     "pick": ("executive_msgs/action/Pick",),
     "place": ("executive_msgs/action/Place",),
 }
@@ -22,6 +26,8 @@ ARM = {
     ),
 }
 """The same, for a robot without actions of its own for picking up."""
+BASES = ("base_link", "base_footprint")
+LEG_M = 2.0
 MOST_FRAMES = 12
 """So many are listed where one is missing."""
 UNKNOWN = {
@@ -29,8 +35,6 @@ UNKNOWN = {
     "gripper": ("open", "closed", "effort", "opens_m"),
 }
 """What else these sections need, and no offer tells: it is asked for."""
-
-
 PERHAPS = {
     "joints": ("sensor_msgs/msg/JointState", "if velocities are told there: a stop waits for them"),
     "hand": ("std_msgs/msg/Bool", "if that is whether something is in the hand"),
@@ -39,21 +43,33 @@ PERHAPS = {
 
 
 def proposal(offers: Offers, frames: Iterable[str]) -> str:
-    """The TOML of a profile, with what could not be guessed as comments."""
+    """The TOML of a profile, with what could not be guessed as comments.
+
+    `frames` are those that are told on `frame_topics`.
+    """
     lines = ["# Proposed from what the robot offers: read it, and put right what is wrong.", ""]
-    lines += _frames(tuple(frames))
+    lines += _frames(tuple(frames), offers)
     for section, kinds in ACTIONS.items():
         lines += _action(offers, section, kinds)
     if not any(offers.actions_of(kind) for kind in ACTIONS["pick"]):
         lines += _arm(offers)
     lines += _camera(offers)
-    lines += _section("odometry", {"topic": _first(offers.topics_of("nav_msgs/msg/Odometry"))})
+    lines += ["[odometry]", _line("topic", _topics(offers, "nav_msgs/msg/Odometry")), ""]
     for section, (kind, why) in PERHAPS.items():
-        if found := offers.topics_of(kind):
-            lines += [f"# [{section}]  # {why}", f"# topic = {_quoted(found[0])}", ""]
-    if offers.topics_of("rosgraph_msgs/msg/Clock"):
-        lines += ["[clock]", 'topic = "/clock"', ""]
+        if found := _topics(offers, kind):
+            lines += [f"# [{section}]  # {why}", f"# {_line('topic', found)}", ""]
+    if clocks := _topics(offers, "rosgraph_msgs/msg/Clock"):
+        lines += ["[clock]", _line("topic", clocks), ""]
     return "\n".join(lines)
+
+
+def frame_topics(offers: Offers) -> tuple[str, str]:
+    """The topics that tell where the robot is: by frames that move, and by those that do not."""
+    told = _topics(offers, FRAMES_TYPE)
+    fixed = [name for name in told if name.endswith("static")]
+    moving = [name for name in told if name not in fixed]
+    usual = Frames()
+    return next(iter(moving), usual.tf), next(iter(fixed), usual.tf_static)
 
 
 def listing(offers: Offers) -> str:
@@ -68,32 +84,72 @@ def printable_lines(lines: Iterable[str]) -> str:
     return "\n".join(printable(line) for line in lines)
 
 
-def _frames(names: tuple[str, ...]) -> list[str]:
+# --- which of several ---
+
+
+def _near(names: Iterable[str], to: str) -> tuple[str, ...]:
+    """Those in the same namespace as another name first: there may be more robots, and cameras."""
+    return tuple(sorted(names, key=lambda name: (-_shared(name, to), name.count("/"))))
+
+
+def _shared(one: str, other: str) -> int:
+    """How much of their namespaces two names share."""
+    return len(commonprefix([one.split("/")[:-1], other.split("/")[:-1]]))
+
+
+def _driver(offers: Offers) -> str:
+    """The action that drives the robot; what else it has is near that."""
+    return next(iter(_near(offers.actions_of(ACTIONS["drive"][0]), "")), "")
+
+
+def _topics(offers: Offers, kind: str) -> tuple[str, ...]:
+    return _near(offers.topics_of(kind), _driver(offers))
+
+
+# --- the sections ---
+
+
+def _frames(names: tuple[str, ...], offers: Offers) -> list[str]:
     """Where nobody tells a usual one, which there are: a robot may not be localised yet."""
-    base = next((n for n in ("base_link", "base_footprint") if n in names), "base_link")
     optical = [n for n in names if n.endswith("optical_frame") or n.endswith("optical")]
-    color = next((n for n in optical if "depth" not in n), None)
-    there = ", ".join((*names[:MOST_FRAMES], *(["..."] if names[MOST_FRAMES:] else [])))
-    untold = f"  # not told; there are {printable(there) or 'none'}"
-    return [
-        "[frames]",
-        'map = "map"' + untold * ("map" not in names),
-        f'base = "{base}"' + untold * (base not in names),
-        *([f"camera = {_quoted(color)}"] if color else []),
-        "",
-    ]
+    of_color = [n for n in optical if "color" in n or "rgb" in n]
+    eyes = of_color or [n for n in optical if "depth" not in n]
+    there = _listed(names) or "none"
+    lines = ["[frames]"]
+    for key, usual in (("map", ("map",)), ("base", BASES)):
+        found = [f"/{name}" for one in usual for name in names if name.rpartition("/")[2] == one]
+        name = next((one[1:] for one in _near(found, _driver(offers))), "")
+        lines.append(
+            f"{key} = {_quoted(name or usual[0])}" + f"  # not told; there are {there}" * (not name)
+        )
+    if len(eyes) == 1 and offers.actions_of(POINT_HEAD):  # others go by what pictures say
+        lines.append(f"camera = {_quoted(eyes[0])}")
+    usual_topics = Frames()
+    for key, topic in zip(("tf", "tf_static"), frame_topics(offers), strict=True):
+        if topic != getattr(usual_topics, key):
+            lines.append(_line(key, (topic,)))
+    return [*lines, ""]
 
 
 def _action(offers: Offers, section: str, kinds: Iterable[str]) -> list[str]:
     for kind in kinds:
-        if names := offers.actions_of(kind):
-            return _section(section, {"action": names[0], "type": kind})
+        if names := _near(offers.actions_of(kind), _driver(offers)):
+            legs = _legs(offers) if section == "drive" else []
+            return [f"[{section}]", _line("action", names), _line("type", (kind,)), *legs, ""]
     untold = [name for name, kind in offers.actions.items() if not kind]
     if section == "drive":
         there = [f"{name} ({kind or 'type not told'})" for name, kind in offers.actions.items()]
-        drive = {"action": _first(untold), "type": next(iter(GOALS))}
-        return _section("drive", drive, there)
+        guessed = _line("type", (next(iter(GOALS)),))
+        return ["[drive]", _line("action", untold[:1], there), guessed, ""]
     return []
+
+
+def _legs(offers: Offers) -> list[str]:
+    """A link that is lost then means metres, not rooms; by ways of the same robot's."""
+    driver = _driver(offers)
+    beside = driver.rpartition("/")[0]
+    ways = [name for name in offers.actions_of(PATH_TYPE) if name.rpartition("/")[0] == beside]
+    return [_line("path", ways), f"leg_m = {LEG_M}"] if ways else []
 
 
 def _arm(offers: Offers) -> list[str]:
@@ -106,32 +162,41 @@ def _arm(offers: Offers) -> list[str]:
 
 
 def _camera(offers: Offers) -> list[str]:
-    images = offers.topics_of(IMAGE)
+    """The colour that has a depth next to it, if there is one, and both of the same camera."""
+    images = _topics(offers, IMAGE)
     depths = [name for name in images if "depth" in name]
-    aligned = [name for name in depths if "aligned" in name or "registered" in name]
-    colors = [n for n in images if n not in depths and ("color" in n or "rgb" in n)]
-    color = _first(colors or [n for n in images if n not in depths])
-    infos = offers.topics_of("sensor_msgs/msg/CameraInfo")
-    beside = color.rpartition("/")[0] + "/camera_info"
-    info = beside if beside in infos else _first(infos)
+    aligned = [name for name in depths if "aligned" in name or "registered" in name] or depths
+    plain = [name for name in images if name not in depths]
+    colors = [name for name in plain if "color" in name or "rgb" in name] or plain
+    colors.sort(key=lambda name: -max((_shared(name, depth) for depth in aligned), default=0))
+    color = next(iter(colors), "")
     others = [name for name in images if name != color]
-    topics = {"color": color, "depth": _first(aligned or depths), "info": info}
-    return _section("camera", topics, others)
+    infos = _near(offers.topics_of("sensor_msgs/msg/CameraInfo"), color)
+    return [
+        "[camera]",
+        _line("color", colors, others),
+        _line("depth", _near(aligned, color), others),
+        _line("info", infos[:1], others),
+        "",
+    ]
 
 
-def _section(name: str, keys: dict[str, str], there: Sequence[str] = ()) -> list[str]:
-    """The lines of a section; beside what was not found stands what there is instead."""
-    lines = [f"{key} = {_quoted(value, there)}" for key, value in keys.items()]
-    return [f"[{name}]", *lines, ""]
+def _line(key: str, names: Sequence[str], there: Sequence[str] = ()) -> str:
+    """A key with the first of these names; beside it stands what else it may be.
+
+    Beside what was not found stands what there is instead.
+    """
+    if names:
+        also = _listed(names[1:])
+        return f"{key} = {_quoted(names[0])}" + (f"  # or {also}" if also else "")
+    instead = _listed(there)
+    return f'{key} = ""  # not found' + (f"; there is {instead}" if instead else "")
 
 
-def _quoted(value: str, there: Sequence[str] = ()) -> str:
+def _listed(names: Sequence[str]) -> str:
+    return printable(", ".join((*names[:MOST_FRAMES], *(["..."] if names[MOST_FRAMES:] else []))))
+
+
+def _quoted(value: str) -> str:
     plain = printable(value).replace("\\", "\\\\").replace('"', '\\"')
-    if value:
-        return f'"{plain}"'
-    others = printable(", ".join(there[:MOST_FRAMES]))
-    return '""  # not found' + (f"; there is {others}" if others else "")
-
-
-def _first(names: Iterable[str]) -> str:
-    return next(iter(names), "")
+    return f'"{plain}"'

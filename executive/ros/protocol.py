@@ -7,6 +7,7 @@ is missing or of another kind is a `PacketError` and has no effect.
 A packet in a picture (`png`) is read as what it holds.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from enum import IntEnum, StrEnum
 from typing import Annotated, Any, ClassVar
@@ -288,10 +289,10 @@ def decode(packet: Packet) -> Operation:
 
 def encode_in_parts(
     operation: Operation, id: str, fragment_size: int | None = None
-) -> tuple[Packet, ...]:
+) -> Iterator[Packet]:
     """An operation as text for one who wants it in pieces of this size; `id` names the whole."""
     packet = encode(operation)
     if fragment_size is None or len(packet) <= fragment_size:
-        return (packet,)
+        return iter((packet,))
     parts = split(str(packet), fragment_size, id)
-    return tuple(encode(Fragment(p.id, p.data, p.num, p.total)) for p in parts)
+    return (encode(Fragment(p.id, p.data, p.num, p.total)) for p in parts)

@@ -6,6 +6,7 @@ rclpy spins on a thread of its own; what comes of it is handed to the thread of 
 import asyncio
 import logging
 import threading
+import time
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any
@@ -36,6 +37,9 @@ DEPTH = 10
 _GOAL, _KIND = "/_action/send_goal", "_SendGoal"
 """The hidden service that each action's server has."""
 
+Server = frozenset[bytes]
+"""Who serves an action: what its publishers of the goals' status are called in the graph."""
+
 log = logging.getLogger(__name__)
 
 
@@ -65,14 +69,20 @@ class RclpyLink:
         self._spinning.start()
         self._greeter: asyncio.Task[None] | None = None
         self._actions: dict[str, Any] = {}
-        self._met: set[str] = set()
-        """Actions whose server has found who asks it."""
+        self._met: set[tuple[str, Server]] = set()
+        """Actions whose server has found who asks it; one that comes back has to find it anew."""
         self._clients: dict[str, Any] = {}
         self._publishers: dict[str, Any] = {}
 
     def _spin(self) -> None:
-        with suppress(Exception):  # it is shut down under its feet
-            self._executor.spin()
+        """Until the context is shut down; who leaves in the wrong moment ends what rclpy is at."""
+        while self._context.ok():
+            try:
+                self._executor.spin()
+            except Exception as error:
+                if self._context.ok():
+                    log.info("rclpy broke off, and goes on: %s", in_words(error))
+                    time.sleep(LOOK_S)
 
     async def ready(self, within_s: float) -> None:
         """Wait until the robot is greeted."""
@@ -154,10 +164,15 @@ class RclpyLink:
             if self._loop.time() > latest:
                 raise LinkError(f"nobody serves {action}")
             await asyncio.sleep(LOOK_S)
-        if action not in self._met:
+        server = action, self._serving(action)
+        if server not in self._met:
             await self._meet(action)
-            self._met.add(action)
+            self._met.add(server)
         return client, made
+
+    def _serving(self, action: str) -> Server:
+        told = self._node.get_publishers_info_by_topic(f"{action}/_action/status")
+        return frozenset(bytes(one.endpoint_gid) for one in told)
 
     async def _meet(self, action: str) -> None:
         """Wait until the server of an action has found who asks it; its answers are lost before.
@@ -210,8 +225,9 @@ class RclpyLink:
         from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
         offered = [one.qos_profile for one in self._node.get_publishers_info_by_topic(topic)]
-        kept = topic == "/tf_static" or _all(offered, "durability", "TRANSIENT_LOCAL")
-        reliable = topic == "/tf_static" or _all(offered, "reliability", "RELIABLE")
+        fixed = topic.endswith("/tf_static")  # of which nobody may be known yet
+        kept = fixed or _all(offered, "durability", "TRANSIENT_LOCAL")
+        reliable = fixed or _all(offered, "reliability", "RELIABLE")
         return QoSProfile(
             depth=DEPTH,
             durability=DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE,

@@ -9,7 +9,7 @@ from contextlib import suppress
 
 from executive.ros.frames import BACK_S, FrameTree
 from executive.ros.link import Link
-from executive.ros.messages import seconds, stamp_of, vector
+from executive.ros.messages import FRAMES_TYPE, seconds, stamp_of, vector
 from executive.ros.packets import PacketError, numbers
 from executive.ros.profile import Profile
 from executive.ros.protocol import Message
@@ -54,9 +54,11 @@ class Senses:
         self._framed = 0
         """How often the link had been lost when frames were last told."""
         self._endings: list[Callable[[], None]] = []
-        kind = "tf2_msgs/msg/TFMessage"
-        link.subscribe("/tf_static", kind, lambda message: self.frames.take(message, fixed=True))
-        link.subscribe("/tf", kind, self._take_frames)
+        told = profile.frames
+        link.subscribe(
+            told.tf_static, FRAMES_TYPE, lambda message: self.frames.take(message, fixed=True)
+        )
+        link.subscribe(told.tf, FRAMES_TYPE, self._take_frames)
         if profile.clock is not None:
             link.subscribe(profile.clock.topic, "rosgraph_msgs/msg/Clock", self._take_clock)
         self._felt = asyncio.Event()

@@ -13,8 +13,8 @@ import logging
 import os
 import re
 import threading
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, Protocol
 
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
@@ -39,6 +39,14 @@ _BUSY, _TOO_SLOW = 1013, 1008
 
 _log = logging.getLogger(f"{__name__}.sockets")
 _log.setLevel(logging.CRITICAL)  # that a stranger sends what is no websocket is no fault of ours
+
+
+class Socket(Protocol):
+    """Where it goes to."""
+
+    async def send(self, packet: Packet, /) -> None:
+        """Send this, as soon as there is room for it."""
+        ...
 
 
 class Server:
@@ -142,7 +150,7 @@ class Server:
             return
         outbox = Outbox()
         conversation = self._hub.join(outbox)
-        sending = asyncio.create_task(_send(socket, outbox))
+        sending = asyncio.create_task(send_from(outbox, socket))
         try:
             async for packet in socket:
                 conversation.take(packet)
@@ -156,7 +164,7 @@ class Server:
             self._hub.part(conversation)
 
 
-async def _send(socket: ServerConnection, outbox: Outbox) -> None:
+async def send_from(outbox: Outbox, socket: Socket) -> None:
     """Send what is put into the outbox, in its order."""
     number = 0
     with contextlib.suppress(ConnectionClosed):
@@ -164,9 +172,10 @@ async def _send(socket: ServerConnection, outbox: Outbox) -> None:
             number += 1
             for packet in _packets(await outbox.take(), number):
                 await socket.send(packet)
+                await asyncio.sleep(0)  # a picture may be a million parts: others have their turn
 
 
-def _packets(letter: Letter, number: int) -> tuple[Packet, ...]:
+def _packets(letter: Letter, number: int) -> Iterator[Packet]:
     if letter.compression != Compression.NONE:
-        return (encode(letter.operation, letter.compression),)
+        return iter((encode(letter.operation, letter.compression),))
     return encode_in_parts(letter.operation, f"fragment:{number}", letter.fragment_size)

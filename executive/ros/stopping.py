@@ -26,7 +26,7 @@ AGAIN_S = 0.5
 """After so long it is asked anew how the robot moves."""
 REFUSED = 1
 """`action_msgs/srv/CancelGoal`: the server goes on."""
-SPEED_TOPIC, SPEED_TYPE = "/speed_limit", "nav2_msgs/msg/SpeedLimit"
+SPEED_TYPE = "nav2_msgs/msg/SpeedLimit"
 """What Nav2's controller heeds."""
 PARTS = {
     "drive": "base",
@@ -72,9 +72,10 @@ class Brake:
         if self._ended_any and not self._was_greeted:
             log.warning(DRIVEN)
         self._was_greeted = True
-        if (speed := self._profile.limits.speed_m_s) is not None:
-            limit: Message = {"percentage": False, "speed_limit": speed}
-            self._link.publish(SPEED_TOPIC, SPEED_TYPE, limit)
+        limits = self._profile.limits
+        if limits.speed_m_s is not None:
+            limit: Message = {"percentage": False, "speed_limit": limits.speed_m_s}
+            self._link.publish(limits.speed_topic, SPEED_TYPE, limit)
 
     async def cancel_all(self) -> dict[str, str]:
         """Cancel all goals of all actions; which sections could not be stopped, and why."""

@@ -75,6 +75,8 @@ class SecondRobot(Beside):
     """The robot and its server, on a thread of its own; `with` ends it."""
 
     topics, actions = TOPICS, ACTIONS
+    frames = "/tf"
+    """The topic on which it tells where its frames are."""
 
     def __init__(self, at: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         self.at = at
@@ -270,7 +272,7 @@ class SecondRobot(Beside):
     async def _tell(self) -> None:
         made: dict[str, dict[str, Any]] = {}
         makers: dict[str, Callable[[], dict[str, Any]]] = {
-            "/tf": self._frames,
+            self.frames: self._frames,
             "/acme/odom": self._odometry,
             "/acme/rgb": self._color,
             "/acme/range": self._range,

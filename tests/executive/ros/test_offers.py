@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 from second_robot import SecondRobot
 
+from executive.ros import peer
 from executive.ros.__main__ import main
 
 TOPICS = ["/tf"]
@@ -41,3 +42,12 @@ def test_look_says_what_is_wrong_with_what_it_was_told(
     said = capsys.readouterr()
     assert why in said.err
     assert not said.out
+
+
+def test_look_says_that_a_message_is_too_large(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(peer, "MOST_BYTES", 100)
+    with SecondRobot() as robot:
+        assert main(["look", robot.url]) == 2
+    assert "was lost: it sent a message of more than 100 bytes" in capsys.readouterr().err

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from second_robot import PROFILE, SecondRobot
+from second_robot import PROFILE, TOPICS, SecondRobot
 
 from executive.__main__ import main
 from executive.replay import replay
@@ -158,6 +158,40 @@ def test_look_lists_what_the_robot_offers_and_proposes_a_profile(
     assert 'depth = ""  # not found; there is /acme/range\n' in said
     assert "# [joints]  # if velocities are told there" in said
     assert '# topic = "/acme/fingers"' in said
+
+
+class Namespaced(SecondRobot):
+    """What tells where it is has a name of its own, too."""
+
+    frames = "/acme/tf"
+    topics = {**{k: v for k, v in TOPICS.items() if k != "/tf"}, frames: TOPICS["/tf"]}
+
+
+def test_frames_are_told_on_the_topic_that_the_profile_names(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "namespaced.toml"
+    with Namespaced(four_rooms().robot_start) as robot:
+        assert look(["check", robot.url, "--profile", str(PROFILE)]) == 2
+        why = "frames.tf: the robot has no topic /tf; of this type there is /acme/tf"
+        assert why in capsys.readouterr().err
+        assert look(["look", robot.url]) == 0
+        said = capsys.readouterr().out
+        assert "there are body, eye, world" in said
+        (told,) = [line for line in said.splitlines() if line.startswith("tf = ")]
+        file.write_text(PROFILE.read_text().replace("[frames]", f"[frames]\n{told}"))
+        assert look(["check", robot.url, "--profile", str(file)]) == 0
+
+
+def test_pictures_of_several_cameras_are_refused(
+    there: SecondRobot, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "eyes.toml"
+    file.write_text(PROFILE.read_text().replace('camera = "eye"', ""))
+    assert look(["check", there.url, "--profile", str(file)]) == 0
+    there.told["/acme/lens"] = {"header": {"frame_id": "third_eye"}}
+    assert look(["check", there.url, "--profile", str(file)]) == 2
+    assert "colour, depth and lens are of eye, third_eye" in capsys.readouterr().err
 
 
 def test_check_says_that_a_profile_fits(

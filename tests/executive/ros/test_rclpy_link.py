@@ -28,7 +28,6 @@ class Node:
 
     def __init__(self) -> None:
         import rclpy
-        from rclpy.action import ActionServer, CancelResponse, GoalResponse
         from rclpy.executors import MultiThreadedExecutor
         from std_msgs.msg import String
         from test_msgs.action import Fibonacci
@@ -41,19 +40,24 @@ class Node:
         self.executor.add_node(self.node)
         self.refuses, self.running = False, 0
         self.made = Fibonacci
-        self.server = ActionServer(
-            self.node,
-            Fibonacci,
-            ACTION,
-            execute_callback=self.count,
-            goal_callback=lambda _: GoalResponse.REJECT if self.refuses else GoalResponse.ACCEPT,
-            cancel_callback=lambda _: CancelResponse.ACCEPT,
-        )
+        self.server = self.serve()
         self.node.create_service(BasicTypes, "/echo", self.echo)
         self.heard: list[str] = []
         self.node.create_subscription(String, "/in", lambda said: self.heard.append(said.data), 5)
         self.out = self.node.create_publisher(String, "/out", 5)
         threading.Thread(target=spin, args=(self.executor,), daemon=True).start()
+
+    def serve(self) -> Any:
+        from rclpy.action import ActionServer, CancelResponse, GoalResponse
+
+        return ActionServer(
+            self.node,
+            self.made,
+            ACTION,
+            execute_callback=self.count,
+            goal_callback=lambda _: GoalResponse.REJECT if self.refuses else GoalResponse.ACCEPT,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+        )
 
     def echo(self, request: Any, response: Any) -> Any:
         response.int32_value, response.string_value = request.int32_value, request.string_value
@@ -129,6 +133,31 @@ def test_a_goal_is_pursued_with_feedback(wire: tuple[WireThread, RclpyLink]) -> 
     assert end.succeeded
     assert end.values["sequence"].tolist() == [0, 1, 2]
     assert heard
+
+
+def test_a_server_that_comes_back_is_met_again(
+    wire: tuple[WireThread, RclpyLink], node: Node, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    thread, link = wire
+    met: list[str] = []
+    meet = link._meet
+
+    async def counted(action: str) -> None:
+        met.append(action)
+        await meet(action)
+
+    monkeypatch.setattr(link, "_meet", counted)
+
+    def pursued() -> bool:
+        return thread.run(link.pursue(ACTION, KIND, {"order": 1}, lambda _: None)).succeeded
+
+    assert pursued()
+    assert pursued()
+    assert met == [ACTION]
+    node.server.destroy()
+    node.server = node.serve()
+    assert pursued()
+    assert met == [ACTION, ACTION]
 
 
 def test_a_goal_that_is_refused_ends_at_once(
@@ -224,6 +253,20 @@ def test_a_field_that_is_not_there_is_said(wire: tuple[WireThread, RclpyLink]) -
         thread.run(link.pursue(ACTION, KIND, {"oder": 3}, lambda _: None))
     with pytest.raises(LinkError, match="does not know the type"):
         thread.run(link.pursue(ACTION, "acme_msgs/action/Go", {}, lambda _: None))
+
+
+def test_the_link_goes_on_after_a_fault_in_rclpy(wire: tuple[WireThread, RclpyLink]) -> None:
+    thread, link = wire
+    broken = threading.Event()
+
+    def breaks() -> None:
+        broken.set()
+        raise SystemError("a client was gone in the wrong moment")
+
+    link._executor.create_task(breaks)
+    assert broken.wait(PATIENCE_S)
+    pursuit = thread.start(link.pursue(ACTION, KIND, {"order": 1}, lambda _: None))
+    assert pursuit.result(PATIENCE_S).succeeded
 
 
 def test_greeting_comes_first(wire: tuple[WireThread, RclpyLink]) -> None:
