@@ -110,13 +110,11 @@ def test_a_mission_that_is_not_done_says_why(
         (["--llm", "none.gguf", "--knowledge", "okb+llm"], "none.gguf"),
         (["--llm", "http://127.0.0.1:1/v1", "--elicit", "rank"], "use --elicit generate"),
         (["--config", "none.toml"], "none.toml: cannot be read"),
-        (["--prompts", "none.toml", "--llm", "embedded"], "none.toml: cannot be read"),
+        (["--prompts", "none.toml"], "none.toml: cannot be read"),
         (["--kb", "none.owl"], "none.owl: cannot be read"),
         (["--person", "Anna"], "person Anna: the ontology knows nobody of this name"),
         (["--memory", "."], "is no memory"),
         (["--runs", "/dev/null/runs"], "--runs"),
-        (["--question-s", "5"], "--question-s: has no effect: the paper's stages weigh nothing"),
-        (["--gui"], "--gui: has no effect: the instant world draws nothing; give --world physics"),
         (["--profile", "nav2"], "needs none: it says what a robot over the wire has; give --robot"),
     ],
 )
@@ -248,3 +246,10 @@ def test_a_signal_before_the_first_command_ends_the_session() -> None:
         process.send_signal(signal.SIGINT)
         process.wait(timeout=PATIENCE_S)
     assert process.returncode == 130
+
+
+def test_an_option_without_effect_is_told_and_the_rest_done(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    assert main([*QUICK, "--detector", "mine.onnx", "Find the mug"]) == 0
+    assert "--detector has no effect: the instant world knows what is" in caplog.text
