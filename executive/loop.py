@@ -17,6 +17,7 @@ from executive.events import (
 from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
 from executive.interfaces.robot import Robot
 from executive.interfaces.runtime import Clock, Recorder, Tree
+from executive.language.wording import WITHOUT_KNOWLEDGE
 from executive.pending import Pending
 from executive.records import EventTaken, Intervention, LlmCall, Note, Record, Tick
 from executive.situation import Situation
@@ -208,6 +209,9 @@ class Executive:
             self._situation.ending.stay_restless(printable(why)[:LONGEST])
         self._inbox.drop_all()
         self._feel()
+        held = self._situation.hand.in_hand
+        if held and self._situation.ending.is_cut_short:
+            self._situation.ending.hold_on_to(WITHOUT_KNOWLEDGE.the(held))
 
     def _halt(self) -> Result | None:
         """Tell the robot to halt, and wait; how that ended (None: not in time)."""

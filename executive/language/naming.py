@@ -6,6 +6,7 @@ from executive.language.control import Control, control
 from executive.language.grammar import EnglishInterpreter
 from executive.language.meaning import Request, Task, Thing, Things
 from executive.language.phrases import CLAUSE_ENDS, MOST_WORDS, NEGATION, place_words, spoken
+from executive.language.reader import english
 
 Fault = tuple[str, str]
 """What is wrong with a name, as a clause, and what would be right."""
@@ -18,6 +19,8 @@ def heard_as(name: str) -> str | None:
     words = spoken(name)
     if said := control(words):
         return "tells the robot to stop" if said is Control.STOP else "ends the session"
+    if _is_mere_name(words):
+        return None
     if _english().declines(words):
         return "says that somebody does not know"
     if _says_yes_or_no(words):
@@ -27,7 +30,8 @@ def heard_as(name: str) -> str | None:
 
 def says_how_many(name: str) -> bool:
     """Whether somebody who asks for a thing of this name asks for several: "two mugs"."""
-    commands = _english().commands(f"find {spoken(name)}")
+    words = spoken(name)
+    commands = () if _is_mere_name(words) else _english().commands(f"find {words}")
     return any(command.number for together in commands for command in together)
 
 
@@ -46,6 +50,11 @@ def place_fault(name: str) -> Fault | None:
     if len(telling) > MOST_WORDS:
         return f"it has more than {MOST_WORDS} words", "shorten it"
     return None
+
+
+def _is_mere_name(words: str) -> bool:
+    """Whether none of the words means anything else: so it is with most, and reading takes long."""
+    return not english().knows(words) and not english().declines(words)
 
 
 def _says_yes_or_no(words: str) -> bool:

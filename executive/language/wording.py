@@ -117,6 +117,10 @@ def listed(words: Sequence[str]) -> str:
     return _joined(words, "and")
 
 
+WITHOUT_KNOWLEDGE = Wording(lambda name: None)
+"""Says the words of a name, where there is nobody to ask what it is called."""
+
+
 def _joined(words: Sequence[str], last: str) -> str:
     return f" {last} ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 

@@ -19,6 +19,7 @@ from executive.records import Record, Tick, TreeShape
 from executive.replay.recorded import kept, recorded_parts
 from executive.replay.stand_ins import Absent, RecordedTime
 from executive.situation import Before, Situation
+from executive.situation.ending import STILL_HELD
 from executive.text import counted, printable
 from logs.questions.difference import (
     ENDED,
@@ -183,6 +184,8 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
     recorded = run.outcome()
     if recorded is None:
         return None
+    if STILL_HELD not in recorded.reason:  # recorded when a stop did not tell what is in the hand
+        situation.ending.reason = situation.ending.reason.partition(STILL_HELD)[0]
     outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
     if "thinks" not in run.metadata:  # recorded when outcomes did not tell of the model
         outcome = replace(outcome, model_failure=recorded.model_failure)

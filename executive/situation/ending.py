@@ -7,6 +7,8 @@ from executive.types.outcome import MissionStatus
 
 TAKEN_BACK = "you took it back"
 """Why a task was not done that the person does not want any more."""
+STILL_HELD = "; I still hold "
+"""What comes before the thing that is in the hand when a mission was cut short."""
 
 
 @dataclass
@@ -49,6 +51,10 @@ class Ending:
         """It is not known that the robot stands still: say so."""
         self.restless = True
         self.reason += "; I may not be at rest" + (f": {why}" if why.strip() else "")
+
+    def hold_on_to(self, thing: str) -> None:
+        """The mission was cut short with this in the hand: say so."""
+        self.reason += f"{STILL_HELD}{thing}"
 
     @property
     def is_cut_short(self) -> bool:

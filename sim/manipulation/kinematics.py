@@ -3,6 +3,8 @@
 Computed on a second robot in a PyBullet world of its own, where nothing moves by itself.
 """
 
+from itertools import pairwise
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -23,6 +25,8 @@ _DAMPING, _EVALUATIONS, _LEAST_GAIN = 0.1, 40, 0.003
 at least, or it was the last."""
 _DIAGONAL = np.diag_indices(len(ARM))
 _HAND = "panda_grasptarget"
+_LENGTHS = ("panda_link2", "panda_link4", "panda_link6", "panda_link7")
+"""From shoulder to wrist: between two that follow one another the distance stays the same."""
 
 
 class Kinematics:
@@ -46,6 +50,11 @@ class Kinematics:
         self._lower = np.array([limits[name][0] for name in ARM]) + 0.01
         self._upper = np.array([limits[name][1] for name in ARM]) - 0.01
         self._all = np.zeros(len(movable))
+        joints_at = [self._position(link) for link in _LENGTHS]
+        self._length = sum(float(np.linalg.norm(b - a)) for a, b in pairwise(joints_at))
+        hand = self._hand()
+        self._wrist = hand.rotation.inv().apply(joints_at[-1] - hand.position)
+        """In the frame of the hand."""
 
     @property
     def limits(self) -> tuple[Floats, Floats]:
@@ -67,8 +76,12 @@ class Kinematics:
         Levenberg-Marquardt within the joint limits.
         """
         near = np.clip(near, self._lower, self._upper)
+        if self._is_too_far(base, target, near):
+            return None
         joints, damping = near, _DAMPING
         error = self._error(base, target, joints, near)
+        if not error.any():
+            return joints
         for _ in range(_EVALUATIONS):
             jacobian = self._jacobian()
             hessian = jacobian.T @ jacobian
@@ -106,6 +119,19 @@ class Kinematics:
         return path
 
     # --- helpers ---
+
+    def _is_too_far(self, base: Floats, target: HandPose, arm: Floats) -> bool:
+        """Whether no arm of this length has its wrist there, however high the lift is."""
+        self._assume(base, arm)
+        shoulder = self._position(_LENGTHS[0])
+        wrist = target.position + target.rotation.apply(self._wrist)
+        heights = shoulder[2] - arm[0] + np.array([self._lower[0], self._upper[0]])
+        shoulder[2] = np.clip(wrist[2], *heights)
+        give = POSITION_TOLERANCE + ANGLE_TOLERANCE * np.linalg.norm(self._wrist)
+        return bool(np.linalg.norm(wrist - shoulder) > self._length + give)
+
+    def _position(self, link: str) -> Floats:
+        return np.array(self._robot.link_pose(link).position)
 
     def _hand(self) -> HandPose:
         pose = self._robot.link_pose(_HAND)

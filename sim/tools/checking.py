@@ -1,6 +1,7 @@
 """All that is wrong with a home: in its file, for who drives in it, and for the arm."""
 
 from collections.abc import Iterator
+from functools import cache
 from itertools import product
 from math import dist
 
@@ -122,10 +123,13 @@ def _reaches(world: PlanningWorld, home: Home, model: ObjectModel) -> bool:
         if plan_stance(world, before, stance)
     ]
 
+    @cache
+    def grasps(tilt: float) -> list[Grasp]:
+        return find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:GRASPS_TRIED]
+
     def options() -> Iterator[tuple[Grasp, Approach]]:
         for tilt in TILTS:
-            grasps = find_grasps(model, pose, piece.pose[2] + np.pi, tilt)[:GRASPS_TRIED]
-            for stance, grasp, length in product(stances, grasps, APPROACH_M):
+            for stance, grasp, length in product(stances, grasps(tilt), APPROACH_M):
                 yield grasp, Approach([stance], grasp.hands, length * grasp.hand.approach)
 
     return choose_approach(world, FOLDED, options) is not None

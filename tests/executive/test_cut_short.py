@@ -15,7 +15,7 @@ from executive.app.session import Session
 from executive.config import Settings
 from executive.events import Broke, StopRequested
 from executive.replay.replaying import replay
-from executive.types.goals import DriveTo, Goal, Halt
+from executive.types.goals import DriveTo, Goal, Halt, Pick
 from executive.types.outcome import MissionStatus
 from executive.types.results import Failed
 from logs.recording.reader import Run
@@ -76,6 +76,32 @@ def test_what_an_earlier_mission_asked_for_is_not_delivered_to_the_next(house: H
     house.inbox.end(late, Failed("too late"))
     assert house.run().status == MissionStatus.DONE
     assert "too late" not in str(house.events())
+
+
+def carries(house: House) -> bool:
+    """Whether the robot drives with something in its hand."""
+    return isinstance(house.goals[-1], DriveTo) and any(isinstance(g, Pick) for g in house.goals)
+
+
+def test_what_is_in_the_hand_when_it_is_stopped_is_told(house: House) -> None:
+    def stop(goal: Goal) -> None:
+        if carries(house):
+            house.inbox.post(StopRequested("the person"))
+
+    house.during = stop
+    stopped = house.run("Bring a power_drill")
+    assert stopped.reason == "stopped by the person; I still hold the power drill"
+    assert stopped.tasks[0].reason == stopped.reason
+
+
+def test_what_fell_while_it_came_to_rest_is_not_told_as_held(house: House) -> None:
+    def stop(goal: Goal) -> None:
+        if carries(house):
+            house.inbox.post(StopRequested("the person"))
+            house.world.held = None
+
+    house.during = stop
+    assert house.run("Bring a power_drill").reason == "stopped by the person"
 
 
 # --- what raises on the way down ---

@@ -130,10 +130,12 @@ def test_stop_during_any_action_leaves_the_robot_at_rest(kind: type[Goal]) -> No
             inbox.post(StopRequested("the person"))
 
     run = run_mission("Bring a tennis_ball.", during=stop)
+    held = "; I still hold the tennis ball" if run.world.held else ""
     assert (run.outcome.status, run.outcome.reason) == (
         MissionStatus.STOPPED,
-        "stopped by the person",
+        f"stopped by the person{held}",
     )
+    assert bool(held) == (kind is PutDown)
     assert isinstance(run.goals[-1], Halt)
     assert not run.world.busy
     assert not run.inbox.awaits_anything

@@ -275,10 +275,22 @@ def test_solved_joints_bring_the_hand_to_its_target(planning: PlanningWorld) -> 
     assert np.linalg.norm(planning.hand(base, found).position - target.position) < 1e-3
 
 
-def test_what_is_out_of_reach_has_no_solution(planning: PlanningWorld) -> None:
+def test_what_is_out_of_reach_has_no_solution_and_none_is_searched_for(
+    planning: PlanningWorld, monkeypatch: pytest.MonkeyPatch
+) -> None:
     base = np.array(four_rooms().robot_start)
     far = planning.hand(base, COMFORT).shifted(np.array([2.0, 0.0, 0.0]))
+    monkeypatch.setattr(planning, "_error", None)
     assert planning.solve(base, far, COMFORT) is None
+
+
+def test_where_the_hand_can_be_is_never_too_far(planning: PlanningWorld) -> None:
+    random = np.random.default_rng(0)
+    for _ in range(100):
+        base, arm = random.uniform(-4.0, 4.0, 3), random.uniform(*planning.limits)
+        outright = np.where(np.arange(8) % 2, 0.0, arm)
+        for joints in (arm, np.clip(outright, *planning.limits)):
+            assert planning.solve(base, planning.hand(base, joints), joints) is not None
 
 
 def test_furniture_in_the_way_of_the_arm_is_named(planning: PlanningWorld) -> None:
