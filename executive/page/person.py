@@ -126,7 +126,7 @@ class PagePerson(Console):
             line = one_line(writable(words))[: LONGEST + 1]
             if by:
                 self._inbox.post(Intervened(by, Deed.ANSWER, self._question.text, line))
-            self._show_said(line)
+            self._show_said(line.replace("_", " "))  # a name, as its button has it
             self._lines.append(line)
             self._serve()
         self._ask_nothing_back()

@@ -57,7 +57,7 @@ function showSheet(step) {
   const title = element("h1", { id: "sheet-title", tabindex: "-1" }, text(`study.${step.kind}`, step));
   sheet.replaceChildren(
     step.steps ? element("p", { class: "place" }, text("study.place", { ...step, now })) : "",
-    step.steps ? element("progress", { max: step.steps, value: step.done, "aria-hidden": "true" }) : "",
+    step.steps ? element("progress", { max: step.steps, value: step.kind === "thanks" ? step.steps : step.done, "aria-hidden": "true" }) : "",
     title, ...outOfTime(step), ...paragraphs(wordsOf(step)), ...inputs(step));
   scrollTo(0, 0);
   title.focus({ preventScroll: true });
@@ -93,12 +93,22 @@ function form(step) {
   const made = element("form", { novalidate: true }, ...items, told,
     buttons(element("button", { type: "submit", class: "step main" }, text("study.send"))));
   restore(items, step.items, draft(step));
-  made.addEventListener("input", () => keep(step, answersIn(items, step.items).answers));
-  made.addEventListener("submit", (event) => {
-    event.preventDefault();
-    const { answers, missing } = answersIn(items, step.items);
+  let sent = false; // only then what is missing is told
+  const tell = ({ missing }) => {
     mark(items, missing);
     told.textContent = missing.length ? text("study.missing_count", { count: missing.length }) : "";
+  };
+  made.addEventListener("input", () => {
+    const filled = answersIn(items, step.items);
+    keep(step, filled.answers);
+    if (sent) tell(filled);
+  });
+  made.addEventListener("submit", (event) => {
+    event.preventDefault();
+    sent = true;
+    const filled = answersIn(items, step.items);
+    tell(filled);
+    const { answers, missing } = filled;
     if (missing.length) missing[0].querySelector("input, textarea").focus();
     else done(answers, step.step);
   });

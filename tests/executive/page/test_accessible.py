@@ -10,6 +10,7 @@ from browsing import DESKTOP, PHONE, SMALLEST, answer, opened, say, wait_until_r
 from paging import Robot, robot
 from playwright.sync_api import Browser, expect
 from playwright.sync_api import Page as Tab
+from speaking_browser import STUBS
 
 pytestmark = pytest.mark.browser
 
@@ -95,6 +96,25 @@ def test_on_a_small_phone_the_question_and_answers_to_it_are_seen_at_once(
         expect(tab.locator("#said > li p").last).to_be_in_viewport()
         expect(tab.locator("#answers .answer").first).to_be_in_viewport(ratio=0.9)
         expect(tab.locator("#words")).to_be_in_viewport(ratio=0.9)
+
+
+@pytest.mark.parametrize("width", [320, 390])
+def test_on_a_phone_what_may_be_typed_first_is_read_whole(
+    browser: Browser, found: Robot, width: int
+) -> None:
+    viewport = {"width": width, "height": 640}
+    with opened(browser, found.page, viewport=viewport, first=STUBS) as tab:
+        expect(tab.locator("#speak")).to_be_visible()
+        letters, room = tab.evaluate(
+            """() => {
+              const box = document.querySelector("#words"), style = getComputedStyle(box);
+              const ruler = document.createElement("canvas").getContext("2d");
+              ruler.font = style.font;
+              const padding = parseFloat(style.paddingLeft) + parseFloat(style.paddingRight);
+              return [ruler.measureText(box.placeholder).width, box.clientWidth - padding];
+            }"""
+        )
+        assert 0 < letters <= room
 
 
 def test_what_is_pressed_is_large_enough_for_a_finger(browser: Browser, found: Robot) -> None:

@@ -83,6 +83,7 @@ def test_a_place_may_be_chosen_on_the_map(browser: Browser, talking: Robot) -> N
         say(tab, "Find the peach")
         tab.locator("#map .choice", has_text="high table").locator("rect").click()
         expect(tab.locator("#last")).to_have_text("Last time: done.")
+        expect(tab.locator("#said .person > p").last).to_have_text("You: high table")
     assert talking.outcomes[0].location == "high_table"
 
 

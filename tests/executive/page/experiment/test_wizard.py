@@ -110,7 +110,7 @@ def test_a_question_that_is_held_and_answered_in_their_stead_is_said_no_more(
     step_in(page, "hold", on=False)
     assert outcome.status == "done"
     said = [json.loads(c.json)["text"] for c in page.board.since(0) if c.name == "said"]
-    assert "high_table" in said
+    assert "high table" in said
     assert asked not in said
     deeds = [(deed, was, became) for _, deed, was, became in interventions(outcome)]
     assert deeds[1:3] == [("answer", asked, "high_table"), ("words", asked, "")]

@@ -99,6 +99,25 @@ def test_a_task_is_given_up_while_the_robot_asks_and_the_next_one_begins(
     ] * 2
 
 
+@pytest.mark.parametrize("size", [(390, 844), (375, 667), (320, 568)])
+def test_on_a_phone_a_question_for_places_leaves_what_one_types_in_in_sight(
+    browser: Browser, tmp_path: Path, size: tuple[int, int]
+) -> None:
+    asks = {"world": "fake", "llm": "none", "question_s": 0.0, "answer_timeout_s": 3600.0}
+    data = data_in(tmp_path, study_of(1, settings=asks))
+
+    def look(tab: Tab, chance: random.Random) -> None:
+        say(tab, "Find the peach")
+        expect(tab.locator("#answers .answer").first).to_be_in_viewport(ratio=0.9)
+        expect(tab.locator("#said > li p").last).to_be_in_viewport()
+        expect(tab.locator("#words")).to_be_in_viewport(ratio=1)
+        end_task(tab, "I give up")
+
+    viewport = {"width": size[0], "height": size[1]}
+    with led(data, "P01") as one, opened(browser, one.page, viewport=viewport) as tab:
+        take_part(tab, random.Random(0), look)
+
+
 def test_when_the_time_is_over_the_participant_is_led_on(browser: Browser, tmp_path: Path) -> None:
     data = data_in(tmp_path, study_of(1, limit_s=0.5))
     with led(data, "P01") as one, opened(browser, one.page) as tab:
@@ -133,8 +152,12 @@ def test_what_is_left_out_is_told_and_focused(browser: Browser, tmp_path: Path) 
         tab.get_by_role("button", name="Send my answers").click()
         expect(tab.get_by_role("alert").last).to_have_text("Still to be answered: 5.")
         expect(tab.locator("input[type=range]").nth(1)).to_be_focused()
+        expect(tab.locator(".missing:visible")).to_have_count(5)
+        tab.locator("input[type=range]").nth(1).press("Enter")
+        expect(tab.get_by_role("alert").last).to_have_text("Still to be answered: 4.")
+        expect(tab.locator(".missing:visible")).to_have_count(4)
         tab.reload()
-        expect(tab.locator("input[type=range].unset")).to_have_count(5)
+        expect(tab.locator("input[type=range].unset")).to_have_count(4)
         take_part(tab, random.Random(0), until="part")
     assert [row.points for row in tables(data).answers] == [11] * 6
 
