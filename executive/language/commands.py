@@ -37,6 +37,8 @@ _DEEDS = [_QUESTIONS.get(kind) or kind.replace("_", " ") for kind in CommandKind
 CAN = f"I can {', '.join(_DEEDS[:-1])} and {_DEEDS[-1]}, one after the other"
 NOT_KNOWN_WHAT = "I hear '{}', and do not understand the rest."
 """Said of a negation that is about nothing that there is to do."""
+WILL_NOT = "Then I will not."
+NOT_KEPT = " I do not keep that in mind: what you ask for later counts."
 SAY_INSTEAD = " Say once more what I am to do instead."
 SAY_THE_REST = " Say once more what else I am to do."
 UNTOLD = "I cannot tell you that so far."
@@ -60,7 +62,7 @@ def commands_in(said: Said, words: str) -> Commands | str | None:
         case Request():
             return _commands(said.tasks, words)
         case Refusal():
-            return "Then I will not." + SAY_INSTEAD * said.more
+            return WILL_NOT + (SAY_INSTEAD if said.more else NOT_KEPT)
         case Again():
             return "There is nothing yet that I could do again."
         case Unable():

@@ -18,9 +18,18 @@ def said(run: Run) -> list[str]:
 @pytest.mark.parametrize(
     ("words", "answer"),
     [
-        ("Do not touch the hammer", "Then I will not."),
-        ("Don't bring me the apple", "Then I will not."),
-        ("Leave the mug alone", "Then I will not."),
+        (
+            "Do not touch the hammer",
+            "Then I will not. I do not keep that in mind: what you ask for later counts.",
+        ),
+        (
+            "Don't bring me the apple",
+            "Then I will not. I do not keep that in mind: what you ask for later counts.",
+        ),
+        (
+            "Leave the mug alone",
+            "Then I will not. I do not keep that in mind: what you ask for later counts.",
+        ),
         ("Bring no apple", "I do nothing: I hear 'no', and do not understand the rest."),
         ("Throw the apple", "I cannot throw."),
     ],

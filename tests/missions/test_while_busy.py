@@ -295,7 +295,10 @@ def test_what_is_to_be_done_afterwards_is_said_in_whole_sentences(heard: str, wi
         ("Thank you", "You are welcome."),
         ("The mug is on the desk", "Thank you: I remember that the mug is on the desk."),
         ("Jump over it", "I cannot jump."),
-        ("Do not touch the mug", "Then I will not."),
+        (
+            "Do not touch the mug",
+            "Then I will not. I do not keep that in mind: what you ask for later counts.",
+        ),
         (
             "blue skies",
             "I do not understand 'blue skies'. "
@@ -542,7 +545,7 @@ def test_who_asks_why_is_told_what_it_is_for(heard: str) -> None:
 
 def test_it_does_not_say_that_it_will_not_and_goes_on() -> None:
     mission = run("Bring the hammer", "Don't worry")
-    assert "Then I will not." not in answers(mission)
+    assert not any("I will not" in answer for answer in answers(mission))
 
 
 def test_a_deed_that_begins_with_and_is_done_next() -> None:
