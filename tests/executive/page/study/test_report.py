@@ -9,8 +9,8 @@ from executive.campaign.report.document import Table
 from executive.errors import InputError
 from executive.page.study.data import StudyData
 from executive.page.study.file import Study
-from executive.page.study.measures import of_questionnaires, of_tasks
-from executive.page.study.report import report, write_report
+from executive.page.study.measures import Measure, of_questionnaires, of_tasks
+from executive.page.study.report import by_condition, report, write_report
 from executive.page.study.steps import Kind, steps
 from executive.page.study.tables import tables
 
@@ -121,3 +121,10 @@ def test_what_was_asked_outside_of_the_conditions_is_told_apart(data: StudyData)
 def test_without_data_there_is_none(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no task is over yet; lead a participant first"):
         write_report(StudyData(tmp_path / "data", STUDY))
+
+
+def test_one_participant_has_no_interval() -> None:
+    measure = Measure("stops", {"calm": {"P01": 3.0}, "hasty": {"P01": 1.0, "P02": 2.0}})
+    (line,) = by_condition([measure], ["calm", "hasty"]).rows
+    assert line[1] == "3.0, n = 1"
+    assert " to " in line[2]
