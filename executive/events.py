@@ -4,6 +4,7 @@ Slow things (a drive, a grasp, a picture, a reply, an answer) are opened here as
 elsewhere, and end as an `Ended` event. The Inbox is the only thing that threads share.
 """
 
+import math
 import queue
 import time
 from collections import deque
@@ -20,6 +21,8 @@ from executive.types.results import Answered, Failed, Replied, Result, Saw, Scor
 
 T = TypeVar("T")
 
+HEEDING_S = 0.2
+"""The longest sleep at a stretch (real time): a signal just before it is heeded only after it."""
 THE_PERSON = "the person"
 """Who says stop in words."""
 
@@ -338,10 +341,16 @@ class Inbox:
             worker, computation = self._ready.popleft()
             if computation in self._wanted:
                 worker.start(computation, partial(self._queue.put, _Computed(computation)))
-        try:
-            self._receive(self._queue.get(timeout=seconds))
-        except queue.Empty:
-            return
+        latest = math.inf if seconds is None else time.monotonic() + seconds
+        while True:
+            left = latest - time.monotonic()
+            try:
+                self._receive(self._queue.get(timeout=max(0.0, min(left, HEEDING_S))))
+            except queue.Empty:
+                if left <= HEEDING_S:
+                    return
+            else:
+                return
 
     def _receive(self, item: Event | _Computed) -> None:
         if not isinstance(item, _Computed):
