@@ -9,6 +9,7 @@ import queue
 import time
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
@@ -342,14 +343,9 @@ class Inbox:
             if computation in self._wanted:
                 worker.start(computation, partial(self._queue.put, _Computed(computation)))
         latest = math.inf if seconds is None else time.monotonic() + seconds
-        while True:
-            left = latest - time.monotonic()
-            try:
-                self._receive(self._queue.get(timeout=max(0.0, min(left, HEEDING_S))))
-            except queue.Empty:
-                if left <= HEEDING_S:
-                    return
-            else:
+        while (left := latest - time.monotonic()) > 0:
+            with suppress(queue.Empty):
+                self._receive(self._queue.get(timeout=min(left, HEEDING_S)))
                 return
 
     def _receive(self, item: Event | _Computed) -> None:

@@ -198,7 +198,7 @@ def _told_of_one(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
         return f"I know no place '{words}', so I cannot remember that."
     for name in names:
         (facts.heard_not if said.denied else facts.heard)(name, places)
-    if names[0] not in (facts.denials() if said.denied else facts.beliefs()):
+    if not (facts.places_denied if said.denied else facts.places_of)(names[0]):
         return "Thank you; but I may learn nothing, and shall not remember it."
     say = Wording(knowledge.called)
     there = say.at(places[0]) if len(places) == 1 else _at(where, places, knowledge)

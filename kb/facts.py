@@ -147,13 +147,11 @@ class FactStore:
         A look in vain, or a person who says that it is not there, contradicts what was known before
         about that place. Once taken, it is nowhere until seen again.
         """
-        try:
-            places = tuple(place for place, there in self._believed(name).items() if there)
-        except _FAILURES as error:
-            self._warn(f"facts about the {name} could not be read", error)
-            return ()
-        self._failing = False
-        return places
+        return self._places(name, there=True)
+
+    def places_denied(self, name: str) -> tuple[str, ...]:
+        """Where the person said that it is not, until it is seen, or said to be there."""
+        return self._places(name, there=False)
 
     def looked(self, place: str) -> None:
         """All of it was looked at."""
@@ -163,26 +161,11 @@ class FactStore:
 
     def beliefs(self) -> dict[str, tuple[str, ...]]:
         """Each object that is believed to be anywhere, and where."""
-        query = "SELECT DISTINCT object FROM belief ORDER BY object LIMIT ?"
-        try:
-            names = [name for (name,) in self._database.execute(query, (MOST_BELIEFS,))]
-        except _FAILURES as error:
-            self._warn("facts could not be read", error)
-            return {}
-        known = {name: self.places_of(name) for name in names if _is_name(name)}
-        return {name: places for name, places in known.items() if places}
+        return self._of_each(self.places_of)
 
     def denials(self) -> dict[str, tuple[str, ...]]:
         """Each object that was said not to be somewhere, and where, if nothing came since."""
-        query = "SELECT DISTINCT object FROM belief WHERE seen = ? ORDER BY object LIMIT ?"
-        try:
-            names = [n for (n,) in self._database.execute(query, (DENIED_THERE, MOST_BELIEFS))]
-            known = {name: self._believed(name) for name in names if _is_name(name)}
-        except _FAILURES as error:
-            self._warn("facts could not be read", error)
-            return {}
-        denied = {name: [p for p, there in of.items() if not there] for name, of in known.items()}
-        return {name: tuple(places) for name, places in denied.items() if places}
+        return self._of_each(self.places_denied)
 
     def origins(self) -> dict[str, tuple[str, ...]]:
         """Each object that the robot took, and from where, the last time first."""
@@ -261,6 +244,25 @@ class FactStore:
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+
+    def _of_each(self, places_of: Callable[[str], tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
+        query = "SELECT DISTINCT object FROM belief ORDER BY object LIMIT ?"
+        try:
+            names = [name for (name,) in self._database.execute(query, (MOST_BELIEFS,))]
+        except _FAILURES as error:
+            self._warn("facts could not be read", error)
+            return {}
+        known = {name: places_of(name) for name in names if _is_name(name)}
+        return {name: places for name, places in known.items() if places}
+
+    def _places(self, name: str, *, there: bool) -> tuple[str, ...]:
+        try:
+            places = tuple(place for place, so in self._believed(name).items() if so == there)
+        except _FAILURES as error:
+            self._warn(f"facts about the {name} could not be read", error)
+            return ()
+        self._failing = False
+        return places
 
     def _believed(self, name: str) -> dict[str, bool]:
         """Whether it is there, of each place of which that is known; the newest first."""

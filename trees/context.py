@@ -85,6 +85,10 @@ class NoFacts:
         """None."""
         return {}
 
+    def places_denied(self, name: str) -> tuple[str, ...]:
+        """Nowhere."""
+        return ()
+
     def denials(self) -> dict[str, tuple[str, ...]]:
         """None."""
         return {}

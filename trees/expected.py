@@ -97,12 +97,12 @@ def whereabouts(context: MissionContext, command: Command) -> Belief:
     named = places_in(context, command.source) if command.source else ()
     things = things_meant(context, command)
     remembered = [place for thing in things for place in context.facts.places_of(thing)]
-    denied = context.facts.denials()
     usual = [
         place
         for thing in things
+        for denied in [context.facts.places_denied(thing)]
         for place in context.knowledge.usual_places(thing)
-        if place not in denied.get(thing, ())
+        if place not in denied
     ]
     said = (
         Statement(Source.USER, in_order(named, factor=1.0), PERSON_TRUST),

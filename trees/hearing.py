@@ -83,7 +83,7 @@ def believed(context: MissionContext) -> Belief:
     """Where the thing may be, by all that was said and seen so far."""
     search, home = context.situation.search, context.knowledge.places()
     looks, named = search.looks, search.whereabouts.named
-    denied = context.facts.denials().get(context.situation.request.object or "", ())
+    denied = context.facts.places_denied(context.situation.request.object or "")
     left = dict.fromkeys(denied, DENIED)
     left |= {
         place: 1 - looks.share_seen(place) * (1 - MISSED)

@@ -114,15 +114,16 @@ class Facts(Protocol):
         """Where it was seen or said to be, freshest first, as far as no later look contradicts."""
         ...
 
+    def places_denied(self, name: str) -> tuple[str, ...]:
+        """Where the person said that it is not, until it is seen, or said to be there."""
+        ...
+
     def beliefs(self) -> Mapping[str, Sequence[str]]:
         """Each object that is believed to be anywhere, and where: what a recording keeps."""
         ...
 
     def denials(self) -> Mapping[str, Sequence[str]]:
-        """Each object that the person said is not somewhere, and where, if nothing came since.
-
-        It is so until the object is seen, or said to be there.
-        """
+        """Each object that the person said is not somewhere, and where: a recording keeps it."""
         ...
 
     def origins(self) -> Mapping[str, Sequence[str]]:

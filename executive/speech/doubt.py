@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from executive.events import Inbox, Listened
 from executive.interfaces.dialogue import Interpreter
+from executive.language.commands import WILL_NOT
 from executive.language.control import Control, control
 from executive.speech.interfaces import Reading
 from executive.speech.jsgf import LITTLE
@@ -19,7 +20,6 @@ PATIENCE_S = 20.0
 AGAIN_OR_TYPE = "Please say it again, or type it."
 UNCLEAR = "I did not understand you. Please say it again."
 YES_OR_NO = "Please say yes or no"
-DROPPED = "Then I will not."
 OVERSPOKEN = "I was speaking, and did not understand you. Please say it again."
 TOO_MUCH = "That is more than I can hear at a time. Please say the last of it again."
 FRESH_S = 4.0
@@ -181,7 +181,7 @@ class Doubt:
         if agrees:
             self._person.says(asked)
         else:
-            self._person.mention(DROPPED)
+            self._person.mention(WILL_NOT)
 
     def _ask(self, text: str) -> None:
         with self._lock:
