@@ -87,6 +87,7 @@ class Desk:
         One that had not ended when it was read is read again, `anew`.
         """
         reel = self._reel(name, anew=anew)
+        whole = reel.whole  # first: what is whole then does not change below
         outcome = reel.outcome
         marks = [(ln.step, ln.kind) for ln in tuple(reel.lines) if ln.kind in MARKED]
         return {
@@ -94,7 +95,7 @@ class Desk:
             "size": len(reel.nodes),
             "nodes": [asdict(n) for n in reel.nodes] if len(reel.nodes) != known else [],
             "last": reel.last,
-            "whole": reel.whole,
+            "whole": whole,
             "trouble": reel.trouble,
             "marks": marks[:: 1 + len(marks) // MOST_MARKS],
             "status": outcome.status if outcome else "",
@@ -104,14 +105,15 @@ class Desk:
     def step(self, name: str, step: int, shown: int | None) -> dict[str, Any]:
         """All after a tick, as far as it is not as after the tick that is shown."""
         reel = self._reel(name)
+        whole = reel.whole  # first, as above
         here = _within(reel, step)
         if here < 0:
-            return {"step": -1, "last": -1, "whole": reel.whole, "nodes": {}, "facts": {}}
+            return {"step": -1, "last": -1, "whole": whole, "nodes": {}, "facts": {}}
         moment = reel.moments[here]
         return {
             "step": here,
             "last": reel.last,
-            "whole": reel.whole,
+            "whole": whole,
             **asdict(moment),
             "nodes": reel.differing(here, shown),
             "facts": _plain(reel.facts(here, shown)),
