@@ -31,7 +31,9 @@ T = TypeVar("T")
 UNKNOWN_WAY_S = 10.0
 """How long a way is taken to be of which the robot does not tell."""
 LONGEST = 120
-"""What an exception says is cut to so many characters."""
+"""What an exception of others says is cut to so many characters."""
+WHOLE = 500
+"""One of our own has its sentence to the end, where it says what would be right."""
 
 log = logging.getLogger(__name__)
 
@@ -44,7 +46,7 @@ def in_words(error: BaseException) -> str:
     except Exception:
         said = ""
     if isinstance(error, ExecutiveError) and said:
-        return said[:LONGEST]
+        return said[:WHOLE]
     return f"{name}: {said}"[:LONGEST] if said else name
 
 

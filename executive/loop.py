@@ -14,7 +14,7 @@ from executive.events import (
     Intervened,
     StopRequested,
 )
-from executive.guards import LONGEST, GuardedRecorder, GuardedRobot, in_words, traceback_of
+from executive.guards import WHOLE, GuardedRecorder, GuardedRobot, in_words, traceback_of
 from executive.interfaces.robot import Robot
 from executive.interfaces.runtime import Clock, Recorder, Tree
 from executive.language.wording import WITHOUT_KNOWLEDGE
@@ -206,7 +206,7 @@ class Executive:
             self._situation.ending.restless = False
         else:
             why = result.reason if isinstance(result, Failed) else ""
-            self._situation.ending.stay_restless(printable(why)[:LONGEST])
+            self._situation.ending.stay_restless(printable(why)[:WHOLE])
         self._inbox.drop_all()
         self._feel()
         held = self._situation.hand.in_hand

@@ -1,15 +1,12 @@
 """The home, its things and the robot in PyBullet: advances physics and writes down what moves."""
 
 from collections.abc import Collection, Mapping
-from itertools import count
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from executive.clock import HANGING_S
 from executive.events import Inbox
-from executive.geometry import Floats
-from executive.interfaces.perception import Camera
 from executive.interfaces.runtime import Recorder
 from executive.records import Picture, Scene, Transform, Transforms
 from executive.types.geometry import Pose
@@ -25,12 +22,13 @@ from sim.bullet.bodies import (
     put_at,
     settle,
 )
-from sim.bullet.camera import GLANCING, LOOKING, SimulatedCamera, SimulatedDetector
+from sim.bullet.camera import SimulatedDetector
 from sim.bullet.client import aim_window, connect
 from sim.bullet.contacts import FreshContacts
+from sim.cameras import Cameras
 from sim.engine import pybullet
 from sim.faults.hardware import FaultyHardware
-from sim.faults.injector import FaultInjector, FaultyCamera
+from sim.faults.injector import FaultInjector
 from sim.faults.world import WorldFaults
 from sim.home.arrangement import NoRoomError, Spot
 from sim.home.home import Home
@@ -42,7 +40,7 @@ from sim.navigation.durations import durations_in
 from sim.navigation.grid import OccupancyGrid
 from sim.navigation.navigator import Navigator
 from sim.objects.objects import ObjectModel
-from sim.pictures.beside import Beside, CameraBeside
+from sim.pictures.beside import Beside
 from sim.pictures.scene import Actors, Blueprint
 from sim.robot import SimulatedRobot
 from sim.transforms import FrameTree
@@ -95,6 +93,7 @@ class PhysicsWorld:
         self._models = models
         self._inbox = inbox
         self._recorder = recorder
+
         self._client = connect(gui)
         self._client.setPhysicsEngineParameter(deterministicOverlappingPairs=1)
         beside = beside and not (injector and injector.spoils_pictures)
@@ -105,34 +104,35 @@ class PhysicsWorld:
         self._things = place_objects(self._client, home, models)
         self._disturb(seed, left)
         self._let_sleep()
+
         self._planning = PlanningWorld(home)
         self._hardware, self._world_faults = self._with_faults(injector)
         self._contacts = FreshContacts(self._client, self._hardware.body, self._things)
-        numbers = count()
-        camera = SimulatedCamera(self._client, self._camera_pose, LOOKING, numbers)
-        glancing = SimulatedCamera(self._client, self._camera_pose, GLANCING, numbers)
-        self.camera: Camera = FaultyCamera(camera, injector) if injector else camera
-        self._glancing: Camera = FaultyCamera(glancing, injector) if injector else glancing
-        self.detector = SimulatedDetector(camera, self._things)
-        self.robot = self._robot()
-        self._waits = False
-        self._periods = 0
-        self._steps = 0
-        self._owed = 0.0
-        self._last_act = 0
         movable = {**self._things, **(self._world_faults.bodies() if self._world_faults else {})}
         self._frames = FrameTree(self._client, self._hardware, movable)
         self._robots_frames = FrameTree(self._client, self._hardware, {})
-        self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
-        self._log_camera: Camera = self._glancing
-        self.eyes: Camera = self.camera
-        """The same camera, for who needs no more than the picture: it need not be drawn here."""
         self._beside: Beside | None = None
         if blueprint:
             actors = Actors(self._client, list(movable), self._hardware.body)
             self._beside = Beside(actors, blueprint, recorder)
-            self._log_camera = CameraBeside(glancing, self._beside)
-            self.eyes = CameraBeside(camera, self._beside, awaited=True)
+        self._cameras = Cameras(self._client, self._hardware, injector, self._beside)
+        self.camera = self._cameras.looking
+        self.eyes = self._cameras.eyes
+        """The same camera, for who needs no more than the picture: it need not be drawn here."""
+        self.detector = SimulatedDetector(self._cameras.drawn, self._things)
+        self.robot = self._robot()
+
+        self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
+        self._waits = False
+        """Whether the control period that has begun waits for something to be computed."""
+        self._periods = 0
+        """Control periods so far."""
+        self._last_act = 0
+        """The last of them in which the robot was active."""
+        self._steps = 0
+        """Physics steps in each, as PyBullet is set now; 0 if it has not been set."""
+        self._owed = 0.0
+        """Time that has passed since the last (s)."""
 
     # --- SimulatedHome ---
 
@@ -178,7 +178,7 @@ class PhysicsWorld:
         self._recorder.record(Scene(entities))
         self._recorder.record(Transforms(self._frames.all()))
         if self._picture_every:
-            self._recorder.record(Picture(self._log_camera.capture()))
+            self._recorder.record(Picture(self._cameras.filming.capture()))
 
     def resting_place(self, name: str) -> str | None:
         """The furniture that an object rests on, by the simulator's truth; None if on none."""
@@ -266,7 +266,7 @@ class PhysicsWorld:
         if self._periods % TRANSFORMS_EVERY == 0:
             self._write_moved()
         if self._picture_every and self._periods % self._picture_every == 0:
-            self._recorder.record(Picture(self._log_camera.capture()))
+            self._recorder.record(Picture(self._cameras.filming.capture()))
 
     def _use_steps(self, steps: int) -> None:
         if steps != self._steps:
@@ -281,22 +281,6 @@ class PhysicsWorld:
     def _unsettled(self) -> bool:
         velocities = [self._client.getBaseVelocity(body)[0] for body in self._things]
         return bool(np.abs(velocities).max(initial=0.0) > RESTING_M_S)
-
-    # --- senses ---
-
-    def _camera_pose(self) -> Pose:
-        return self._hardware.link_pose("camera_optical")
-
-    def _scan(self) -> Floats:
-        """Points in `map` (n, 3) that the depth camera sees now."""
-        frame = self._glancing.capture()
-        lens, depth = frame.intrinsics, frame.depth.astype(np.float64)
-        rows, columns = np.nonzero(np.isfinite(depth))
-        far = depth[rows, columns]
-        ahead = np.column_stack(
-            ((columns - lens.cx) / lens.fx * far, (rows - lens.cy) / lens.fy * far, far)
-        )
-        return Rotation.from_quat(frame.pose.orientation).apply(ahead) + frame.pose.position
 
     def _time(self) -> float:
         """The robot's own time (s)."""
@@ -318,7 +302,8 @@ class PhysicsWorld:
         laser = Laser(self._client, hardware)
         grid = OccupancyGrid.from_home(home)
         navigator = Navigator(hardware, laser, grid, self._recorder, self._time, thinker)
-        manipulator = Manipulator(hardware, self._planning, home, self._models, self._scan, thinker)
+        scan = self._cameras.scan
+        manipulator = Manipulator(hardware, self._planning, home, self._models, scan, thinker)
         motions = Motions(hardware, self._planning, manipulator.hand, thinker)
         durations = durations_in(home, grid)
         return SimulatedRobot(

@@ -3,7 +3,6 @@
 import logging
 import sys
 import time
-from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
@@ -11,6 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Self, TextIO
 
+from executive.app.between import Between
 from executive.app.building import build_parts
 from executive.app.parts import OURS, Build, Change, as_they_are, build_mission, mission_tree
 from executive.app.recording import Recording, body_used, files_used
@@ -20,17 +20,7 @@ from executive.app.speaking import speak_aloud
 from executive.app.talking import answer, remember
 from executive.config import Settings
 from executive.errors import ExecutiveError
-from executive.events import (
-    THE_PERSON,
-    Broke,
-    Ended,
-    Event,
-    Heard,
-    Inbox,
-    Listened,
-    Started,
-    StopRequested,
-)
+from executive.events import THE_PERSON, Broke, Event, Inbox, Started, StopRequested
 from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces.dialogue import User
 from executive.interfaces.knowledge import PlaceSource
@@ -44,7 +34,6 @@ from executive.situation import FIRST, Ending, Situation
 from executive.text import one_line, too_long, writable
 from executive.types.goals import Halt
 from executive.types.outcome import MissionStatus, Outcome
-from executive.types.results import Answered
 from executive.user import NOTHING_TO_STOP, Console
 from logs.recorder import FanOut, Sink
 
@@ -59,8 +48,22 @@ log = logging.getLogger(__name__)
 class Session:
     """Runs missions with parts that outlive them: the body, knowledge, model and person.
 
-    To be used in a `with` block, at whose end it closes what it has opened. Its `parts` are as the
-    settings name them, but for what `change` puts in their place.
+    To be used in a `with` block, at whose end it closes what it has opened.
+
+    Attributes:
+        parts: whom missions are run with: as the settings name them, but for what `change` puts in
+            their place.
+        doubt: takes in what ears hear; None if there is no person to be heard.
+        heard: what the person has said too late for the mission in which it was said, oldest
+            first.
+        standing: tells what each mission begins with, beside its words: what an experimenter has
+            ordered before it.
+        folder: where the last mission left its recording.
+        is_recorded: whether that recording has all of the mission; else warnings have told what
+            it lacks.
+        ticks: how often the tree of the last mission was ticked.
+        stopped_by: who said stop in the last mission, or just after it; empty if nobody did. Of
+            several, the first who was not the person: that one ends the session, too.
     """
 
     def __init__(
@@ -108,38 +111,26 @@ class Session:
                 gui=gui,
             )
             self.parts = change(replace(parts, sources=given))
-            """Whom missions are run with."""
             checked(self.parts.sources)
             self.doubt = speak_aloud(self.parts, opened)
-            """Takes in what ears hear; None if there is no person to be heard."""
-            self._recording = None
+            self._recording: Recording | None = None
             if recorded:
                 used |= body_used(self.parts)
                 self._recording = Recording(used, self.parts, policy, view)
             self._opened = opened.pop_all()
         self._sinks = tuple(sinks)
         self._build = build
+        self._between = Between(self.inbox, self.parts.clock)
+        self.heard = self._between.heard
+        self.standing: Callable[[], Iterable[Event]] = tuple
         self._before = FIRST
         """What the missions so far have left for the next."""
-        self._listened: list[Listened] = []
-        """What ears have understood since the last mission, for the recording of the next."""
         self._closed = False
-        self.standing: Callable[[], Iterable[Event]] = tuple
-        """Tells what each mission begins with, beside its words: what an experimenter has ordered
-        before it."""
-        self.heard: deque[str] = deque()
-        """What the person has said too late for the mission in which it was said, oldest first."""
-        self.ticks = 0
-        """How often the tree of the last mission was ticked."""
+        # of the last mission
         self.folder: Path | None = None
-        """Where the last mission left its recording."""
         self.is_recorded = True
-        """Whether that recording has all of the mission; else warnings have told what it lacks."""
+        self.ticks = 0
         self.stopped_by = ""
-        """Who said stop in the last mission, or just after it; empty if nobody did.
-
-        Of several, the first who was not the person: that one ends the session, too.
-        """
 
     @property
     def robot(self) -> Robot:
@@ -187,10 +178,10 @@ class Session:
         if why := too_long(words):
             stops = (e.by for e in self.inbox.take_all() if isinstance(e, StopRequested))
             self.stopped_by = next(stops, "")  # there is nothing to stop
-            return refused(why)
+            return without_mission(MissionStatus.NOT_UNDERSTOOD, why)
         words = one_line(writable(words))
         if not control(words) and (said := self.talk(words)):
-            return answered(said)
+            return without_mission(MissionStatus.DONE, said)
         if self.parts.experience:
             GuardedExperience(self.parts.experience, self.recorder).learn()
         started = datetime.now(UTC)
@@ -295,9 +286,9 @@ class Session:
         """Have the tree decide, from the words on."""
         executive = build_mission(self.parts, situation, self._build)
         begun = Started(situation.request.words)
-        for event in (begun, *self._listened, *self.standing()):
+        for event in (begun, *self._between.listened, *self.standing()):
             self.inbox.post(event)
-        self._listened.clear()
+        self._between.listened.clear()
         if control(situation.request.words):
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             user = GuardedUser(self.parts.user, self.inbox, self.recorder)
@@ -326,43 +317,10 @@ class Session:
         Raises:
             KeyboardInterrupt: if a signal says stop.
         """
-        if self.heard:
-            return self.heard.popleft()
-        request = console.listen(prompt)
-        while True:
-            self.parts.clock.wait(None)
-            events = self.inbox.take_all()
-            command: str | None = None
-            for event in events:
-                if isinstance(event, StopRequested):
-                    if event.by != THE_PERSON:
-                        raise KeyboardInterrupt
-                    command = None  # it was taken back at once
-                    self.heard.clear()
-                elif isinstance(event, Heard):  # between two missions
-                    self.heard.append(event.words)
-                elif isinstance(event, Listened):
-                    self._listened.append(event)
-                elif isinstance(event, Ended) and event.request == request:
-                    if not isinstance(event.result, Answered):
-                        return None
-                    command = event.result.text
-            if command is not None:
-                self.heard.append(command)
-            if self.heard:
-                console.cancel(request)
-                return self.heard.popleft()
-            if not self.inbox.is_open(request):
-                request = console.listen(prompt)
+        return self._between.next_command(console, prompt)
 
 
-def answered(answer: str) -> Outcome:
-    """The outcome of words that asked for no more than an answer."""
-    situation = Situation(ending=Ending(MissionStatus.DONE, answer))
-    return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
-
-
-def refused(why: str) -> Outcome:
-    """The outcome of words that are not read."""
-    situation = Situation(ending=Ending(MissionStatus.NOT_UNDERSTOOD, why))
+def without_mission(status: MissionStatus, said: str) -> Outcome:
+    """The outcome of words for which no mission was run."""
+    situation = Situation(ending=Ending(status, said))
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)

@@ -30,7 +30,7 @@ from executive.types.geometry import Pose
 CONNECTING_S = 6.0
 CLOSING_S = 1.5
 MORE_TIME = "see that it is published there; over a slow link, give camera.late_s more"
-RIGHT = "start rosbridge there (docs/own-robot.md), or our robot: python -m sim serve"
+RIGHT = "see docs/own-robot.md, or take our robot: python -m sim serve"
 
 
 @dataclass(frozen=True)

@@ -5,15 +5,12 @@ What was asked over it ends: with an answer, or with a `LinkError` when the conn
 
 import asyncio
 import logging
-import ssl
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
 from typing import Any
 
 from websockets.asyncio.client import ClientConnection, connect
-from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidURI
-from websockets.frames import Close, CloseCode
 
 from executive.guards import in_words
 from executive.ros.address import Address
@@ -34,6 +31,7 @@ from executive.ros.protocol import (
     decode,
     encode,
 )
+from executive.ros.reasons import why_lost
 from executive.text import printable
 
 CONNECTING_S = 5.0
@@ -103,7 +101,7 @@ class Peer:
                 self._lose("it was closed")
                 raise
             except Exception as error:
-                why = _why(error)
+                why = why_lost(error)
             self._lose(why)
             await asyncio.sleep(AGAIN_S[min(failures, len(AGAIN_S) - 1)])
             failures += 1
@@ -260,31 +258,3 @@ class Peer:
             receive(message)
         except Exception as error:
             log.info("from %s came a message that I cannot use: %s", self._address, in_words(error))
-
-
-def _why(error: Exception) -> str:
-    """Why there is no connection, as a clause."""
-    match error:
-        case ConnectionClosed(sent=Close(code=CloseCode.MESSAGE_TOO_BIG)):
-            return f"it sent a message of more than {MOST_BYTES:,} bytes"
-        case ConnectionClosed():
-            return "it broke off"
-        case TimeoutError():
-            return "nobody answers"
-        case ConnectionRefusedError():
-            return "nobody listens there"
-        case ConnectionResetError():
-            return "it hangs up at once (does it speak TLS? ws:// is without, wss:// with)"
-        case InvalidHandshake() | InvalidURI():
-            return f"it was not let in: {in_words(error)}"
-        case ssl.SSLCertVerificationError():
-            said = printable(error.verify_message)
-            return (
-                f"its certificate is not trusted ({said}): if it should be, SSL_CERT_FILE names it"
-            )
-        case ssl.SSLError():
-            return "it does not speak TLS as it should (ws:// is without)"
-        case OSError() if error.strerror:
-            return printable(error.strerror).lower()
-        case _:
-            return in_words(error)

@@ -76,10 +76,11 @@ class Kinematics:
         Levenberg-Marquardt within the joint limits.
         """
         near = np.clip(near, self._lower, self._upper)
-        if self._is_too_far(base, target, near):
+        self._assume(base, near)
+        if self._is_too_far(target, near):
             return None
         joints, damping = near, _DAMPING
-        error = self._error(base, target, joints, near)
+        error = self._error(target, joints, near)
         if not error.any():
             return joints
         for _ in range(_EVALUATIONS):
@@ -88,7 +89,8 @@ class Kinematics:
             hessian[_DIAGONAL] *= 1 + damping
             low, high = self._lower - joints, self._upper - joints
             moved = joints + _bounded_step(hessian, jacobian.T @ error, low, high)
-            new_error = self._error(base, target, moved, near)
+            self._assume(base, moved)
+            new_error = self._error(target, moved, near)
             gain = 1.0 - float(new_error @ new_error) / float(error @ error)
             if gain > 0:
                 joints, error, damping = moved, new_error, damping / 3
@@ -120,9 +122,11 @@ class Kinematics:
 
     # --- helpers ---
 
-    def _is_too_far(self, base: Floats, target: HandPose, arm: Floats) -> bool:
-        """Whether no arm of this length has its wrist there, however high the lift is."""
-        self._assume(base, arm)
+    def _is_too_far(self, target: HandPose, arm: Floats) -> bool:
+        """Whether no arm of this length has its wrist there, however high the lift is.
+
+        `arm` is where the joints are assumed now.
+        """
         shoulder = self._position(_LENGTHS[0])
         wrist = target.position + target.rotation.apply(self._wrist)
         heights = shoulder[2] - arm[0] + np.array([self._lower[0], self._upper[0]])
@@ -145,9 +149,12 @@ class Kinematics:
         )
         self._all[self._columns] = values
 
-    def _error(self, base: Floats, target: HandPose, arm: Floats, near: Floats) -> Floats:
-        """How far the hand is off (position, orientation), and how far the arm went (14,)."""
-        hand = self.hand(base, arm)
+    def _error(self, target: HandPose, arm: Floats, near: Floats) -> Floats:
+        """How far the hand is off (position, orientation), and how far the arm went (14,).
+
+        `arm` is where the joints are assumed now.
+        """
+        hand = self._hand()
         turn = (hand.rotation * target.rotation.inv()).as_rotvec()
         return np.concatenate(
             (

@@ -9,6 +9,7 @@ from executive.errors import ExecutiveError
 from executive.events import Ended, Inbox
 from executive.guards import (
     LONGEST,
+    WHOLE,
     GuardedModel,
     GuardedPerception,
     GuardedRecorder,
@@ -178,6 +179,12 @@ def test_an_exception_is_a_clause_on_one_line(error: Exception, words: str) -> N
 
 def test_a_long_story_is_cut() -> None:
     assert len(in_words(ValueError("x" * 3000))) == LONGEST
+
+
+def test_a_sentence_of_ours_is_told_to_its_end() -> None:
+    told = f"{'it is wrong, ' * 20}write it so"
+    assert in_words(ExecutiveError(told)) == told
+    assert len(in_words(ExecutiveError("x" * 3000))) == WHOLE
 
 
 @pytest.mark.parametrize("result", [None, "done", 3, Exception("no")])

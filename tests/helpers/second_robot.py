@@ -95,8 +95,8 @@ class SecondRobot(Beside):
         """So many cancels are lost on their way."""
         self.told: dict[str, dict[str, Any]] = {}
         """Fields of a topic's messages that are told otherwise."""
-        self.shut = False
-        """Whether nobody is let in."""
+        self.shut: int | None = None
+        """Nobody is let in: what is answered, in HTTP's numbers."""
         self.headers: list[dict[str, str]] = []
         self._clients: dict[ServerConnection, dict[str, Subscribe]] = {}
         self._under_way: dict[str, tuple[ServerConnection, SendActionGoal]] = {}
@@ -144,7 +144,7 @@ class SecondRobot(Beside):
             life.cancel()
 
     def _let_in(self, client: ServerConnection, _: Request) -> Response | None:
-        return client.respond(503, "not now") if self.shut else None
+        return client.respond(self.shut, "not now") if self.shut else None
 
     async def _talk(self, client: ServerConnection) -> None:
         self._clients[client] = {}

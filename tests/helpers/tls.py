@@ -14,13 +14,13 @@ import pytest
 from patience import PATIENCE_S
 
 
-def certificate(folder: Path) -> Path:
-    """A file with a certificate for 127.0.0.1 that nobody signed, and its key."""
+def certificate(folder: Path, of: str = "IP:127.0.0.1") -> Path:
+    """A file with a certificate of this host that nobody signed, and its key."""
     if (openssl := shutil.which("openssl")) is None:
         pytest.skip("needs openssl")
     key, cert = folder / "key.pem", folder / "cert.pem"
     kind = ("req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes")
-    names = ("-subj", "/CN=robot", "-addext", "subjectAltName=IP:127.0.0.1", "-days", "2")
+    names = ("-subj", "/CN=robot", "-addext", f"subjectAltName={of}", "-days", "2")
     into = ("-keyout", str(key), "-out", str(cert))
     subprocess.run([openssl, *kind, *names, *into], check=True, capture_output=True)
     cert.write_text(cert.read_text() + key.read_text())

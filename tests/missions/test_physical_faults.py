@@ -189,7 +189,7 @@ def test_a_blind_camera_leaves_nothing_to_grasp_or_put_down_by(haunt: Callable[.
     robot = haunt("blind")
     frame = robot.world.camera.capture()
     assert not frame.color.any()
-    assert len(robot.world._scan()) == 0
+    assert len(robot.world._cameras.scan()) == 0
 
 
 def test_with_some_noise_in_the_depth_it_still_grasps(haunt: Callable[..., Haunted]):

@@ -5,7 +5,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from executive.campaign.journal import CRASHED, Row
-from executive.campaign.report import paper, tables
+from executive.campaign.report import comparisons, paper, tables
 from executive.campaign.report.document import (
     NO_PLOTS,
     Heading,
@@ -32,6 +32,37 @@ READING = (
     "2018): the shortest way on the home's grid, to the thing and on to where the command ends, "
     "as a share of the way driven; 0 for a mission that is not completed.",
 )
+TIME = (
+    "Thinking: the seconds in which the robot only waited for the language model; what it thought "
+    "while it drove or looked is not in it. The last column: how much longer that made the mission."
+)
+SEARCHING = (
+    "Search: the seconds of going to places and looking there. Cost: the same, and for each "
+    "question to the person its price, the setting question_s. Stars: the cost differs from that "
+    "of the first variant in the same condition and home, by command, Holm-corrected over all "
+    "variants of the condition."
+)
+DIFFERENCES = (
+    "By how much the cost differs, command by command, each the mean of its seeds: the mean, its "
+    "interval, and p as for the stars. An interval without 0 and a p below 0.05 are beyond chance."
+)
+TRUST = (
+    "Of the belief before the first look: how likely its likeliest place was said to be, and how "
+    "often that was right; the expected calibration error of that place; and the mean logarithm of "
+    "how likely the true place was said to be (log score, 0 is best)."
+)
+COMPARED = (
+    "Stars: the difference from the first variant in the same condition and home, by command, "
+    "Holm-corrected over all variants of the condition. Failed visits: places that the robot set "
+    "out for and could not get to. Invented names: of those that the model wrote, how many no room "
+    "and no furniture goes by."
+)
+
+HEADINGS = {"inquiries": "Inquiries to the person", "visits": "Pieces of furniture visited"}
+"""Of the measures."""
+
+Plots = Mapping[str, Sequence[Part]]
+"""The figures, by the section that they belong to."""
 
 
 def write_report(
@@ -64,37 +95,47 @@ def report(
     found, all_found = variants(ran, as_in_paper), variants(rows, as_in_paper)
     plots = dict(_plots(found))
     compared = any(variant.as_in_paper for variant in all_found)
-    reading = (IN_BRACKETS if compared else NOT_COMPARED, *READING)
-    parts: list[Part] = [Heading(f"Campaign: {len(rows)} missions", 1), *map(Text, reading)]
+    parts: list[Part] = [Heading(f"Campaign: {len(rows)} missions", 1)]
+    parts += map(Text, (IN_BRACKETS if compared else NOT_COMPARED, *READING))
     if without_model:
         parts.append(Text(not_counted(without_model)))
     if not plots and ran:
         parts.append(Text(NO_PLOTS))
-    parts += [Heading("Overview"), tables.overview(found)]
+    parts += _measured(found, all_found, plots)
+    parts += _searched(found, ran)
+    parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
+    if len(found) > 1:
+        parts += [Heading("Policies, homes and models compared"), Text(COMPARED)]
+        parts += [comparisons.policies(found), *plots.get("policies", ())]
+    failed = tables.failures(rows, folder)
+    parts += [Heading("Missions not completed"), failed if failed.rows else Text("None.")]
+    return [*parts, Heading("Settings"), Table(["what", "value"], list(about.items()))]
+
+
+def _measured(found: Sequence[Variant], all_found: Sequence[Variant], plots: Plots) -> list[Part]:
+    """What the paper measured: completion, time, inquiries and visits; `all_found` has crashes."""
+    parts: list[Part] = [Heading("Overview"), tables.overview(found)]
     parts += [Heading("Task completion rate"), tables.completion(all_found)]
     parts += [Heading("Mission time of completed missions [s]"), tables.times(found)]
     parts += [Heading("What the time goes into"), Text(TIME), tables.time_split(found)]
     parts += plots.get("time", ())
-    for title, heading in (
-        ("inquiries", "Inquiries to the person"),
-        ("visits", "Pieces of furniture visited"),
-    ):
+    for title, heading in HEADINGS.items():
         parts += [Heading(heading), tables.measure(found, title), *plots.get(title, ())]
-        parts += [tables.differences(found, title)]
-    parts += plots.get("distributions", ())
-    if any(row.search_s for row in ran):  # results of earlier days do not tell
-        parts += [Heading("What the search cost"), Text(SEARCHING), tables.searching(found)]
+        parts.append(tables.differences(found, title))
+    return [*parts, *plots.get("distributions", ())]
+
+
+def _searched(found: Sequence[Variant], ran: Sequence[Row]) -> list[Part]:
+    """What the search cost, and whether its belief was right; results of earlier days lack both."""
+    parts: list[Part] = []
+    if any(row.search_s for row in ran):
+        parts += [Heading("What the search cost"), Text(SEARCHING), comparisons.searching(found)]
         if len(found) > 1:
-            parts += [Text(DIFFERENCES), tables.cost_differences(found)]
+            parts += [Text(DIFFERENCES), comparisons.cost_differences(found)]
     if any(row.sure for row in ran):
-        parts += [Heading("Whether the belief could be trusted"), Text(TRUST), tables.trust(found)]
-    parts += [Heading("Execution cost of missions that consulted the LLM"), tables.cost(found)]
-    if len(found) > 1:
-        parts += [Heading("Policies, homes and models compared"), Text(COMPARED)]
-        parts += [tables.policies(found), *plots.get("policies", ())]
-    failed = tables.failures(rows, folder)
-    parts += [Heading("Missions not completed"), failed if failed.rows else Text("None.")]
-    return [*parts, Heading("Settings"), Table(["what", "value"], list(about.items()))]
+        parts += [Heading("Whether the belief could be trusted"), Text(TRUST)]
+        parts.append(comparisons.trust(found))
+    return parts
 
 
 def not_counted(rows: Sequence[Row]) -> str:
@@ -106,37 +147,6 @@ def not_counted(rows: Sequence[Row]) -> str:
         f"{whose} had no working language model ({why}{often}) and "
         f"{'is' if len(rows) == 1 else 'are'} not counted; run again to try them."
     )
-
-
-TIME = (
-    "Thinking: the seconds in which the robot only waited for the language model; what it thought "
-    "while it drove or looked is not in it. The last column: how much longer that made the mission."
-)
-
-SEARCHING = (
-    "Search: the seconds of going to places and looking there. Cost: the same, and for each "
-    "question to the person its price, the setting question_s. Stars: the cost differs from that "
-    "of the first variant in the same condition and home, by command, Holm-corrected over all "
-    "variants of the condition."
-)
-
-DIFFERENCES = (
-    "By how much the cost differs, command by command, each the mean of its seeds: the mean, its "
-    "interval, and p as for the stars. An interval without 0 and a p below 0.05 are beyond chance."
-)
-
-TRUST = (
-    "Of the belief before the first look: how likely its likeliest place was said to be, and how "
-    "often that was right; the expected calibration error of that place; and the mean logarithm of "
-    "how likely the true place was said to be (log score, 0 is best)."
-)
-
-COMPARED = (
-    "Stars: the difference from the first variant in the same condition and home, by command, "
-    "Holm-corrected over all variants of the condition. Failed visits: places that the robot set "
-    "out for and could not get to. Invented names: of those that the model wrote, how many no room "
-    "and no furniture goes by."
-)
 
 
 def _plots(found: Sequence[Variant]) -> Iterator[tuple[str, Sequence[Part]]]:

@@ -50,6 +50,7 @@ function slid(item, words, points, ends) {
   slider.addEventListener("input", set);
   slider.addEventListener("change", set);
   slider.addEventListener("click", meant); // the middle is an answer, too
+  slider.addEventListener("pointerup", meant); // a finger on a slider makes no click
   slider.addEventListener("keydown", (event) => {
     if (event.key === "Enter" || event.key === " ") {
       event.preventDefault();

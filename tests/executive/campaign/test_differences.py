@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from executive.campaign.journal import Row
-from executive.campaign.report import tables
+from executive.campaign.report import comparisons, tables
 from executive.campaign.report.variants import variants
 
 COSTS = {("small", "paper"): 30.0, ("small", "plan"): 20.0} | {
@@ -22,7 +22,7 @@ def rows() -> list[Row]:
 
 
 def test_each_policy_is_held_against_the_first_in_its_home() -> None:
-    told = tables.cost_differences(variants(rows(), ())).rows
+    told = comparisons.cost_differences(variants(rows(), ())).rows
     assert [line[1:5] for line in told] == [
         ["plan, small", "paper, small", "-10.0", "-10.0 to -10.0"],
         ["plan, large", "paper, large", "-20.0", "-20.0 to -20.0"],
@@ -41,6 +41,6 @@ def test_only_the_thinking_that_was_waited_for_makes_a_mission_longer() -> None:
 
 
 def test_stars_are_not_against_a_policy_in_another_home() -> None:
-    told = {line[1]: line[5] for line in tables.searching(variants(rows(), ())).rows}
+    told = {line[1]: line[5] for line in comparisons.searching(variants(rows(), ())).rows}
     assert told["paper, large"] == "93.5"
     assert told["plan, large"].startswith("73.5 *")

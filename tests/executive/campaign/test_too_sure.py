@@ -10,8 +10,8 @@ import pytest
 from executive.campaign.journal import Row
 from executive.campaign.observer import Observed
 from executive.campaign.policies import policy_named
+from executive.campaign.report.comparisons import trust
 from executive.campaign.report.report import report
-from executive.campaign.report.tables import trust
 from executive.campaign.report.variants import variants
 from executive.config import KnowledgeSystem
 from executive.testing.bench import Run, four_rooms, run_mission

@@ -44,12 +44,12 @@ class House:
         return request
 
     def lose(self) -> None:
-        self.there.shut = True
+        self.there.shut = 503
         self.there.cut()
         until(lambda: self.link.loss, "the loss")
 
     def find(self) -> None:
-        self.there.shut = False
+        self.there.shut = None
         until(lambda: not self.link.loss, "another link")
 
 

@@ -36,7 +36,18 @@ def test_a_certificate_that_nobody_signed_is_told(
     assert main(["check", door, "--profile", str(PROFILE)]) == 2
     said = capsys.readouterr().err
     assert "its certificate is not trusted" in said
-    assert "SSL_CERT_FILE" in said
+    assert "if it should be, the environment variable SSL_CERT_FILE names its file" in said
+
+
+def test_a_certificate_of_another_host_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cert = certificate(tmp_path, of="DNS:robot.lab")
+    monkeypatch.setenv("SSL_CERT_FILE", str(cert))
+    with SecondRobot() as robot, tls_before(robot.url, cert) as door:
+        assert main(["check", door, "--profile", str(PROFILE)]) == 2
+    said = capsys.readouterr().err
+    assert "certificate is not valid for '127.0.0.1'); see" in said
 
 
 def test_a_robot_without_tls_is_told(capsys: pytest.CaptureFixture[str]) -> None:
@@ -44,3 +55,28 @@ def test_a_robot_without_tls_is_told(capsys: pytest.CaptureFixture[str]) -> None
         door = robot.url.replace("ws:", "wss:")
         assert main(["check", door, "--profile", str(PROFILE)]) == 2
     assert "does it speak TLS?" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        (401, "it was not let in (HTTP 401): what the door asks for goes into EXECUTIVE_ROBOT_"),
+        (404, "there is no websocket at this address (HTTP 404)"),
+        (502, "the door is there, but the robot behind it is not (HTTP 502)"),
+    ],
+)
+def test_why_a_door_is_shut_is_told(
+    answer: int, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with SecondRobot() as robot:
+        robot.shut = answer
+        assert main(["check", robot.url, "--profile", str(PROFILE)]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_door_with_tls_that_is_taken_for_one_without_is_told(
+    door: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    without = door.replace("wss:", "ws:")
+    assert main(["check", without, "--profile", str(PROFILE)]) == 2
+    assert "wss:// with" in capsys.readouterr().err

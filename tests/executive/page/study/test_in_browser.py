@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from browsing import DESKTOP, SMALLEST, opened, say, wait_until_ready
+from browsing import DESKTOP, PHONE, SMALLEST, opened, say, wait_until_ready
 from patience import PATIENCE_S
 from playwright.sync_api import Browser, expect
 from playwright.sync_api import Page as Tab
@@ -159,6 +159,21 @@ def test_what_is_left_out_is_told_and_focused(browser: Browser, tmp_path: Path) 
         tab.reload()
         expect(tab.locator("input[type=range].unset")).to_have_count(4)
         take_part(tab, random.Random(0), until="part")
+    assert [row.points for row in tables(data).answers] == [11] * 6
+
+
+def test_a_finger_chooses_the_middle_of_a_slider_too(browser: Browser, tmp_path: Path) -> None:
+    data = data_in(tmp_path, study_of(1, at_start=["nasa_tlx"], after_each=[]))
+    with (
+        led(data, "P01", to_the_end=False) as one,
+        opened(browser, one.page, viewport=PHONE, has_touch=True, is_mobile=True) as tab,
+    ):
+        take_part(tab, random.Random(0), until="questionnaire")
+        for slider in tab.locator("input[type=range]").all():
+            slider.tap()
+        expect(tab.locator("input[type=range].unset")).to_have_count(0)
+        tab.get_by_role("button", name="Send my answers").tap()
+        next_step(tab, "questionnaire/0/nasa_tlx")
     assert [row.points for row in tables(data).answers] == [11] * 6
 
 

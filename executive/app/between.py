@@ -1,0 +1,59 @@
+"""What is heard between missions: the next command, and what came too late for the last mission."""
+
+from collections import deque
+
+from executive.events import THE_PERSON, Ended, Heard, Inbox, Listened, StopRequested
+from executive.interfaces.runtime import Clock
+from executive.types.results import Answered
+from executive.user import Console
+
+
+class Between:
+    """Hears the person while no mission runs.
+
+    Attributes:
+        heard: what they have said and nobody has done so far, oldest first.
+        listened: what ears have understood since the last mission, for the recording of the next.
+    """
+
+    def __init__(self, inbox: Inbox, clock: Clock) -> None:
+        """Nothing has been heard."""
+        self._inbox = inbox
+        self._clock = clock
+        self.heard: deque[str] = deque()
+        self.listened: list[Listened] = []
+
+    def next_command(self, console: Console, prompt: str) -> str | None:
+        """Prompt, and wait for the person to type a command; None if the input or session ends.
+
+        Raises:
+            KeyboardInterrupt: if a signal says stop.
+        """
+        if self.heard:
+            return self.heard.popleft()
+        request = console.listen(prompt)
+        while True:
+            self._clock.wait(None)
+            command: str | None = None
+            for event in self._inbox.take_all():
+                match event:
+                    case StopRequested(by) if by != THE_PERSON:
+                        raise KeyboardInterrupt
+                    case StopRequested():
+                        command = None  # it was taken back at once
+                        self.heard.clear()
+                    case Heard(words):
+                        self.heard.append(words)
+                    case Listened():
+                        self.listened.append(event)
+                    case Ended(number, Answered(text)) if number == request:
+                        command = text
+                    case Ended(number) if number == request:
+                        return None
+            if command is not None:
+                self.heard.append(command)
+            if self.heard:
+                console.cancel(request)
+                return self.heard.popleft()
+            if not self._inbox.is_open(request):
+                request = console.listen(prompt)
