@@ -119,12 +119,7 @@ def serve(
     as_json: bool,
 ) -> int:
     """Build the parts, run what is asked, free the parts."""
-    from executive.user import Console
-
-    console: Console | None = None  # hears a stop from now on
-    if settings.user == "console":
-        typed = None if settings.is_typed else StringIO()
-        console = page.person if page else Console(inbox, typed)
+    console = person_of(settings, inbox, page)  # hears a stop from now on
     with all_is_kept():
         from executive.app.session import Session
 
@@ -146,14 +141,29 @@ def serve(
             if console and (words is None or page):
                 code = converse(session, console, as_json, words)
             else:
-                code = do(session, words or "", as_json)
-                while session.heard:
-                    code = do(session, session.heard.popleft(), as_json)
+                code = do_all(session, words or "", as_json)
             leave_within(CLOSED_S, code)
             return code
         except KeyboardInterrupt:
             leave_within(CLOSED_S, STOPPED)
             raise
+
+
+def person_of(settings: Settings, inbox: "Inbox", page: "Page | None") -> "Console | None":
+    """Who types, in the page or in the terminal; None if the settings name somebody else."""
+    from executive.user import Console
+
+    if settings.user != "console":
+        return None
+    return page.person if page else Console(inbox, None if settings.is_typed else StringIO())
+
+
+def do_all(session: "Session", words: str, as_json: bool) -> int:
+    """Do what is said, and then what was heard too late for it; the last exit code."""
+    code = do(session, words, as_json)
+    while session.heard:
+        code = do(session, session.heard.popleft(), as_json)
+    return code
 
 
 def do(session: "Session", words: str, as_json: bool) -> int:

@@ -21,7 +21,8 @@ from pathlib import Path
 
 from executive import Outcome, Session, load_settings
 from executive.app.parts import Parts
-from executive.campaign.policies import Order, Policy, ordered
+from executive.campaign.baselines import Order, ordered
+from executive.campaign.policies import Policy
 
 
 def rooms_in_turn(parts: Parts) -> Order:

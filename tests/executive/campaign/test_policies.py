@@ -6,8 +6,8 @@ from collections.abc import Iterable
 import pytest
 
 from executive.campaign import blocks
+from executive.campaign.baselines import popular
 from executive.campaign.journal import Row
-from executive.campaign.policies import popular
 from executive.campaign.routes import Routes
 from executive.config import KnowledgeSystem, Settings, load_settings
 from executive.events import Inbox
