@@ -26,6 +26,8 @@ _STRING_OR_COMMENT = re.compile(
 )
 _LONG_KEY = re.compile(rf"(?:\.[ \t]*+[\w-]++[ \t]*+){{{DEEPEST},}}")
 """`a.a.a. ...`: the reader takes time with the square of the parts of such a key."""
+_LONG_NUMBER = re.compile(r"\d[\d_]{639,}")
+"""Python may refuse an integer of so many digits, and does not say which one it is."""
 _SHOWN = 60
 """So many characters of a key that is wrong are told."""
 _MOST_SHOWN = 80
@@ -68,7 +70,9 @@ def parse_toml(content: bytes, where: str) -> dict[str, Any]:
     except RecursionError:
         raise _too_deep(where) from None
     except ValueError:  # what Python itself refuses to read: a number of thousands of digits
-        raise InputError(where, "has a number or a date that cannot be", "see toml.io") from None
+        number = max(_LONG_NUMBER.finditer(text), key=lambda found: len(found[0]))
+        line = text.count("\n", 0, number.start()) + 1
+        raise InputError(where, f"line {line} has a number of more than 64 bits") from None
     _check(tables, where)
     return tables
 

@@ -13,6 +13,8 @@ _OURS = {
 }
 """What is in no ontology."""
 _IDENTIFIER = re.compile(rf"(?:\bthe )?\b([^\W_]+(?:_[^\W_]+)+)\b|\bthe ({DELIVERY})\b(?! table)")
+_ARTICLES = ("the", "a", "an", "my", "our", "your")
+"""And what stands for one."""
 _POSSESSIVE = re.compile(r"['’]s?$")
 
 
@@ -128,7 +130,7 @@ def _joined(words: Sequence[str], last: str) -> str:
 def as_said(text: str, words: str) -> str:
     """Words that were read, as they were said in a text: "under desk" is "under the desk"."""
     parts = [re.escape(word) for word in words.split()]
-    gap = r"(?:\W|_)+(?:(?:the|a|an|my|our|your)\W+)?"
+    gap = rf"(?:\W|_)+(?:(?:{'|'.join(_ARTICLES)})\W+)?"
     found = re.search(rf"(?<!\w){gap.join(parts)}(?!\w)", text, re.IGNORECASE) if parts else None
     return found[0] if found else words
 
@@ -142,7 +144,8 @@ def _in_room(called: Called) -> str:
 
 
 def _with_article(words: str) -> str:
-    """What has a number, or belongs to somebody, goes without: "bedroom 2", "Anna's desk"."""
+    """What has one, a number or an owner goes without: "the den", "bedroom 2", "Anna's desk"."""
     first, last = words.partition(" ")[0], words.rpartition(" ")[2]
-    bare = not words or last.isdecimal() or _POSSESSIVE.search(first)
+    owned = first.lower() in _ARTICLES or _POSSESSIVE.search(first)
+    bare = not words or last.isdecimal() or owned
     return words if bare else f"the {words}"

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import rdflib
-from rdflib import OWL, RDF, URIRef
+from rdflib import OWL, RDF, BNode, URIRef
 from rdflib.parser import InputSource
 from rdflib.term import Identifier
 
@@ -111,7 +111,9 @@ def _parsed(path: Path, content: bytes, here: str) -> OwlFile:
 
 
 def ending(entity: str) -> str:
-    """What an IRI ends in: its name for people, fit to be shown."""
+    """What an IRI ends in: its name for people, fit to be shown. A blank node has none."""
+    if isinstance(entity, BNode):
+        return "something nameless"
     last = entity.rstrip("#/").replace("#", "/").rpartition("/")[2]
     return printable(last)[:LONGEST_FAULT] or "nameless"
 

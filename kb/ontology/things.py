@@ -32,10 +32,13 @@ def put_thing(
     if not words_of(name) or graph.is_declared(iri):
         raise InputError(where, "this is no name of a thing", "give another name")
     for other in _called(graph, name, namespace):
-        if other in objects and graph.label(other) == name and kind in graph.upwards(other):
+        label = graph.label(other)
+        is_one = other in objects and kind in graph.upwards(other)
+        is_it = is_one and words_of(label) == words_of(name)
+        if is_it and label == name:
             return False
-        what = f"the ontology has a {graph.label(other)} of this name"
-        raise InputError(where, what, "give another name")
+        right = f"call it {label!r} if it is that one" if is_it else "give another name"
+        raise InputError(where, f"the ontology has a {label} of this name", right)
     above = list(graph.upwards(kind))[1:]
     if above and kind.startswith(namespace) and kind in objects:
         what = f"is a {ending(kind)}, which is an object itself"

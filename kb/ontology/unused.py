@@ -77,7 +77,8 @@ def _filler(graph: Graph, restriction: Identifier) -> str:
 def _equivalents(graph: Graph) -> Iterator[str]:
     for kind in graph.subjects():
         for same in graph.objects(kind, OWL.equivalentClass):
-            if isinstance(kind, URIRef) and isinstance(same, URIRef):
+            named = isinstance(kind, URIRef) and isinstance(same, URIRef)
+            if named and same != OWL.Nothing:
                 right = "keep one of the two, and give it the other's name as skos:altLabel"
                 yield f"{ending(kind)} is equivalent to {ending(same)}, which is not used: {right}"
 

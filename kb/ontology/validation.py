@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from graphlib import CycleError, TopologicalSorter
 from itertools import islice
 
-from rdflib import RDFS, BNode, Literal, URIRef
+from rdflib import OWL, RDFS, BNode, Literal, URIRef
 from rdflib.term import Identifier
 
 from executive.language.naming import heard_as, says_how_many
@@ -41,6 +41,7 @@ def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterato
     yield from _some(_outsiders(graph, list(roots.values()), told), "in no class")
     things = list(graph.downwards(roots["Object"]))
     yield from _some(_of_two_sorts(graph, roots), "of two sorts")
+    yield from _some(_impossible(graph), "below Nothing")
     refused = (
         why
         for root in roots.values()
@@ -78,6 +79,14 @@ def _of_two_sorts(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
     for kind in sorts["Object"]:
         if others := [name for name in ROOTS[1:] if kind in sorts[name]]:
             yield f"{ending(kind)} is below Object and below {others[0]}: take out one subClassOf"
+
+
+def _impossible(graph: Graph) -> Iterator[str]:
+    """Classes of which there is nothing: a reasoner writes so what contradicts itself."""
+    for kind in graph.subjects():
+        above = {*graph.objects(kind, RDFS.subClassOf), *graph.objects(kind, OWL.equivalentClass)}
+        if OWL.Nothing in above:
+            yield f"{ending(kind)} is below Nothing, so that there is none: take out what says so"
 
 
 def _cycles(graph: Graph) -> Iterator[str]:
@@ -123,7 +132,7 @@ def _taken(graph: Graph, things: Iterable[Identifier]) -> Iterator[str]:
 
 
 def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
-    """Names of two classes below one root, and names of things that are those of places, too."""
+    """Names of two classes below one root, or people, and of things that are those of places."""
     of_places: dict[Words, Identifier] = {}
     for root in ("Furniture", "Room"):
         for place in _all(graph, roots[root]):
@@ -131,7 +140,7 @@ def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
                 of_places.setdefault(words_of(name), place)
     for title, root in roots.items():
         owners = dict(of_places) if title == "Object" else {}
-        for thing in graph.downwards(root):
+        for thing in graph.instances(root) if title == "Person" else graph.downwards(root):
             for name in graph.names(thing):
                 other = owners.setdefault(words_of(name), thing)
                 if other != thing:
@@ -145,6 +154,9 @@ def _homeless(graph: Graph, roots: dict[str, URIRef], is_in: Identifier) -> Iter
         stands_in = graph.objects(piece, is_in)
         if not stands_in:
             yield f"{ending(piece)} is in no room: say with isIn where it stands"
+        if len(stands_in) > 1:
+            listed = " and in ".join(map(_shown, stands_in))
+            yield f"{ending(piece)} is in {listed}: it stands in one room, take out the other isIn"
         for room in stands_in:
             if room not in rooms and (graph.is_declared(room) or not isinstance(room, URIRef)):
                 yield f"{ending(piece)} is in {_shown(room)}, which is no room: name a room"
@@ -195,6 +207,4 @@ def _prepositions(graph: Graph, furniture: Identifier, given: Identifier) -> Ite
 
 
 def _shown(value: Identifier) -> str:
-    if isinstance(value, URIRef):
-        return ending(value)
-    return printable(value)[:40] if isinstance(value, Literal) else "something nameless"
+    return printable(value)[:40] if isinstance(value, Literal) else ending(value)

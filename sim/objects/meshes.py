@@ -83,22 +83,42 @@ def _read(path: Path) -> Floats:
     """The points (n, 3) of an OBJ file that can be drawn."""
     text = _text(path)
     try:
-        points = np.array([line.split()[1:4] for line in _lines(text, "v")], dtype=np.float64)
-        corners = {int(c.split("/")[0]) for line in _lines(text, "f") for c in line.split()[1:]}
+        points, corners = _points_and_corners(text)
     except ValueError:
         raise InputError(str(path), "has points or faces that are no OBJ") from None
     if not corners or min(corners) < 1 or max(corners) > len(points):
-        raise InputError(str(path), "has no faces, or faces of points that it does not have")
+        fault = "has no faces, or faces of points that it does not have"
+        raise InputError(str(path), fault, "export it anew, with its faces")
     try:
         ConvexHull(points)
     except (QhullError, ValueError):
         raise InputError(str(path), "has points that enclose no volume") from None
     for material in _lines(text, "mtllib"):
         described = _beside(path, material)
+        content = _text(described, f"put it there, or take the line mtllib out of {path.name}")
         for key in _PICTURES:
-            for texture in _lines(_text(described), key):
+            for texture in _lines(content, key):
                 _check_picture(described, _beside(described, texture))
     return points
+
+
+def _points_and_corners(text: str) -> tuple[Floats, set[int]]:
+    """The points (n, 3), and the numbers from 1 on of those that faces have.
+
+    A face may count back from the point before it, which is -1.
+
+    Raises:
+        ValueError: if there is something else than numbers.
+    """
+    points, corners = list[list[str]](), set[int]()
+    for line in text.splitlines():
+        key, *parts = line.split() or [""]
+        if key == "v":
+            points.append(parts[:3])
+        elif key == "f":
+            numbers = [int(corner.split("/")[0]) for corner in parts]
+            corners |= {n + len(points) + 1 if n < 0 else n for n in numbers}
+    return np.array(points, dtype=np.float64), corners
 
 
 def _beside(file: Path, line: str) -> Path:
@@ -134,9 +154,9 @@ def _check_picture(described: Path, picture: Path) -> None:
         raise InputError(str(picture), f"is {largest} pixels long", right)
 
 
-def _text(path: Path) -> str:
+def _text(path: Path, right: str = "") -> str:
     """The text of a file of a model, whose lines are no longer than PyBullet can bear."""
-    text = read_bytes(path, MOST_BYTES).decode("utf-8", errors="replace")
+    text = read_bytes(path, MOST_BYTES, right=right).decode("utf-8", errors="replace")
     if max(map(len, text.splitlines()), default=0) > LONGEST_LINE:
         raise InputError(str(path), f"has a line of more than {LONGEST_LINE} characters")
     return text

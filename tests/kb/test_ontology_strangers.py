@@ -372,6 +372,26 @@ def test_a_default_location_may_be_said_of_a_class_directly(tmp_path):
             "nook is in upstairs, which is no room: name a room",
         ),
         (
+            "home:nook a h:Desk ; h:isIn home:kitchen, home:bedroom .",
+            "nook is in kitchen and in bedroom: it stands in one room, take out the other isIn",
+        ),
+        (
+            "h:Mug h:hasDefaultLocation [ a h:Table ] .",
+            "something nameless is in no room: say with isIn where it stands",
+        ),
+        (
+            "home:ann a h:Person ; rdfs:label 'Ann' . home:anne a h:Person ; rdfs:label 'ann' .",
+            "'ann' names both ann and anne: rename one",
+        ),
+        (
+            "h:Mug rdfs:subClassOf owl:Nothing .",
+            "Mug is below Nothing, so that there is none: take out what says so",
+        ),
+        (
+            "h:Mug owl:equivalentClass owl:Nothing .",
+            "Mug is below Nothing, so that there is none: take out what says so",
+        ),
+        (
             "h:Mug rdfs:subClassOf h:Mug .",
             "Mug below Mug: no class is below itself, take out one subClassOf",
         ),

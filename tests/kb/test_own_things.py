@@ -56,6 +56,16 @@ def test_what_a_persons_own_file_has_as_an_object_is_not_said_twice(pot: Path) -
 
 
 @pytest.mark.parametrize(
+    ("kind", "right"), [("Pot", "call it 'pot' if it is that one"), ("Toy", "give another name")]
+)
+def test_another_way_to_write_the_name_of_a_persons_object_is_told_how_it_is_written(
+    pot: Path, kind: str, right: str
+) -> None:
+    with pytest.raises(InputError, match=f"the ontology has a pot of this name; {right}$"):
+        knowing("Pots", kind, pot)
+
+
+@pytest.mark.parametrize(
     ("name", "kind", "sentence"),
     [
         (

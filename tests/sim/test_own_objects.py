@@ -190,6 +190,14 @@ def test_a_recorded_home_is_read_without_its_meshes(write, tmp_path: Path) -> No
         load_home(str(file))
 
 
+@pytest.mark.parametrize("corners", ["f -4 -3 -2", "f -4/1/1 -3//1 -2/1"])
+def test_a_mesh_may_count_its_points_back_from_each_face(
+    write, tmp_path: Path, corners: str
+) -> None:
+    (tmp_path / "back.obj").write_text(f"{WEDGE}{corners}\n")
+    assert load_home(write(meshed("back.obj"))).drawn_models()["teapot"].look
+
+
 @pytest.mark.parametrize("name", ["../far.obj", "link.obj", "sub/../../far.obj"])
 def test_a_mesh_outside_of_the_homes_folder_is_not_opened(
     write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
@@ -213,6 +221,10 @@ def test_a_mesh_outside_of_the_homes_folder_is_not_opened(
         ("a.obj", WEDGE.replace("v 1", "v nan"), "has points that enclose no volume"),
         ("a.obj", WEDGE.replace("v 0 0 1", "v 1 1 0"), "has points that enclose no volume"),
         ("a.obj", f"o {'a' * 2000}\n{WEDGE}", "has a line of more than 1000 characters"),
+        ("a.obj", f"{WEDGE}f -4 -5 -1\n", "faces of points that it does not have"),
+        ("a.obj", f"f -4 -3 -2\n{WEDGE}", "faces of points that it does not have"),
+        ("a.obj", f"{WEDGE}f 0 1 2\n", "faces of points that it does not have"),
+        ("a.obj", f"mtllib no.mtl\n{WEDGE}", "; put it there, or take the line mtllib out"),
         ("a.obj", f"mtllib /etc/passwd\n{WEDGE}", "names a file that is elsewhere"),
     ],
 )

@@ -79,6 +79,19 @@ def test_odd_names_of_furniture_make_sentences(name: str, room: str, words: str)
 
 @pytest.mark.parametrize(
     ("label", "words"),
+    [
+        ("the wobbly table", "on the wobbly table in the attic"),
+        ("My desk", "on My desk in the attic"),
+        ("theatre chest", "on the theatre chest in the attic"),
+    ],
+)
+def test_a_label_that_has_an_article_is_given_no_other(label: str, words: str) -> None:
+    home = [Place("desk_1", "Desk", "room_2", "Bedroom", label, "the attic")]
+    assert Wording(places_called(home).get).at_in_full("desk_1") == words
+
+
+@pytest.mark.parametrize(
+    ("label", "words"),
     [("TV remote", "TV remote"), ("Tennis Ball", "tennis ball"), ("LivingRoom", "living room")],
 )
 def test_a_label_is_said_as_one_writes_words(label: str, words: str) -> None:
