@@ -53,7 +53,8 @@ class Shutter:
         color, depth, lens = await self._pair()
         try:
             self._refuse_other_views(color, depth, lens)
-            read = color_of(color), depth_of(depth), lens_of(lens), await self._pose(color)
+            pixels = await asyncio.to_thread(lambda: (color_of(color), depth_of(depth)))
+            read = *pixels, lens_of(lens), await self._pose(color)
         except LinkError:
             raise
         except Exception as error:  # a field is missing, or holds something else
@@ -72,11 +73,11 @@ class Shutter:
         """Colour and depth of one moment that is not before this one, and the lens."""
         topics = self._profile.camera
         collector = _Collector(self._senses.now)
-        image = "sensor_msgs/msg/Image"
+        colors, depths = topics.image_type("color"), topics.image_type("depth")
         endings = [
             self._link.subscribe(topics.info, "sensor_msgs/msg/CameraInfo", collector.take_lens),
-            self._link.subscribe(topics.color, image, collector.take_color),
-            self._link.subscribe(topics.depth, image, collector.take_depth),
+            self._link.subscribe(topics.color, colors, collector.take_color),
+            self._link.subscribe(topics.depth, depths, collector.take_depth),
         ]
         try:
             async with asyncio.timeout(topics.late_s):

@@ -9,7 +9,7 @@ from executive.ros.link import Link, LinkError
 from executive.ros.messages import FRAMES_TYPE
 from executive.ros.moveit import SEMANTICS, SEMANTICS_TYPE, planning_groups
 from executive.ros.offers import Offers, likely, same_type
-from executive.ros.profile import PATH_TYPE, Profile
+from executive.ros.profile import COMPRESSED, IMAGE, PATH_TYPE, Profile
 from executive.ros.protocol import Message
 from executive.ros.senses import Senses
 
@@ -50,10 +50,9 @@ async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> li
 
 def _topics(offers: Offers, profile: Profile, where: str) -> list[InputError]:
     camera = profile.camera
-    image = "sensor_msgs/msg/Image"
     wanted = [
-        ("camera.color", camera.color, image),
-        ("camera.depth", camera.depth, image),
+        ("camera.color", camera.color, camera.image_type("color")),
+        ("camera.depth", camera.depth, camera.image_type("depth")),
         ("camera.info", camera.info, "sensor_msgs/msg/CameraInfo"),
         ("odometry.topic", profile.odometry.topic, "nav_msgs/msg/Odometry"),
     ]
@@ -72,10 +71,20 @@ def _topics(offers: Offers, profile: Profile, where: str) -> list[InputError]:
             right = likely(name, offers.topics_of(kind), ())
             found.append(InputError(where, f"{key}: the robot has no topic {name}", right))
         elif not same_type(said, kind):
-            right = likely(name, offers.topics_of(kind), ())
+            right = _other_image(key, said) or likely(name, offers.topics_of(kind), ())
             what = f"{key}: {name} is of type {said}, and not {kind}"
             found.append(InputError(where, what, right))
     return found
+
+
+def _other_image(key: str, said: str) -> str:
+    """What would be right for a picture that comes in the other way; nothing for all else."""
+    of = key.rpartition(".")[2]
+    if of in ("color", "depth") and same_type(said, COMPRESSED):
+        return f'write compressed = ["{of}"] in [camera], beside what else comes so'
+    if of in ("color", "depth") and same_type(said, IMAGE):
+        return f"leave {of} out of camera.compressed"
+    return ""
 
 
 def _actions(offers: Offers, profile: Profile, where: str) -> list[InputError]:

@@ -17,6 +17,7 @@ from executive.ros.address import Address
 from executive.ros.fragments import Joiner
 from executive.ros.link import LinkError, Receive
 from executive.ros.packets import MOST_BYTES, PacketError
+from executive.ros.profile import COMPRESSED, IMAGE
 from executive.ros.protocol import (
     ActionFeedback,
     ActionResult,
@@ -40,7 +41,7 @@ PING_S, SILENT_S = 2.0, 8.0
 there is no connection any more."""
 AGAIN_S = (0.1, 0.2, 0.5, 1.0)
 """Pauses between attempts to connect; the last one again and again."""
-PACKED = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2")
+PACKED = (IMAGE, COMPRESSED, "sensor_msgs/msg/PointCloud2")
 """Types that come as CBOR. Others do not: a rosbridge of before March 2026 cannot pack arrays of a
 fixed length, which odometry and lenses have, and then sends nothing."""
 MOST_WAITING = 1000

@@ -1,4 +1,4 @@
-"""`sensor_msgs/Image` and `CameraInfo` to our pictures."""
+"""`sensor_msgs/Image`, `CompressedImage` and `CameraInfo` to our pictures."""
 
 import math
 from typing import Any
@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from executive.ros.compressed import METRES, unpacked_color, unpacked_depth
 from executive.ros.packets import PacketError, numbers, octets
 from executive.ros.protocol import Message
 from executive.types.perception import Intrinsics
@@ -21,7 +22,6 @@ COLORS = {
 }
 """Encoding: bytes of a pixel, and which of them are red, green and blue."""
 MILLIMETRES = ("16UC1", "mono16")
-METRES = "32FC1"
 LARGEST = 8192
 """Pixels in a row or column."""
 
@@ -32,6 +32,8 @@ def color_of(message: Message) -> NDArray[np.uint8]:
     Raises:
         PacketError: if it is of another kind, or is not all there.
     """
+    if "format" in message:
+        return unpacked_color(message)
     encoding = str(message["encoding"])
     if encoding not in COLORS:
         known = ", ".join(COLORS)
@@ -49,16 +51,21 @@ def depth_of(message: Message) -> NDArray[np.float32]:
     Raises:
         PacketError: if it is of another kind, or is not all there.
     """
+    measured = unpacked_depth(message) if "format" in message else _plain_depth(message)
+    return np.where(measured > 0, measured, np.float32(np.inf)).astype(np.float32)
+
+
+def _plain_depth(message: Message) -> NDArray[np.float32]:
+    """In metres."""
     encoding = str(message["encoding"])
     end = ">" if message.get("is_bigendian") else "<"
     if encoding in MILLIMETRES:
-        measured = _rows(message, np.dtype(f"{end}u2"), 1)[:, :, 0].astype(np.float32) / 1000
-    elif encoding == METRES:
-        measured = _rows(message, np.dtype(f"{end}f4"), 1)[:, :, 0].astype(np.float32)
-    else:
-        known = ", ".join((*MILLIMETRES, METRES))
-        raise PacketError(f"a depth picture with encoding {encoding[:20]!r}; I read {known}")
-    return np.where(measured > 0, measured, np.float32(np.inf)).astype(np.float32)
+        millimetres = _rows(message, np.dtype(f"{end}u2"), 1)[:, :, 0]
+        return millimetres.astype(np.float32) / np.float32(1000)
+    if encoding == METRES:
+        return _rows(message, np.dtype(f"{end}f4"), 1)[:, :, 0].astype(np.float32)
+    known = ", ".join((*MILLIMETRES, METRES))
+    raise PacketError(f"a depth picture with encoding {encoding[:20]!r}; I read {known}")
 
 
 def _rows(message: Message, kind: np.dtype[Any], channels: int) -> NDArray[Any]:

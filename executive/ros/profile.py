@@ -6,7 +6,7 @@ Names that this project does not know are given here, and nothing of them stands
 from collections.abc import Iterable, Mapping
 from importlib.resources import files
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 from pydantic_core import ErrorDetails
@@ -24,6 +24,7 @@ from executive.toml_file import (
 )
 
 EXAMPLE = "see docs/own-robot.md"
+IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 PATH_TYPE = "nav2_msgs/action/ComputePathToPose"
 """Of the action that plans ways."""
 
@@ -228,17 +229,23 @@ class Hand(_Section):
 class CameraTopics(_Section):
     """Colour, depth that is aligned with it, and the lens.
 
-    `in_map` says whether depth and frames tell where things are, `tags` whether things look like
-    tags that spell their names: both are for the instant world.
+    `compressed` says which of both come as sensor_msgs/msg/CompressedImage; `in_map` whether depth
+    and frames tell where things are, and `tags` whether things look like tags that spell their
+    names: both are for the instant world.
     """
 
     color: str
     depth: str
     info: str
+    compressed: tuple[Literal["color", "depth"], ...] = ()
     in_map: bool = True
     tags: bool = False
     late_s: Annotated[float, Field(gt=0, le=60)] = 5.0
     """A picture that takes longer (s, real time) does not come."""
+
+    def image_type(self, of: Literal["color", "depth"]) -> str:
+        """The type of these messages."""
+        return COMPRESSED if of in self.compressed else IMAGE
 
 
 class Topic(_Section):

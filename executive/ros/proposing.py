@@ -5,11 +5,10 @@ from os.path import commonprefix
 
 from executive.ros.messages import FRAMES_TYPE
 from executive.ros.offers import Offers
-from executive.ros.profile import PATH_TYPE, Frames
+from executive.ros.profile import COMPRESSED, IMAGE, PATH_TYPE, Frames
 from executive.ros.templates import GOALS
 from executive.text import printable
 
-IMAGE = "sensor_msgs/msg/Image"
 POINT_HEAD = "control_msgs/action/PointHead"
 ACTIONS = {
     "drive": ("nav2_msgs/action/NavigateToPose",),
@@ -163,22 +162,38 @@ def _arm(offers: Offers) -> list[str]:
 
 def _camera(offers: Offers) -> list[str]:
     """The colour that has a depth next to it, if there is one, and both of the same camera."""
-    images = _topics(offers, IMAGE)
-    depths = [name for name in images if "depth" in name]
+    images, packed = _topics(offers, IMAGE), _topics(offers, COMPRESSED)
+    depths, colors = _parted(images)
+    packed_depths, packed_colors = _parted(packed)
+    both = (("color", colors, packed_colors), ("depth", depths, packed_depths))
+    compressed = [_quoted(key) for key, plain, other in both if other and not plain]
+    depths = depths or _packed_as("compressedDepth", packed_depths)
+    colors = colors or _packed_as("compressed", packed_colors)
     aligned = [name for name in depths if "aligned" in name or "registered" in name] or depths
-    plain = [name for name in images if name not in depths]
-    colors = [name for name in plain if "color" in name or "rgb" in name] or plain
+    colors = [name for name in colors if "color" in name or "rgb" in name] or colors
     colors.sort(key=lambda name: -max((_shared(name, depth) for depth in aligned), default=0))
     color = next(iter(colors), "")
-    others = [name for name in images if name != color]
+    others = [name for name in (*images, *packed) if name != color]
     infos = _near(offers.topics_of("sensor_msgs/msg/CameraInfo"), color)
     return [
         "[camera]",
         _line("color", colors, others),
         _line("depth", _near(aligned, color), others),
         _line("info", infos[:1], others),
+        *([f"compressed = [{', '.join(compressed)}]"] if compressed else []),
         "",
     ]
+
+
+def _parted(images: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Those of depth, and the others."""
+    depths = [name for name in images if "depth" in name]
+    return depths, [name for name in images if name not in depths]
+
+
+def _packed_as(transport: str, names: list[str]) -> list[str]:
+    """Those that image_transport calls so, if it is it that packs them."""
+    return [name for name in names if name.rpartition("/")[2] == transport] or names
 
 
 def _line(key: str, names: Sequence[str], there: Sequence[str] = ()) -> str:
