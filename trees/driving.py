@@ -35,7 +35,7 @@ class DriveToCandidate(RobotAction):
 class Visit(DriveToCandidate):
     """Goes to a place for the first time: it counts as visited if it is reached.
 
-    Where an experimenter sends the robot meanwhile, it goes instead, without a word.
+    Where an experimenter sends the robot meanwhile, it goes instead.
 
     Reads search.candidate, search.sent_to and search.looks; writes search.looks.
     """

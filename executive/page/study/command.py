@@ -16,8 +16,6 @@ from executive.page.study.withdrawal import withdraw
 from executive.shell import DONE, NOT_DONE, all_is_kept, on_stop_signals, stops_in_order
 from executive.text import counted, printable
 
-STOPPING = "Stopping. The same command goes on from here."
-
 
 def add_to(commands: Any) -> None:
     """Add the command to a parser's."""
@@ -26,7 +24,7 @@ def add_to(commands: Any) -> None:
         help="lead a participant through a study, in the browser",
         description="Lead a participant through a study, in the browser (docs/study.md).",
         epilog="exit: 0 the participant has come to the end, 1 takes no part (or, withdrawn, was "
-        "found somewhere), 2 bad usage or input, 130 stopped: the same command goes on",
+        "found somewhere), 2 bad usage or input, 130 stopped: --participant goes on",
     )
     p.add_argument("file", type=Path, metavar="FILE.toml", help="what the study is")
     p.add_argument(
@@ -137,11 +135,12 @@ def lead(data: StudyData, code: str, address: Any) -> int:
             right = f"the next one is {data.next()}"
             raise InputError("--participant", f"{code} has come to the end", right)
         leader = Leader(data, journal, page)
+        stopping = f"Stopping. Go on with --participant {code}."
         print(f"{code}: open {page.url}", file=sys.stderr, flush=True)
         if page.experimenter_url:
             print(f"Experimenter: {page.experimenter_url}", file=sys.stderr, flush=True)
         try:
-            with on_stop_signals(stops_in_order(leader.interrupt, STOPPING)):
+            with on_stop_signals(stops_in_order(leader.interrupt, stopping)):
                 took_part = leader.lead()
         finally:
             renew_tables(data)

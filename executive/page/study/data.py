@@ -74,7 +74,9 @@ class Journal:
             append_line(self.file, line.encode())
         except OSError as error:
             what = f"cannot be written: {error.strerror}"
-            raise InputError(str(self.file), what, "make room; the same command goes on") from None
+            raise InputError(
+                str(self.file), what, f"make room, and go on with --participant {self.code}"
+            ) from None
 
     def entries(self) -> list[Entry]:
         """All that was written down; half a line at the end is none.

@@ -178,8 +178,8 @@ class _Talks:
         return seen
 
     def _write_unheard(self, where: dict[str, Any]) -> None:
-        for at, one in self._watch.take_unheard():
-            self._journal.append("intervention", at=at, recording="", **asdict(one), **where)
+        for one in self._watch.take_unheard():
+            self._journal.append("intervention", recording="", **asdict(one), **where)
 
     def _write(self, words: str, outcome: Outcome, where: dict[str, Any]) -> None:
         folder = outcome.run_dir

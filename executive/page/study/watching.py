@@ -1,6 +1,7 @@
 """Who stepped in, while a mission ran or between two: what the study's journal keeps of it."""
 
 import threading
+import time
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
@@ -13,14 +14,17 @@ from logs.recorder import Stamp
 
 @dataclass(frozen=True)
 class SteppedIn:
-    """What somebody did, who, and when (mission time, s); what was, and what became of it.
+    """What somebody did, who, and when; what was, and what became of it.
 
-    What no mission heard of, because none ran, has no such time: 0.
+    Attributes:
+        at: wall time (ISO 8601, UTC).
+        time_s: mission time; 0 if no mission heard of it, because none ran.
     """
 
     what: str
     by: str
-    time_s: float
+    at: str
+    time_s: float = 0.0
     was: str = ""
     became: str = ""
 
@@ -32,7 +36,8 @@ class Watch:
         """Nobody has stepped in."""
         self._lock = threading.Lock()
         self._seen: list[SteppedIn] = []
-        self._unheard: list[tuple[str, Intervened]] = []
+        self._unheard: list[tuple[int, Intervened]] = []
+        """With when it was done (wall time, ns since 1970)."""
         self._was_stopped = False
         """Whether an experimenter stops it, in the person's stead."""
 
@@ -40,29 +45,29 @@ class Watch:
         """Keep it if somebody stepped in."""
         match record:
             case EventTaken(StopRequested(by)):
-                self._stop(by, stamp.mission_s)
+                self._stop(by, stamp)
             case EventTaken(Intervened() as event):
-                self._hear(event, stamp.mission_s)
+                self._hear(event, stamp)
             case _:
                 pass
 
-    def _stop(self, by: str, time_s: float) -> None:
+    def _stop(self, by: str, stamp: Stamp) -> None:
         with self._lock:
             if not (self._was_stopped and by == THE_PERSON):
-                self._seen.append(SteppedIn(STOP, by, time_s))
+                self._seen.append(SteppedIn(STOP, by, _iso(stamp.wall_ns), stamp.mission_s))
             self._was_stopped = False
 
     def beside(self, event: Intervened) -> None:
         """An experimenter does this; a mission that runs hears of it. From any thread."""
         with self._lock:
-            self._unheard.append((datetime.now(UTC).isoformat(timespec="milliseconds"), event))
+            self._unheard.append((time.time_ns(), event))
 
-    def _hear(self, event: Intervened, time_s: float) -> None:
+    def _hear(self, event: Intervened, stamp: Stamp) -> None:
         with self._lock:
             self._unheard = [one for one in self._unheard if one[1] is not event]
             self._was_stopped = event.deed == Deed.STOP
             if event.was != AS_BEFORE:
-                self._seen.append(_stepped_in(event, time_s))
+                self._seen.append(_stepped_in(event, stamp))
 
     def flush(self) -> None:
         """Nothing to bring to disk."""
@@ -76,12 +81,17 @@ class Watch:
             seen, self._seen = self._seen, []
         return seen
 
-    def take_unheard(self) -> list[tuple[str, SteppedIn]]:
-        """What no mission heard of, and when it was done (wall time): for when none runs."""
+    def take_unheard(self) -> list[SteppedIn]:
+        """What no mission heard of; for when none runs."""
         with self._lock:
             unheard, self._unheard = self._unheard, []
-        return [(at, _stepped_in(event, 0.0)) for at, event in unheard]
+        return [_stepped_in(event, Stamp(0.0, wall_ns)) for wall_ns, event in unheard]
 
 
-def _stepped_in(event: Intervened, time_s: float) -> SteppedIn:
-    return SteppedIn(event.deed, event.by, time_s, event.was, event.became)
+def _stepped_in(event: Intervened, stamp: Stamp) -> SteppedIn:
+    at = _iso(stamp.wall_ns)
+    return SteppedIn(event.deed, event.by, at, stamp.mission_s, event.was, event.became)
+
+
+def _iso(wall_ns: int) -> str:
+    return datetime.fromtimestamp(wall_ns / 1e9, UTC).isoformat(timespec="milliseconds")

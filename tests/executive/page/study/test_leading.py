@@ -12,9 +12,13 @@ from paging import TOKEN, ask, heard, notice, post, step_in, told
 from patience import PATIENCE_S
 from studying import COMMAND, Led, begun, data_in, led, study_of, written
 
+from executive.events import StopRequested
 from executive.page.study.data import StudyData
 from executive.page.study.tables import read_rows, tables
+from executive.page.study.watching import SteppedIn, Watch
 from executive.page.study.withdrawal import withdraw
+from executive.records import EventTaken
+from logs.recorder import Stamp
 
 
 def can_do(led: Any, step: str, token: str = TOKEN) -> None:
@@ -91,6 +95,14 @@ def test_what_an_experimenter_does_is_kept_with_the_task_and_erased_with_the_par
     ]
     assert not withdraw(data, "P01").found
     assert not any(b"Anna" in file.read_bytes() for file in tmp_path.rglob("*") if file.is_file())
+
+
+def test_who_steps_in_is_told_with_when_that_was_and_not_when_the_mission_ended() -> None:
+    watch = Watch()
+    watch.write(Stamp(1.5, 86_400 * 10**9), EventTaken(StopRequested("the person")))
+    assert watch.take_all() == [
+        SteppedIn("stop", "the person", "1970-01-02T00:00:00.000+00:00", 1.5)
+    ]
 
 
 def test_a_stop_of_an_experimenter_is_none_of_the_participant(tmp_path: Path) -> None:
@@ -178,6 +190,8 @@ def test_a_signal_in_the_middle_of_a_mission_brings_the_robot_to_rest(tmp_path: 
         heard(page, "question", token=page.token)
         process.send_signal(signal.SIGTERM)
         assert process.wait(PATIENCE_S) == 130
+        assert process.stderr is not None
+        assert process.stderr.readline() == "Stopping. Go on with --participant P01.\n"
     entries = StudyData(tmp_path / "data", study).journals()[0].entries()
     assert [entry["kind"] for entry in entries[-3:]] == ["task_began", "intervention", "mission"]
     assert (entries[-1]["status"], entries[-2]["by"]) == ("stopped", "SIGTERM")
