@@ -154,7 +154,9 @@ class Reel:
         step = len(self.moments)
         for node in tick.nodes:
             if (place := self._index.get(node.path)) is not None:
-                self._states[place].put(step, (node.status, node.message))
+                track, state = self._states[place], (node.status, node.message)
+                if track.values or state != STILL:  # the first tick tells of all, ticked or not
+                    track.put(step, state)
         for key, value in tick.situation.items():
             self._facts.setdefault(key, Track()).put(step, value)
         self.moments.append(Moment(time_s, tick.number, tick.cause, tick.tip, tick.duration_s))

@@ -35,6 +35,12 @@ def test_each_behaviour_is_after_each_tick_as_the_tick_tells(mission: Run, reel:
         assert [reel.state(place, step) for place in range(len(reel.nodes))] == told
 
 
+def test_what_was_never_ticked_was_not_given_up(mission: Run, reel: Reel) -> None:
+    idle = [place for place, node in enumerate(mission.ticks[0].nodes) if node.status == "INVALID"]
+    assert idle
+    assert {reel.since(place, 0) for place in idle} == {-1}
+
+
 def test_from_any_tick_to_any_other_only_what_differs_is_told(mission: Run, reel: Reel) -> None:
     shown: dict[int, tuple[str, str]] = {}
     facts: dict[str, object] = {}
