@@ -133,7 +133,7 @@ class VerifyNames(Step):
     takes_rooms = True
 
     def update(self) -> Status:
-        """Hold the names against the ontology."""
+        """Look the names up in the ontology."""
         assert self.context.advice
         consultation, among = (
             self.situation.search.consultation,

@@ -1,7 +1,7 @@
 """A recorded mission run again, without robot, model or person.
 
 Only events drive ticks: the recorded events are the mission. They are fed, at their times, to a
-fresh tree under the same executive, and each tick is held against the recorded one. So a recording
+fresh tree under the same executive, and each tick is compared with the recorded one. So a recording
 is a regression test:
 
     assert replay(Path("runs/20260101T120000Z-find-an-apple")).parting is None

@@ -33,7 +33,7 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What is left of a reply's names after they were held against the ontology.
+    """What is left of a reply's names after they were looked up in the ontology.
 
     `furniture` exists (and is allowed), in the order of the reply; `rooms` exist and have yet to
     be expanded into furniture; `dropped` are the names of nothing here.

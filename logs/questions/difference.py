@@ -44,8 +44,8 @@ class Parting:
 def tick_aspects(one: Tick, other: Tick, *, exact: bool) -> Iterator[Aspect]:
     """What differs between two ticks.
 
-    Behaviours and facts that only one side has are passed over, so that a tree that was changed can
-    be held against an older recording; so are behaviours that differ because one inside them does.
+    Behaviours and facts that only one side has are passed over, so that a changed tree can be
+    compared with an older recording; so are behaviours that differ because one inside them does.
 
     Args:
         one: a tick.

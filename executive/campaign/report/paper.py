@@ -1,4 +1,4 @@
-"""What the paper tried and measured, as figures to hold ours against.
+"""What the paper tried and measured, as figures to compare ours with.
 
 Ordered as in its tables: systems from left to right, without and with default locations.
 """
