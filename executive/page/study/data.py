@@ -29,6 +29,7 @@ RUNS = "runs"
 MOST = 9999
 """Participants of one study."""
 TAKEN = "a participant of this number is at it"
+NOT_TAKEN = "wait until they have come to the end, or name another participant"
 _CODE = re.compile(r"P(\d{2,4})", re.ASCII)
 _ERASED = ".erased-"
 """How the folder is called of which a part is gone already."""
@@ -186,7 +187,7 @@ class StudyData:
             raise InputError(
                 f"--data {folder}", f"cannot be made: {error.strerror}", right
             ) from None
-        with lock_folder(folder, "participant", TAKEN):
+        with lock_folder(folder, "participant", TAKEN, NOT_TAKEN):
             yield Journal(folder)
 
     @contextmanager

@@ -85,10 +85,19 @@ class Study(Table):
         _once("questionnaires before and after", (*self.at_start, *self.at_end))
         _once("questionnaires after each", self.after_each)
         known = {**templates(), **self.questionnaires}
-        for name in (*self.at_start, *self.after_each, *self.at_end):
+        for name in self.asked:
             if name not in known:
                 raise ValueError(f"has no questionnaire {name!r}: there are {', '.join(known)}")
+        for name in self.questionnaires:
+            if name not in self.asked:
+                where = "name it in at_start, after_each or at_end, or leave it out"
+                raise ValueError(f"asks questionnaire {name!r} nowhere: {where}")
         return self
+
+    @property
+    def asked(self) -> tuple[Name, ...]:
+        """The questionnaires that a participant meets, by name."""
+        return *self.at_start, *self.after_each, *self.at_end
 
     def questionnaire(self, name: str) -> Questionnaire:
         """Its own of this name, or the template."""
@@ -109,8 +118,9 @@ class Study(Table):
 
     def canonical(self) -> str:
         """What it says, the same for any two files that say the same."""
-        used = {*self.at_start, *self.after_each, *self.at_end}
-        texts = {name: self.questionnaire(name).model_dump(mode="json") for name in sorted(used)}
+        texts = {
+            name: self.questionnaire(name).model_dump(mode="json") for name in sorted({*self.asked})
+        }
         said = {**self.model_dump(mode="json"), "questionnaires": texts}
         return json.dumps(said, indent=2, sort_keys=True, default=str) + "\n"
 

@@ -92,10 +92,17 @@ UNSURE = {"name": "a", "text": "A?", "needed": 0}
         ({"tasks": [{"name": "t", "text": "Do.", "limit_s": 0}]}, "tasks.0.limit_s is 0; input"),
         ({"tasks": [{"name": "t", "text": "Do.", "limit_s": True}]}, ".limit_s is true; should be"),
         ({"tasks": [{"name": "t", "text": "Do.", "limit_s": "5"}]}, "is '5'; should be a number"),
-        ({"questionnaires": {"q": {**QUESTIONS, "points": True}}}, "questionnaires.q.points is"),
         (
-            {"questionnaires": {"q": {**QUESTIONS, "items": [UNSURE]}}},
+            {"at_end": ["q"], "questionnaires": {"q": {**QUESTIONS, "points": True}}},
+            "questionnaires.q.points is",
+        ),
+        (
+            {"at_end": ["q"], "questionnaires": {"q": {**QUESTIONS, "items": [UNSURE]}}},
             "items.0.needed is 0; should",
+        ),
+        (
+            {"at_end": ["sus"], "questionnaires": {"q": QUESTIONS}},
+            "asks questionnaire 'q' nowhere: name it in at_start, after_each or at_end",
         ),
         ({"settings": {"seed": True}}, "setting 'seed': is true; should be a number"),
         ({"title": 3}, "title is 3; should be text, in quotes"),
