@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 from itertools import zip_longest
 from typing import Any
 
@@ -22,11 +22,15 @@ LONGEST_SHOWN = 150
 
 @dataclass(frozen=True, slots=True)
 class Aspect:
-    """One thing that is not the same, and how it is on either side."""
+    """One thing that is not the same, and how it is on either side.
+
+    `behaviour`: whether `what` is a behaviour's path.
+    """
 
     what: str
     one: str
     other: str
+    behaviour: bool = field(default=False, kw_only=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +69,7 @@ def tick_aspects(one: Tick, other: Tick, *, exact: bool) -> Iterator[Aspect]:
     ]
     for node, twin in differ:
         if not any(inner.path.startswith(f"{node.path}/") for inner, _ in differ):
-            yield Aspect(node.path, _words(node), _words(twin))
+            yield Aspect(node.path, _words(node), _words(twin), behaviour=True)
 
 
 def _words(node: NodeState) -> str:
@@ -75,7 +79,7 @@ def _words(node: NodeState) -> str:
 def outcome_aspects(one: Outcome, other: Outcome, *, exact: bool) -> Iterator[Aspect]:
     """What differs between two outcomes, beyond what each run has of its own."""
     left_out = {*OF_THE_RUN, *(() if exact else ("reason", "candidates", "tasks"))}
-    names = [field.name for field in fields(Outcome)]
+    names = [one.name for one in fields(Outcome)]
     mine, theirs = ({n: getattr(outcome, n) for n in names} for outcome in (one, other))
     for aspect in _facts(mine, theirs, left_out):
         yield Aspect(f"outcome {aspect.what}", aspect.one, aspect.other)

@@ -67,7 +67,8 @@ class Wizard:
             case {"deed": Deed.WORDS, "number": int(number), "words": str(words)}:
                 done = self._say(by, number, _line(words))
             case {"deed": Deed.PLACE, "place": str(place)}:
-                done = self._send(by, place)
+                self._send(by, place)
+                done = True
             case {"deed": Deed.HOLD_PLACE, "on": bool(on)}:
                 done = self._hold_place(by, on)
             case {"deed": Deed.STOP}:
@@ -110,7 +111,7 @@ class Wizard:
         self._person.show_question()
         return done
 
-    def _send(self, by: str, place: str) -> bool:
+    def _send(self, by: str, place: str) -> None:
         if place not in self._places:
             raise InputError("place", "there is no such place")
         choice = self.choosing()
@@ -118,9 +119,9 @@ class Wizard:
             right = f"it may be {' or '.join(choice['among'])}"
             raise InputError("place", "the person wants it elsewhere", right)
         if not (was := choice["place"] if choice else self.going()):
-            return False
+            right = "send the robot while it is on its way to look for something"
+            raise InputError("place", f"{OVER}, or has not begun", right)
         self._post(by, Deed.PLACE, was, place)
-        return True
 
     # --- choices of places ---
 

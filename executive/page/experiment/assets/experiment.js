@@ -4,7 +4,7 @@ import { element } from "/elements.js";
 import { follow } from "/robot.js";
 import { load, text, textOr } from "/texts.js";
 import { past } from "/experiment/past.js";
-import { Reel } from "/experiment/reel.js";
+import { LATEST, Reel } from "/experiment/reel.js";
 import { stepIn } from "/experiment/wizard.js";
 import { ask, tell } from "/experiment/wire.js";
 
@@ -20,9 +20,11 @@ const MARKED_MS = 2000;
 const reels = [...document.querySelectorAll(".reel")];
 const live = new Reel(reels[0]);
 const one = new Reel(reels[1]);
-const pair = [2, 3].map((at) => new Reel(reels[at], (step) => {
-  if (together.checked) pair.filter((reel) => reel.id !== pair[at - 2].id).forEach((reel) => reel.go(step));
-}, text(at === 2 ? "first_run" : "second_run")));
+const names = [text("first_run"), text("second_run")];
+const pair = names.map((name, at) => new Reel(reels[2 + at], (step) => {
+  if (together.checked) pair[1 - at].aim(step);
+}, name));
+const runTitles = document.querySelectorAll(".pair h3.run");
 const wizard = stepIn(document.getElementById("wizard"));
 const listPast = past((run) => visit("one", run), (first, second) => visit("two", first, second));
 const RUNS_OF = { one: 1, two: 2 };
@@ -65,27 +67,44 @@ function openOne(run) {
 
 async function openTwo(first, second) {
   if (shownPair === `${first}/${second}`) return;
-  shownPair = `${first}/${second}`;
+  const asked = shownPair = `${first}/${second}`;
+  runTitles.forEach((title, at) => { title.textContent = `${names[at]}: ${[first, second][at]}`; });
   const box = document.getElementById("parting");
   box.replaceChildren(element("p", { role: "status" }, text("comparing", { one: first, other: second })));
   try {
-    const { parting } = await ask("parting", { one: first, other: second });
-    const step = parting?.tick ?? 0;
-    box.replaceChildren(...parted(parting, first, second));
-    await Promise.all([pair[0].open(first, step), pair[1].open(second, step)]);
+    const [{ parting }] = await Promise.all([ask("parting", { one: first, other: second }), pair[0].open(first), pair[1].open(second)]);
+    if (asked !== shownPair) return;
+    box.replaceChildren(...parted(parting));
+    if (parting) aimBoth(parting, behavioursFirst(parting.aspects)[0]);
   } catch (error) {
-    box.replaceChildren(element("p", {}, error.message));
+    if (asked === shownPair) box.replaceChildren(element("p", {}, error.message));
   }
 }
 
-function parted(parting, first, second) {
+/** Show both where they part, and in what, if that is a behaviour. */
+function aimBoth({ tick }, { what }) {
+  for (const reel of pair) reel.aim(tick ?? LATEST, what);
+}
+
+function parted(parting) {
   if (!parting) return [element("p", {}, text("alike"))];
   const where = parting.tick === null ? text("part_at_end") : text("part_at", { tick: parting.tick, time: parting.time_s.toFixed(2) });
   return [element("p", {}, element("strong", {}, where)),
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": where }, element("table", {},
-      element("thead", {}, element("tr", {}, ...[text("heads.what"), first, second].map((head) => element("th", { scope: "col" }, head)))),
-      element("tbody", {}, ...parting.aspects.map((aspect) => element("tr", {},
-        element("th", { scope: "row" }, aspect.what), element("td", {}, aspect.one), element("td", {}, aspect.other))))))];
+      element("thead", {}, element("tr", {}, ...[text("heads.what"), ...names].map((head) => element("th", { scope: "col" }, head)))),
+      element("tbody", {}, ...behavioursFirst(parting.aspects).map((aspect) => element("tr", {},
+        element("th", { scope: "row" }, aspectName(parting, aspect)), element("td", {}, aspect.one), element("td", {}, aspect.other))))))];
+}
+
+function behavioursFirst(aspects) {
+  return [...aspects].sort((one, other) => other.behaviour - one.behaviour);
+}
+
+/** A behaviour is called by its name, and shown in both trees where it is pressed. */
+function aspectName(parting, aspect) {
+  const { what } = aspect;
+  if (!aspect.behaviour) return what;
+  return element("button", { type: "button", title: what, onclick: () => aimBoth(parting, aspect) }, what.split("/").at(-1));
 }
 
 async function act(what, doing) {
@@ -105,10 +124,10 @@ function showLive(now) {
   state.textContent = now.over ? text(now.mission ? "mission_over" : "no_mission", now) : text("mission_runs", now);
   if (now.mission !== mission || now.nodes !== known) {
     [mission, known] = [now.mission, now.nodes];
-    if (now.nodes) live.open("live", 0, true);
+    if (now.nodes) live.open("live", true);
     return;
   }
-  if (live.follow.checked && now.last >= 0) live.go(1e9);
+  if (live.follow.checked && now.last >= 0) live.go(LATEST);
   clearTimeout(marking);
   marking = setTimeout(mark, now.over ? 0 : Math.max(0, marked + MARKED_MS - performance.now()));
 }

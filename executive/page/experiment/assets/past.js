@@ -10,6 +10,8 @@ const status = document.getElementById("status");
 const found = document.getElementById("found");
 const compare = document.getElementById("compare");
 const TYPED_MS = 200;
+const AGAIN_MS = 1500;
+const SIDES = 2;
 const picked = new Set();
 let waiting = 0;
 
@@ -23,6 +25,7 @@ export function past(open, both) {
   }
   document.getElementById("search").addEventListener("submit", (event) => event.preventDefault());
   compare.addEventListener("click", () => both(...[...picked].sort()));
+  offer();
   return () => list(open);
 }
 
@@ -32,6 +35,7 @@ async function list(open) {
     told = await ask("runs", { words: find.value, status: status.value });
   } catch (error) {
     found.textContent = error.message;
+    waiting = setTimeout(() => list(open), AGAIN_MS);
     return;
   }
   found.textContent = text("found", told);
@@ -49,12 +53,26 @@ async function list(open) {
     element("tbody", {}, ...told.runs.map((run) => row(run, open))));
 }
 
+function offer() {
+  compare.disabled = picked.size !== SIDES;
+  compare.textContent = text("compare", { count: picked.size });
+}
+
+/** Of three that are chosen, the first is chosen no more. */
+function pick(run, chosen) {
+  picked.delete(run);
+  if (chosen) picked.add(run);
+  const [first] = picked;
+  if (picked.size <= SIDES) return;
+  picked.delete(first);
+  for (const box of table.querySelectorAll("input")) if (box.value === first) box.checked = false;
+}
+
 function row(run, open) {
-  const box = element("input", { type: "checkbox", "aria-label": text("pick_run", { run: run.run }), checked: picked.has(run.run) });
+  const box = element("input", { type: "checkbox", value: run.run, "aria-label": text("pick_run", { run: run.run }), checked: picked.has(run.run) });
   box.addEventListener("change", () => {
-    if (box.checked) picked.add(run.run);
-    else picked.delete(run.run);
-    compare.disabled = picked.size !== 2;
+    pick(run.run, box.checked);
+    offer();
   });
   return element("tr", {},
     element("td", {}, box),

@@ -8,7 +8,7 @@ import { ask } from "/experiment/wire.js";
 const KINDS = ["said", "event", "intervened", "model", "plan", "note", "mishap", "end"];
 const SHOWN_AT_FIRST = ["said", "intervened", "model", "plan", "mishap", "end"];
 const MARKS = ["said", "model", "intervened", "mishap", "end"];
-const LATEST = 1e9;
+export const LATEST = 1e9; // a step after all others
 const REST_MS = 80; // the slider rests: now the lists beside the tree may follow
 const READING_MS = 400;
 let made = 0;
@@ -48,7 +48,7 @@ export class Reel {
     this.trouble = element("p", { class: "trouble", hidden: true });
     const part = (key, kind, ...inside) => element("section", { class: kind }, element("h3", {}, text(key)), ...inside);
     const scroll = (key, inside) => element("div", {
-      class: "scroll", tabindex: 0, role: "region", "aria-label": `${text(key)} ${this.which}`.trim() }, inside);
+      class: "scroll", tabindex: 0, role: "region", "aria-label": [this.which, text(key)].filter(Boolean).join(": ") }, inside);
     box.replaceChildren(
       this.trouble,
       element("div", { class: "time" },
@@ -65,23 +65,31 @@ export class Reel {
           part("why", "of-why", scroll("why", this.why)),
           part("happened", "of-lines",
             element("fieldset", {}, element("legend", { class: "unseen" }, text("kinds_shown")),
-              ...this.kinds.map((one) => element("label", {}, one, ` ${text(`kinds.${one.value}`)}`)), this.words),
+              ...this.kinds.map((one) => element("label", { class: `mark-${one.value}` }, one, ` ${text(`kinds.${one.value}`)}`)), this.words),
             scroll("happened", this.lines)),
           part("known", "of-facts", scroll("known", this.facts)))));
   }
 
-  /** Show a run, from its beginning or at a step; null: none. */
-  async open(run, step = 0, live = false) {
+  /** Show a run, from its beginning, or as it goes on. */
+  async open(run, live = false) {
     this.run = run;
+    this.aimed = null;
     this.shown = -1;
     this.known = 0;
+    this.tree.show([]);
     this.node = null;
     this.live.hidden = !live;
     this.follow.checked = live;
     this.values = new Map();
     this.why.replaceChildren(element("p", {}, text("choose_behaviour")));
     await this.refresh(run, { anew: 1 });
-    if (this.run === run) await this.go(live ? LATEST : step);
+    if (this.run === run) await this.go(live ? LATEST : 0);
+  }
+
+  /** Show a step, as soon as it is read, and choose there the behaviour of this path, if one is given. */
+  aim(step, path) {
+    this.aimed = { step, path };
+    this.go(step);
   }
 
   /** Learn how far it is; what is still being read is asked for again. */
@@ -106,7 +114,8 @@ export class Reel {
   }
 
   #again() {
-    if (this.shown < 0) this.go(Number(this.slider.value));
+    if (this.aimed) this.go(this.aimed.step);
+    else if (this.shown < 0) this.go(Number(this.slider.value));
   }
 
   #say(trouble = "") {
@@ -129,6 +138,7 @@ export class Reel {
   }
 
   #chosen(step) {
+    this.aimed = null;
     this.follow.checked = step >= LATEST && !this.live.hidden;
     const within = Math.max(0, Math.min(step, this.last));
     this.moved(within);
@@ -160,6 +170,8 @@ export class Reel {
     this.#reach(told.last);
     this.slider.value = told.step;
     this.tree.change(told.nodes, told.step);
+    if (this.known && this.aimed?.step === told.step) this.#arrive(this.aimed.path);
+    if (this.node === null) this.tree.reveal(this.tree.places.get(told.tip));
     for (const [key, value] of Object.entries(told.facts)) this.values.set(key, value);
     const moment = text("moment", { tick: told.number, of: told.last, time: told.time_s.toFixed(2),
       cause: told.cause, ms: (told.duration_s * 1000).toFixed(1) });
@@ -167,6 +179,12 @@ export class Reel {
     this.slider.setAttribute("aria-valuetext", moment);
     this.moment.dataset.step = told.step;
     this.#beside();
+  }
+
+  #arrive(path) {
+    this.aimed = null;
+    const place = this.tree.places.get(path);
+    if (place !== undefined) this.tree.pick(place);
   }
 
   /** What stands beside the tree follows when the slider rests. */

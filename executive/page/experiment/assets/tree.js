@@ -11,6 +11,7 @@ export class Tree {
   /** `choose(node)` is called with the place of the behaviour that is chosen. */
   constructor(choose) {
     this.choose = choose;
+    this.all = false; // whether the reader wants all of it open, of whatever run
     this.box = element("div", { role: "tree", class: "tree", "aria-label": text("tree") });
     this.box.addEventListener("keydown", (event) => this.#key(event));
     this.show([]);
@@ -18,8 +19,8 @@ export class Tree {
 
   /** Show these behaviours, parents before their children. */
   show(nodes) {
-    const places = new Map(nodes.map((node, place) => [node.path, place]));
-    this.nodes = nodes.map((node) => ({ ...node, inside: [], up: places.get(node.parent) ?? -1 }));
+    this.places = new Map(nodes.map((node, place) => [node.path, place]));
+    this.nodes = nodes.map((node) => ({ ...node, inside: [], up: this.places.get(node.parent) ?? -1 }));
     this.roots = [];
     this.nodes.forEach((node, place) => {
       if (node.up < 0) this.roots.push(place);
@@ -32,7 +33,6 @@ export class Tree {
     this.chosen = -1;
     this.focused = 0;
     this.step = -1;
-    this.all = false;
     this.box.replaceChildren();
   }
 
@@ -59,8 +59,18 @@ export class Tree {
     for (let up = this.nodes[place].up; up >= 0; up = this.nodes[up].up) this.pinned.set(up, true);
     this.#arrange();
     for (const row of [before, this.rows.get(place)]) row?.setAttribute("aria-selected", String(row === this.rows.get(place)));
-    this.rows.get(place)?.scrollIntoView({ block: "nearest" });
+    this.reveal(place);
     this.choose(place);
+  }
+
+  /** Scroll the tree, and nothing around it, to a behaviour that is out of sight. */
+  reveal(place) {
+    const row = this.rows.get(place);
+    if (!row?.isConnected) return;
+    const [at, seen] = [row, this.box.parentElement].map((one) => one.getBoundingClientRect());
+    if (at.top < seen.top || at.bottom > seen.bottom) {
+      this.box.parentElement.scrollTop += (at.top + at.bottom - seen.top - seen.bottom) / 2;
+    }
   }
 
   /** Open are those in which something works or has just changed, unless the reader says else. */

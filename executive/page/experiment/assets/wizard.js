@@ -14,16 +14,17 @@ export function stepIn(box) {
   const name = field(text("your_name"), { maxlength: 60, placeholder: text("your_name"), value: localStorage.getItem(NAME) ?? "" });
   name.addEventListener("change", () => localStorage.setItem(NAME, name.value));
   const said = element("span", { role: "status" });
-  const question = element("div", {});
+  const question = element("div", { class: "question" });
   const hold = element("input", { type: "checkbox" });
   const held = element("ol", { hidden: true });
-  const places = element("select", { "aria-label": text("send_to") });
-  const elsewhere = element("div", {}, places, button(text("send_there"), () => act("place", { place: places.value })));
+  const places = element("select", { id: "send-to" });
+  const elsewhere = element("div", {}, element("label", { for: "send-to" }, text("send_to")), places, button(text("send_there"), () => act("place", { place: places.value })));
   const holdPlaces = element("input", { type: "checkbox" });
   const choice = element("div", { class: "choice", role: "group", hidden: true });
   const labels = new Map();
 
   async function act(deed, values = {}) {
+    said.textContent = "";
     try {
       await tell("intervene", { deed, by: name.value, ...values });
       said.textContent = text("done_so");
@@ -35,10 +36,10 @@ export function stepIn(box) {
   hold.addEventListener("change", () => act("hold", { on: hold.checked }));
   holdPlaces.addEventListener("change", () => act("hold_place", { on: holdPlaces.checked }));
   box.replaceChildren(
-    element("h3", {}, text("step_in")), name, question,
+    element("h3", {}, text("step_in")), name,
     element("label", {}, hold, text("hold_words")),
-    element("label", {}, holdPlaces, text("hold_places")), elsewhere,
-    button(text("stop"), () => act("stop"), { class: "stop" }), said, choice, held);
+    element("label", {}, holdPlaces, text("hold_places")), said,
+    button(text("stop"), () => act("stop"), { class: "stop" }), question, elsewhere, choice, held);
 
   function ask(asked) {
     if (!asked) return question.replaceChildren(element("span", {}, text("asks_nothing")));

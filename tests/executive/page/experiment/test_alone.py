@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -19,13 +20,15 @@ from talking import session_of
 from executive.errors import InputError
 from executive.page.address import Address
 from executive.page.experiment.alone import PastRuns
+from executive.page.experiment.reel import Reel
+from executive.page.experiment.reels import read
 
 TOKEN = "theirs"
 
 
-def recorded(runs: Path) -> str:
+def recorded(runs: Path, *answers: str) -> str:
     """The name of a mission that was recorded there."""
-    with session_of(runs, ["high_table"], search="paper") as session:
+    with session_of(runs, [*answers, "high_table"], search="paper") as session:
         return Path(session.run("Find the peach").run_dir or "").name
 
 
@@ -91,3 +94,30 @@ def test_in_a_browser_only_the_list_is_there(tmp_path: Path) -> None:
         tab.locator("#runs th button").click()
         expect(tab.locator("#one .moment")).to_contain_text("Tick 0")
         expect(tab.locator("#one-title")).to_have_text(name)
+
+
+@pytest.mark.browser
+def test_two_runs_are_shown_in_what_they_part_as_soon_as_that_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    may_read = threading.Event()
+
+    def later(reel: Reel, folder: Path) -> None:
+        may_read.wait(PATIENCE_S)
+        read(reel, folder)
+
+    monkeypatch.setattr("executive.page.experiment.reels.read", later)
+    both = sorted([recorded(tmp_path), recorded(tmp_path, "I don't know")])
+    with PastRuns(tmp_path, Address(port=0), TOKEN) as page, chromium() as browser:
+        part = told(page, "parting", one=both[0], other=both[1])["parting"]
+        behaviour = next(aspect["what"] for aspect in part["aspects"] if aspect["behaviour"])
+        assert part["tick"] > 0
+        tab = browser.new_page()
+        tab.goto(f"{page.url}#two/{both[0]}/{both[1]}")
+        expect(tab.locator("#parting")).to_contain_text(f"They part at tick {part['tick']}")
+        expect(tab.locator("#two [role=treeitem]")).to_have_count(0)
+        may_read.set()
+        chosen = tab.locator("#two [aria-selected=true] .name")
+        expect(chosen).to_have_text([behaviour.split("/")[-1]] * 2)
+        for moment in tab.locator("#two .moment").all():
+            expect(moment).to_have_attribute("data-step", str(part["tick"]))

@@ -73,7 +73,7 @@ def test_what_happens_is_followed_until_one_looks_back(browser: Browser, busy: R
         busy.page.says("banana")
         heard(busy.page, "question", kind="where_is")
         expect(tab.locator("#live .moment")).to_have_attribute("data-step", "1")
-        expect(tab.locator("#live .mark-said")).to_have_attribute("d", re.compile("M1 "))
+        expect(tab.locator("#live .strip .mark-said")).to_have_attribute("d", re.compile("M1 "))
         tab.locator("#live").get_by_role("button", name="Tick before").click()
         expect(tab.locator("#live .moment")).to_have_attribute("data-step", "0")
         expect(tab.locator("#live").get_by_label("Follow what happens")).not_to_be_checked()
@@ -134,6 +134,12 @@ def test_two_runs_stand_side_by_side_where_they_part(browser: Browser, busy: Rob
         expect(tab.locator("#parting")).to_contain_text("They part at tick 0")
         expect(tab.locator("#two .moment").first).to_contain_text("Tick 0 of")
         expect(tab.locator("#two .moment").last).to_contain_text("Tick 0 of")
+        for differs in tab.locator("#parting th button").all()[:2]:
+            differs.click()
+            chosen = tab.locator("#two [aria-selected=true]")
+            expect(chosen.locator(".name")).to_have_text([differs.inner_text()] * 2)
+            for side in chosen.all():
+                expect(side).to_be_in_viewport()
         assert not faults(tab)
 
 
