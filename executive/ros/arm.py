@@ -16,6 +16,7 @@ from executive.geometry import Floats, carried_by, pose_from, seen_from
 from executive.records import Shape
 from executive.ros.link import GoalEnd
 from executive.ros.moveit import Load, Obstacle, failure, scene, to_joints, to_pose
+from executive.ros.packets import numbers
 from executive.ros.profile import ArmAction, GripperAction, Profile
 from executive.ros.protocol import GoalStatus, Message
 from executive.ros.senses import Senses
@@ -126,8 +127,14 @@ class Arm:
         self._is_out = False
 
     async def pick(self, detection: Detection, place: str | None) -> Succeeded | Failed:
-        """Take a thing that is seen on a place, or on the floor (None)."""
+        """Take a thing that is seen on a place, or on the floor (None).
+
+        If it is in the hand already, since it could not be lifted or carried, only that is left.
+        """
         name = detection.label
+        if self._held is not None and self._feels:
+            held, hold = self._held
+            return await self._carry(name, hold) if held == name else _full(held)
         if not await self._ways(detection):
             return Failed(f"I know no way to grasp the {name}")
         middle = np.median(detection.points.astype(np.float64), axis=0)
@@ -160,6 +167,8 @@ class Arm:
         stances = self._hands.stances
         found = await asyncio.to_thread(stances, place, (x, y, z), base, near_m)
         why = ""
+        if found and (why := await self.fold()):
+            return f"I cannot fold my arm: {why}"
         for stance in found[:MOST_STANCES]:
             why = await self._go(stance)
             if not why:
@@ -179,12 +188,16 @@ class Arm:
     async def _take(self, name: str, hold: Hold) -> Succeeded | Failed:
         self._held = name, hold  # from now on: it may be stopped when the fingers have closed
         why = await self._grip(self._gripper.closed, hold.force)
-        if why or not (self.holds or self._senses.holding):
+        if why or not self._feels:
             self._held = None
             await self._grip(self._gripper.open)
             await self._move(_back(hold.hand), straight=True)
             await self.fold()
             return Failed(why or f"my hand closed without the {name}")
+        return await self._carry(name, hold)
+
+    async def _carry(self, name: str, hold: Hold) -> Succeeded | Failed:
+        """Lift what the fingers are around, and fold the arm with it."""
         if why := await self._move(_shifted(hold.hand, (0.0, 0.0, UP_M)), straight=True):
             return Failed(f"I cannot lift the {name}: {why}")
         if why := await self.fold():
@@ -213,6 +226,12 @@ class Arm:
                 return await self._let_go(hand)
         await self.fold()
         return Failed(why)
+
+    @property
+    def _feels(self) -> bool | None:
+        """Whether something is in the hand; if nothing else feels it, as the gripper has it."""
+        felt = self._senses.holding
+        return self.holds if felt is None else felt
 
     @property
     def _has_lost_it(self) -> bool:
@@ -287,9 +306,25 @@ class Arm:
         called_off = end.status == GoalStatus.CANCELED
         if called_off or (not end.succeeded and stalled is not True):
             return end.reason or ("it was called off" if called_off else "it did not get there")
-        closing = position == gripper.closed
-        self.holds = closing and stalled is True and reached is not True
+        closing, is_stuck = position == gripper.closed, stalled is True and reached is not True
+        if is_stuck and not closing and not self._is_open(end):
+            return end.reason or "something keeps it closed"
+        self.holds = closing and is_stuck
         return ""
+
+    def _is_open(self, end: GoalEnd) -> bool:
+        """Whether the fingers are nearer to open than to closed, as far as their action tells."""
+        gripper, state = self._gripper, end.values.get("state")
+        told = state.get("position", []) if isinstance(state, dict) else None
+        match numbers(told) if told is not None else (end.values.get("position"),):
+            case (int() | float() as at, *_):
+                return abs(at - gripper.open) < abs(at - gripper.closed)
+            case _:
+                return end.succeeded
+
+
+def _full(held: str) -> Failed:
+    return Failed(f"my hand already holds the {held}")
 
 
 def _back(hand: Pose) -> Pose:

@@ -17,6 +17,7 @@ REASONS: Mapping[int, str] = {
     -2: "I found no motion to there",
     NOT_FOLLOWED: "my arm could not follow its motion",
     -6: "it took too long to find a motion",
+    -7: "somebody else called it off",
     -10: "my arm touches something where it is",
     -12: "I would touch something there",
     -15: "MoveIt does not know the planning group of my arm",

@@ -21,6 +21,8 @@ BETWEEN_M = 0.06
 FAR_MM = 3000
 CARRIED = np.array([0.3, 0.0, 1.0])
 NO_WAY = -31
+End = tuple[GoalStatus, dict[str, Any]]
+"""A goal's status, and what its result says."""
 
 
 class MotionRobot(SecondRobot):
@@ -51,6 +53,8 @@ class MotionRobot(SecondRobot):
         self.is_blind = False
         self.squeezes_on = False
         """Whether closing the fingers has no end."""
+        self.ends: dict[str, list[End | None]] = {}
+        """How the next goals of an action end, with nothing done; None: as they should."""
         self.motions: list[dict[str, Any]] = []
         """What it was asked for, each with the scene it was given."""
 
@@ -66,6 +70,11 @@ class MotionRobot(SecondRobot):
     async def _pursue(self, action: str) -> None:
         _, goal = self._under_way[action]
         assert isinstance(goal.args, dict)
+        ends = self.ends.get(action)
+        if ends and (end := ends.pop(0)) is not None:
+            status, said = end
+            await self._end(action, status, **said)
+            return
         match action:
             case "/acme/head":
                 pan, tilt = goal.args["trajectory"]["points"][0]["positions"]

@@ -1,5 +1,6 @@
 """A robot that has MoveIt 2 and a gripper, but no skills, takes things and puts them down."""
 
+import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 from linking import link_to
 from motion_robot import PROFILE, MotionRobot
+from patience import until
 from scipy.spatial.transform import Rotation
 
 from executive.app.handling import KnownThings
@@ -17,6 +19,7 @@ from executive.ros import checking
 from executive.ros.__main__ import main as look
 from executive.ros.connection import Connection
 from executive.ros.moveit import SEMANTICS
+from executive.ros.protocol import GoalStatus
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.robot import Bench, RobotContract
 from executive.types.goals import DriveTo, Halt, LookAt, Pick, PutDown
@@ -252,6 +255,16 @@ class TestTouch:
         fell = Failed("what I held fell on the way to the coffee_table", lost=True)
         assert linked.bench.end_of(request) == fell
 
+    def test_what_it_does_not_feel_it_does_not_hold_whatever_the_gripper_says(
+        self, linked: Linked
+    ) -> None:
+        at = standing_on(linked, "desk")
+        assert linked.bench.do(DriveTo("desk")) == Succeeded()
+        linked.there.thing = None
+        linked.there.ends[FINGERS] = [None, (DONE, {"stalled": True, "reached_goal": False})]
+        result = linked.bench.do(Pick(seen(at)))
+        assert result == Failed(f"my hand closed without the {THING}")
+
     def test_what_fell_is_not_put_down(self, linked: Linked) -> None:
         taken(linked)
         linked.there.drop()
@@ -281,6 +294,119 @@ def test_it_does_not_drive_with_its_arm_out(linked: Linked) -> None:
     assert linked.bench.do(Halt()) == Succeeded()
     assert linked.bench.do(DriveTo("person")) == Succeeded()
     assert "joint_constraints" in linked.there.motions[-1]["goal_constraints"][0]
+
+
+def test_it_does_not_come_near_with_its_arm_out(linked: Linked) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.here.robot.start(Pick(seen(at)))
+    while not linked.there.motions:
+        linked.bench.wait(0.02)
+    assert linked.bench.do(Halt()) == Succeeded()
+    done = len(linked.there.goals)
+    linked.here.robot.start(Pick(seen(at)))
+    until(lambda: len(linked.there.goals) > done, "its next goal")
+    action, goal = linked.there.goals[done]
+    assert action == "/move_action"
+    assert "joint_constraints" in goal["request"]["goal_constraints"][0]
+
+
+ARM, FINGERS = "/move_action", "/acme/gripper"
+ABORTED, DONE = GoalStatus.ABORTED, GoalStatus.SUCCEEDED
+
+
+@pytest.mark.parametrize(
+    ("status", "said", "why"),
+    [
+        (ABORTED, {"error_code": {"val": -1}}, "I found no motion to there"),
+        (ABORTED, {"error_code": {"val": -4}}, "my arm could not follow its motion"),
+        (ABORTED, {"error_code": {"val": -6}}, "it took too long to find a motion"),
+        (ABORTED, {"error_code": {"val": -9876}}, "my arm failed (MoveIt's error -9876)"),
+        (GoalStatus.CANCELED, {"error_code": {"val": -7}}, "somebody else called it off"),
+        (ABORTED, {"error_code": {"val": 1}}, "my arm did not get there"),
+        (ABORTED, {"error_code": "none"}, "my arm did not get there"),
+        (DONE, {"error_code": {"val": -4}}, "my arm could not follow its motion"),
+    ],
+)
+def test_why_it_does_not_reach_a_thing_is_told(
+    linked: Linked, status: GoalStatus, said: dict[str, Any], why: str
+) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.there.ends[ARM] = [(status, said)] * 20
+    result = linked.bench.do(Pick(seen(at)))
+    assert result == Failed(f"I cannot reach the {THING}: {why}")
+    assert linked.here.robot.holding is False
+
+
+def test_a_motion_without_an_end_is_given_up(linked: Linked) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.there.deaf.add(ARM)
+    result = linked.bench.do(Pick(seen(at)))
+    assert result == Failed(f"my arm does not answer: no sign of {ARM} for 1 s")
+
+
+def stuck(linked: Linked, motions_before: int) -> np.ndarray:
+    """Have it close its fingers around the thing, and not get away with it; where it stood."""
+    at = standing_on(linked, "desk").copy()
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    linked.there.ends[ARM] = [*[None] * motions_before, (ABORTED, {"error_code": {"val": -4}})]
+    result = linked.bench.do(Pick(seen(at)))
+    assert isinstance(result, Failed)
+    assert linked.here.robot.holding is True
+    return at
+
+
+@pytest.mark.parametrize("motions_before", [2, 3])
+def test_what_could_not_be_carried_is_carried_on_and_not_dropped(
+    linked: Linked, motions_before: int
+) -> None:
+    at = stuck(linked, motions_before)
+    commands = len(linked.there.goals)
+    assert linked.bench.do(Pick(seen(at))) == Succeeded()
+    assert {action for action, _ in linked.there.goals[commands:]} == {ARM}
+    assert linked.there.thing is not None
+    assert linked.there.thing[2] > at[2] + 0.05
+
+
+def test_nothing_else_is_taken_with_a_full_hand(linked: Linked) -> None:
+    at = stuck(linked, 3)
+    other = dataclasses.replace(seen(at), label="mug")
+    assert linked.bench.do(Pick(other)) == Failed(f"my hand already holds the {THING}")
+    assert linked.there.holds
+
+
+@pytest.mark.parametrize(
+    ("status", "said"),
+    [
+        (ABORTED, {"position": 0.0, "stalled": True, "reached_goal": False}),
+        (ABORTED, {"state": {"position": [0.01]}, "stalled": True}),
+        (DONE, {"position": 0.01, "stalled": True, "reached_goal": False}),
+        (ABORTED, {"stalled": True}),
+        (ABORTED, {}),
+    ],
+)
+def test_fingers_that_do_not_open_have_put_nothing_down(
+    linked: Linked, status: GoalStatus, said: dict[str, Any]
+) -> None:
+    taken(linked)
+    linked.there.ends[FINGERS] = [(status, said)]
+    result = linked.bench.do(PutDown("desk"))
+    assert isinstance(result, Failed)
+    assert result.reason.startswith("my hand does not open")
+    assert linked.here.robot.holding is not False
+
+
+@pytest.mark.parametrize("status", [ABORTED, DONE])
+def test_fingers_that_stall_where_they_are_open_are_open(
+    linked: Linked, status: GoalStatus
+) -> None:
+    at = standing_on(linked, "desk")
+    assert linked.bench.do(DriveTo("desk")) == Succeeded()
+    said = {"position": 0.078, "stalled": True, "reached_goal": False}
+    linked.there.ends[FINGERS] = [(status, said)]
+    assert linked.bench.do(Pick(seen(at))) == Succeeded()
 
 
 def test_joints_that_the_robot_does_not_have_are_told(
