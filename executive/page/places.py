@@ -6,7 +6,7 @@ Keys that this version of the mission does not write are simply not there.
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from logs.viewer.states import states
+from logs.viewer.states import State, states
 
 LEAST = 0.01
 """A place that is less likely than this is shown only if the robot went there."""
@@ -25,15 +25,18 @@ class Places:
         """Each place that counts in the search, and the plan, as known after a tick.
 
         While nothing is searched, the robot is at none of them: there is what came of the last.
+        Where a thing that is found might have been as well does not count any more.
         """
         self._situation = situation
         self._sources |= dict(_named(situation))
-        chances, shares = _chances(situation)
+        over = bool(situation.get("found"))
+        chances, shares = ({}, {}) if over else _chances(situation)
         here = situation.get("candidate") if searching else None
-        found = {p: str(state) for p, state in states({**situation, "candidate": here}).items()}
+        became = states({**situation, "candidate": here})
+        found = {p: str(state) for p, state in became.items() if not over or state != State.OPEN}
         why_not = {**(situation.get("unseen") or {}), **(situation.get("unreached") or {})}
         plan = situation.get("plan") or {}
-        order = [str(place) for place in plan.get("order") or ()]
+        order = [] if over else [str(place) for place in plan.get("order") or ()]
         return {
             "thing": situation.get("object") or "",
             "places": [

@@ -147,10 +147,11 @@ function sign(state, turn) {
 }
 
 function table({ thing, places }) {
+  const isFound = places.some((place) => place.state === "found");
   const chances = places.some((place) => place.chance !== null);
   const heads = ["place", ...(chances ? ["chance"] : []), "source"];
   return element("table", {},
-    element("caption", {}, text("where", { thing: spoken(thing) })),
+    element("caption", {}, text(isFound ? "where_found" : "where", { thing: spoken(thing) })),
     element("thead", {}, element("tr", {},
       ...heads.map((head) => element("th", { scope: "col" }, text(head))))),
     element("tbody", {}, ...places.map((place) => row(place, chances))));

@@ -127,6 +127,7 @@ function offer(question) {
   offerPlaces(choose, (piece) => mayBe(question, piece));
   if (had && !question) focusWords();
   conversation.toEnd();
+  if (question) document.getElementById("answers").scrollIntoView({ block: "nearest" });
 }
 
 /** What can be chosen is taken away at once; it comes back if the choice did not reach the robot. */

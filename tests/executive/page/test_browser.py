@@ -29,6 +29,7 @@ def test_a_whole_mission_by_the_page(browser: Browser, talking: Robot) -> None:
         wait_until_ready(tab)
         expect(tab.locator("#last")).to_have_text("Last time: done.")
         assert said(tab)[-1].endswith(BROUGHT)
+        expect(tab.locator("#places caption")).to_have_text("Where I found the peach")
         expect(tab.locator("#places tr.found")).to_contain_text("high table")
         expect(tab.locator("#places tr.empty")).to_contain_text("sofa")
     assert [outcome.status for outcome in talking.outcomes] == ["done"]

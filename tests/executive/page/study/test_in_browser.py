@@ -99,6 +99,34 @@ def test_a_task_is_given_up_while_the_robot_asks_and_the_next_one_begins(
     ] * 2
 
 
+@pytest.mark.parametrize("size", [(390, 844), (320, 568)])
+def test_on_a_phone_a_long_task_is_read_whole_and_never_under_the_stop_button(
+    browser: Browser, tmp_path: Path, size: tuple[int, int]
+) -> None:
+    told = "Imagine that you come home, and want some fruit, which somebody has put away. " * 4
+    study = study_of(1)
+    tasks = (study.tasks[0].model_copy(update={"text": told}),)
+    data = data_in(tmp_path, study.model_copy(update={"tasks": tasks}))
+
+    def look(tab: Tab, chance: random.Random) -> None:
+        is_whole = "words => words.scrollHeight <= words.clientHeight"
+        assert tab.locator("#task .words").evaluate(is_whole)
+        tab.evaluate("scrollTo(0, 150)")
+        bar, task = (tab.locator(one).bounding_box() for one in ("header", "#task"))
+        assert bar
+        assert task
+        assert task["y"] < bar["y"] + bar["height"], "it is scrolled"
+        assert (bar["y"], bar["width"]) == (0, size[0]), "under a bar across the whole screen"
+        expect(tab.locator("#stop")).to_be_in_viewport(ratio=1)
+        say(tab, "Bring a fruit")
+        expect(tab.locator("#answers .answer").first).to_be_in_viewport(ratio=0.9)
+        end_task(tab, "I give up")
+
+    viewport = {"width": size[0], "height": size[1]}
+    with led(data, "P01") as one, opened(browser, one.page, viewport=viewport) as tab:
+        take_part(tab, random.Random(0), look)
+
+
 @pytest.mark.parametrize("size", [(390, 844), (375, 667), (320, 568)])
 def test_on_a_phone_a_question_for_places_leaves_what_one_types_in_in_sight(
     browser: Browser, tmp_path: Path, size: tuple[int, int]
