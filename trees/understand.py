@@ -1,11 +1,13 @@
 """What is asked for? The grammar of commands says, else the language model and the person do."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import chain
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.commands import LEAVE_OUT_PLACES
 from executive.language.meaning import Answer, Correction, Request, Said, Unread
 from executive.records import Utterance
 from executive.types.commands import HELD, Command
@@ -89,9 +91,18 @@ class ReadCommand(Step):
         if not commands:
             self.situation.request.remark = self.context.interpreter.remark(words, spoken)
             return self.fail("this is no command that the grammar knows")
+        if self._leaves_out_a_place(chain.from_iterable(commands)):
+            self.situation.request.remark = f"I cannot {LEAVE_OUT_PLACES}."
+            return self.fail("a place is not meant")
         self.situation.agenda.add(commands)
         begin_next(self.context)
         return self.succeed("; ".join(map(named, chain.from_iterable(commands))))
+
+    def _leaves_out_a_place(self, commands: Iterable[Command]) -> bool:
+        """Whether what is not meant is a place: "find the mug, but not the kitchen"."""
+        knowledge = self.context.knowledge
+        left_out = {but for command in commands for but in command.exceptions}
+        return any(knowledge.is_place(but) and not knowledge.objects_named(but) for but in left_out)
 
 
 class ReadPastSlips(Step):
