@@ -1,6 +1,5 @@
 """What is asked for? The grammar of commands says, else the language model and the person do."""
 
-from collections.abc import Iterable
 from dataclasses import replace
 from itertools import chain
 
@@ -18,6 +17,7 @@ from trees.at_hand import differs
 from trees.attention import attend_to
 from trees.context import MissionContext
 from trees.corrections import correct
+from trees.meant import leaves_out_a_place
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
@@ -91,18 +91,12 @@ class ReadCommand(Step):
         if not commands:
             self.situation.request.remark = self.context.interpreter.remark(words, spoken)
             return self.fail("this is no command that the grammar knows")
-        if self._leaves_out_a_place(chain.from_iterable(commands)):
+        if leaves_out_a_place(self.context, chain.from_iterable(commands)):
             self.situation.request.remark = f"I cannot {LEAVE_OUT_PLACES}."
             return self.fail("a place is not meant")
         self.situation.agenda.add(commands)
         begin_next(self.context)
         return self.succeed("; ".join(map(named, chain.from_iterable(commands))))
-
-    def _leaves_out_a_place(self, commands: Iterable[Command]) -> bool:
-        """Whether what is not meant is a place: "find the mug, but not the kitchen"."""
-        knowledge = self.context.knowledge
-        left_out = {but for command in commands for but in command.exceptions}
-        return any(knowledge.is_place(but) and not knowledge.objects_named(but) for but in left_out)
 
 
 class ReadPastSlips(Step):

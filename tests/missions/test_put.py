@@ -338,3 +338,8 @@ def test_what_is_on_one_place_goes_into_another(serve: Serve) -> None:
     session, world = serve()
     assert session.run("Put everything on the coffee table into the fridge").status == "done"
     assert {world.things["mug"], world.things["pudding_box"]} == {"refrigerator"}
+
+
+def test_a_goal_less_another_place_is_the_goal() -> None:
+    run = run_mission("Put the mug on the sofa instead of the desk", llm=False)
+    assert run.outcome.reason == "I put the mug on the sofa."
