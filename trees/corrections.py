@@ -43,10 +43,11 @@ def _is_goal(context: MissionContext, left_out: Sequence[Thing], at_hand: Comman
 def _less(context: MissionContext, said: Correction, at_hand: Command, words: str, now: str) -> str:
     """Do it so, but for what is not meant: "to the desk, but not the pear"."""
     agenda, left_out = context.situation.agenda, " and ".join(but.words for but in said.left_out)
-    without = refused(context, left_out, at_hand)
-    if not without:
-        return f"{context.interpreter.not_understood(words)}. {now}"
     rest = replace(said, left_out=())
+    if not (without := refused(context, left_out, at_hand)):
+        if all(named_in(context, but.words) for but in said.left_out):  # it is not done anyhow
+            return correct(context, rest, words, now)
+        return f"{context.interpreter.not_understood(words)}. {now}"
     if agenda.taken_back:
         agenda.go_on_with(others := _likewise(context, rest, at_hand, (), words))
         others_so = in_one_breath(context, chain.from_iterable(others))

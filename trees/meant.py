@@ -1,5 +1,7 @@
 """Which things words mean, as far as nobody has to be asked."""
 
+from collections.abc import Iterable
+
 from executive.interfaces.knowledge import Knowledge
 from executive.language.spoken import QUESTIONS
 from executive.types.commands import Command
@@ -39,3 +41,17 @@ def without_exceptions(
     left_out = (name for but in command.exceptions for name in (but, *knowledge.names_in(but)))
     not_meant = {one for name in left_out for one in knowledge.objects_named(name)}
     return tuple(name for name in names if name not in not_meant)
+
+
+def leaves_out_a_place(context: MissionContext, commands: Iterable[Command]) -> bool:
+    """Whether a place is not meant where the thing may be, or may go: "a mug, not the kitchen".
+
+    "On the sofa, not the desk" says no more than the sofa.
+    """
+    knowledge = context.knowledge
+    return any(
+        {*knowledge.places_named(but)} & {*knowledge.places_named(command.goal or but)}
+        for command in commands
+        for but in command.exceptions
+        if knowledge.is_place(but) and not knowledge.objects_named(but)
+    )

@@ -6,6 +6,7 @@ from itertools import chain
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.commands import LEAVE_OUT_PLACES
 from executive.language.meaning import Answer, Correction, Request, Said, Unread
 from executive.records import Utterance
 from executive.types.commands import HELD, Command
@@ -16,6 +17,7 @@ from trees.at_hand import differs
 from trees.attention import attend_to
 from trees.context import MissionContext
 from trees.corrections import correct
+from trees.meant import leaves_out_a_place
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
@@ -89,6 +91,9 @@ class ReadCommand(Step):
         if not commands:
             self.situation.request.remark = self.context.interpreter.remark(words, spoken)
             return self.fail("this is no command that the grammar knows")
+        if leaves_out_a_place(self.context, chain.from_iterable(commands)):
+            self.situation.request.remark = f"I cannot {LEAVE_OUT_PLACES}."
+            return self.fail("a place is not meant")
         self.situation.agenda.add(commands)
         begin_next(self.context)
         return self.succeed("; ".join(map(named, chain.from_iterable(commands))))

@@ -1,13 +1,15 @@
 """What is asked for while a task is at hand: in its place, before it, if it fails, or after it."""
 
 from dataclasses import replace
+from itertools import chain
 
-from executive.language.commands import commands_in, left_alone
+from executive.language.commands import LEAVE_OUT_PLACES, commands_in, left_alone
 from executive.language.meaning import Request
 from executive.language.pronouns import resolved
 from executive.types.commands import Command, CommandKind, Commands
 from trees.at_hand import of_all_spoken
 from trees.context import MissionContext
+from trees.meant import leaves_out_a_place
 from trees.taken_back import is_about, refused
 from trees.wishes import added, done_first, objects_of, replaced
 
@@ -19,6 +21,8 @@ def take_in(
     commands = commands_in(resolved(said, of_all_spoken(context.situation, said)), words)
     if not isinstance(commands, tuple):
         return added(context, commands, now)
+    if leaves_out_a_place(context, chain.from_iterable(commands)):
+        return f"I cannot {LEAVE_OUT_PLACES}. {now}"
     if alone := left_alone(said):
         return _instead_of(context, alone, commands, at_hand)
     if at_hand:

@@ -41,6 +41,7 @@ WILL_NOT = "Then I will not."
 NOT_KEPT = " I do not keep that in mind: what you ask for later counts."
 SAY_INSTEAD = " Say once more what I am to do instead."
 SAY_THE_REST = " Say once more what else I am to do."
+LEAVE_OUT_PLACES = "leave out places; say where I am to look, or to put things"
 UNTOLD = "I cannot tell you that so far."
 COURTESIES = {
     Courtesy.HELLO: "Hello!",

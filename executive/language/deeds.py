@@ -32,6 +32,8 @@ _ELSEWHERE = (
     CommandKind.CLEAR,
 )
 """Deeds that can be done at one place after the other."""
+_LOOKING = (CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL)
+"""Deeds that leave everything where it is."""
 ALL_THINGS = Thing("things", definite=True, said="things")
 """What one who is to look around looks for."""
 MOST_INNER = 4
@@ -336,6 +338,8 @@ def _task(verb: CommandKind, parts: list[Part], *, goes: bool = False) -> Task:
             role, place = "source", part.place
         elif isinstance(part, To):
             role, place = "goal", part.place
+            if goes and last == "goal":  # "what is on the desk into the fridge"
+                places["source"] = places.pop("goal")
         elif isinstance(part, Where | From):
             role = "goal" if goes else "source"
             place = part if isinstance(part, Where) else part.place
@@ -350,6 +354,8 @@ def _task(verb: CommandKind, parts: list[Part], *, goes: bool = False) -> Task:
         if role in places:
             raise Unfit(place.words)
         places[role], last = place, role
+    if verb in _LOOKING and places.get("goal", ME) != ME:  # "find the mug to the kitchen"
+        raise Unfit(places["goal"].words)
     said = next((str(p) for p in parts if isinstance(p, Token)), "")
     return Task(verb, things, places.get("source"), places.get("goal"), said=said)
 

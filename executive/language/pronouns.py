@@ -53,12 +53,19 @@ def resolved(said: Said, spoken: Spoken, *, holds: bool = False) -> Said:
             return replace(said, things=_things(things, spoken))
         case Correction():
             return asked_anew(with_names(said, spoken), spoken)
+        case Answer(things=None, where=(place,), told=False) if _went_somewhere(spoken):
+            return asked_anew(Correction(place=place), spoken)  # "on the desk": not where it is
         case Answer(where=(place,)) if spoken.things:  # "it is on the sofa", of what was not found
             where = _where(place, None, None, spoken)
             assert where
             name = spoken.things[-1]
             return Statement(Things((Thing(name, definite=True, said=name),)), where)
     return said
+
+
+def _went_somewhere(spoken: Spoken) -> bool:
+    """Whether what was asked for last has a place where a thing, or the robot, is to go."""
+    return spoken.request is not None and spoken.request.tasks[-1].goal not in (None, ME)
 
 
 def _told(said: Statement, things: Things | None, place: Where | None, spoken: Spoken) -> Statement:

@@ -16,6 +16,7 @@ from executive.cache import cache_folder
 from executive.language import others
 from executive.language.asides import beside_a_request
 from executive.language.building import Builder
+from executive.language.commands import LEAVE_OUT_PLACES
 from executive.language.contrasts import in_its_place
 from executive.language.meaning import Refusal, Relation, Request, Said, Unable, Unread
 from executive.language.parts import Unfit
@@ -72,6 +73,7 @@ class Reader:
         self._next_deed = re.compile(rf"(?:, |\b(?:and|then) ){deed}\b")
         self._mind = re.compile(rf"^(?:please )?(?:would|do) you mind ({_any_of(gerunds)})(?= )")
         self._times = re.compile(rf",? ?\b(?:{'|'.join(words['times'])})(?=[ ,]|$)")
+        self._left_out = re.compile(rf",? ?\b(?:{'|'.join(words['places_left_out'])})(?=,|$)")
         self._asides = [re.compile(pattern) for pattern in words["asides"]]
         self._pause = re.compile(words["pause"].replace("%DEED", deed))
         self._turn = re.compile(words["second_thoughts"])
@@ -102,16 +104,24 @@ class Reader:
             return Unread(words)
         plain = self.plain(words)
         said = self._read(plain)
-        if self._at_a_time(plain):
+        if self._is_asked_for_without(self._times, plain):
             return Unable(AT_A_TIME)
         if isinstance(said, Unread):
             said = self._read_in_parts(plain) or said
+        if isinstance(said, Unread) and self._is_asked_for_without(self._left_out, plain):
+            return Unable(LEAVE_OUT_PLACES)
         if isinstance(said, Refusal):
-            return in_its_place(said, self._read)
+            said = in_its_place(said, self._read)
+        if isinstance(said, Refusal):
+            return replace(said, more=said.more or self._asks_for_more(said.words))
         if isinstance(said, Unable):
-            more = said.more or self._next_deed.search(said.rest) is not None
+            more = said.more or self._asks_for_more(said.rest)
             return replace(said, instead=self._instead.get(said.verb, ""), more=more)
         return replace(said, words=words) if isinstance(said, Unread) else said
+
+    def _asks_for_more(self, rest: str) -> bool:
+        """Whether a deed is asked for in what follows, by a word that is no part of a name."""
+        return self._next_deed.search(self._named.sub("", rest)) is not None
 
     def _read_in_parts(self, plain: str) -> Said | None:
         """What is no sentence of the grammar, and may be several of them; None if it is not."""
@@ -153,10 +163,10 @@ class Reader:
                 raise
             return Unread(text, str(error.orig_exc))
 
-    def _at_a_time(self, plain: str) -> bool:
-        """Whether something is asked for that is not to be done now."""
-        now = self._times.sub("", plain)
-        return now != plain and isinstance(self._read(now.strip(", ")), Request)
+    def _is_asked_for_without(self, part: re.Pattern[str], plain: str) -> bool:
+        """Whether the words are a request with such a part in them."""
+        rest = part.sub("", plain)
+        return rest != plain and isinstance(self._read(rest.strip(", ")), Request)
 
     def knows(self, words: str) -> bool:
         """Whether there is a word among them that may be more than a part of a name."""

@@ -91,3 +91,12 @@ def test_a_thing_that_is_gone_from_there_is_not_looked_for_there_again(tmp_path:
     session.close()
     assert session.folder
     assert replay(session.folder).parting is None
+
+
+@pytest.mark.parametrize(
+    "words", ["Find the mug, but not the desk", "Find the mug but not on the desk"]
+)
+def test_who_leaves_out_a_place_is_told_that_it_cannot_be(words: str) -> None:
+    run = run_mission(words, llm=False)
+    assert not run.goals
+    assert run.outcome.reason.startswith("I cannot leave out places; say where I am to look")

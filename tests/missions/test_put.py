@@ -324,3 +324,22 @@ def test_in_physics_things_are_put_where_they_are_to_go_and_back(tmp_path: Path)
         assert session.folder
         assert replay(session.folder).parting is None
     session.close()
+
+
+@pytest.mark.parametrize("there", ["On the desk", "Now on the desk", "No, onto the desk"])
+def test_a_place_after_it_was_put_elsewhere_is_where_it_is_to_go(serve: Serve, there: str) -> None:
+    session, world = serve()
+    session.run("Put the mug on the sofa")
+    assert session.run(there).reason == "I put the mug on the desk."
+    assert world.things["mug"] == "desk"
+
+
+def test_what_is_on_one_place_goes_into_another(serve: Serve) -> None:
+    session, world = serve()
+    assert session.run("Put everything on the coffee table into the fridge").status == "done"
+    assert {world.things["mug"], world.things["pudding_box"]} == {"refrigerator"}
+
+
+def test_a_goal_less_another_place_is_the_goal() -> None:
+    run = run_mission("Put the mug on the sofa instead of the desk", llm=False)
+    assert run.outcome.reason == "I put the mug on the sofa."

@@ -202,3 +202,21 @@ def test_what_is_to_be_first_and_is_none_of_them_is_not_read(words: str) -> None
 def test_one_may_be_written_as_a_digit(words: str) -> None:
     [[command]] = read.commands(words)
     assert (command.target, command.number) == ("tool", 0)
+
+
+def test_of_all_but_so_many_it_is_not_clear_which() -> None:
+    assert read.commands("Bring all but two fruits") == ()
+    [[command]] = read.commands("Bring all but the two pears")
+    assert command.exceptions == ("pears",)
+
+
+@pytest.mark.parametrize("words", ["Find the mug to the kitchen", "Where is the mug into the sofa"])
+def test_what_is_only_looked_for_goes_nowhere(words: str) -> None:
+    assert read.commands(words) == ()
+
+
+@pytest.mark.parametrize("verb", ["Bring", "Take", "Carry", "Put"])
+@pytest.mark.parametrize("preposition", ["into", "onto"])
+def test_into_a_place_is_where_it_is_to_go(verb: str, preposition: str) -> None:
+    [[command]] = read.commands(f"{verb} the box on the desk {preposition} the sofa")
+    assert (command.kind, command.source, command.goal) == ("put", "desk", "sofa")

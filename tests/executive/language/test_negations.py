@@ -208,3 +208,25 @@ def test_what_says_what_to_do_and_what_not_is_a_command(words: str) -> None:
     command = read.command(words)
     assert command
     assert command.target in ("apple", "mug")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Bring a mug, but don't look in the kitchen",
+        "Bring the mug from anywhere but the desk",
+        "Bring a fruit but not from the dining table",
+        "Bring the mug that isn't on the desk",
+        "Look for the mug everywhere except the kitchen",
+        "Put the mug in the bedroom but not on the bed",
+        "Bring the hammer without going to the lobby",
+    ],
+)
+def test_who_leaves_out_a_place_is_told_what_to_say_instead(words: str) -> None:
+    assert read.commands(words) == ()
+    assert read.remark(words).startswith("I cannot leave out places; say where I am to look")
+
+
+@pytest.mark.parametrize("words", ["Bring the mug without the pear", "Bring the mug from anywhere"])
+def test_what_is_no_place_is_not_called_one(words: str) -> None:
+    assert "places" not in read.remark(words)
