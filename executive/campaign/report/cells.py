@@ -26,7 +26,9 @@ def situation(defaults: bool) -> str:
 
 
 def interval(summary: Summary, digits: int) -> str:
-    """From the low to the high end."""
+    """From the low to the high end; a single command has none."""
+    if summary.groups < 2:
+        return "-"
     return f"{summary.low:.{digits}f} to {summary.high:.{digits}f}"
 
 

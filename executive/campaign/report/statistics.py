@@ -24,6 +24,8 @@ class Summary:
     """What a column of numbers comes to; the interval is that of the mean (95 %)."""
 
     n: int
+    groups: int
+    """What the interval rests on; of a single one there is none, and `low` is `high`."""
     mean: float
     sd: float
     """Of single missions (n - 1 in the denominator); 0 for a single one."""
@@ -45,7 +47,7 @@ def summarize(groups: Mapping[str, Sequence[float]], seed: int = 0) -> Summary |
     means = sums[draws].sum(axis=1) / sizes[draws].sum(axis=1)
     low, high = np.quantile(means, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
     sd = float(values.std(ddof=1)) if values.size > 1 else 0.0
-    return Summary(values.size, float(values.mean()), sd, float(low), float(high))
+    return Summary(values.size, len(filled), float(values.mean()), sd, float(low), float(high))
 
 
 @dataclass(frozen=True, slots=True)

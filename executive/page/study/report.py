@@ -83,7 +83,7 @@ def by_condition(
 def _told(one: Summary | None) -> str:
     if one is None:
         return "-"
-    if one.n < 2:  # one says nothing of others
+    if one.groups < 2:  # one participant says nothing of others
         return f"{one.mean:.1f}, n = {one.n}"
     return f"{one.mean:.1f} ({one.low:.1f} to {one.high:.1f}), SD {one.sd:.1f}, n = {one.n}"
 

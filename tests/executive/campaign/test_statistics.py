@@ -2,6 +2,7 @@
 
 import pytest
 
+from executive.campaign.report.cells import interval
 from executive.campaign.report.statistics import holm, pairwise, signed_rank, stars, summarize
 
 
@@ -18,6 +19,14 @@ def test_repetitions_do_not_narrow_the_interval() -> None:
     assert once
     assert often
     assert (once.low, once.high) == (often.low, often.high) == (0.0, 4.0)
+
+
+def test_a_single_command_has_no_interval_however_often_it_is_repeated() -> None:
+    one, two = summarize({"a": [1, 2, 6]}), summarize({"a": [1, 2, 6], "b": [9]})
+    assert one
+    assert two
+    assert interval(one, 1) == "-"
+    assert interval(two, 1) == "3.0 to 9.0"
 
 
 def test_no_missions_have_no_summary() -> None:
