@@ -2,7 +2,7 @@
 
 import pytest
 
-from executive.campaign import blocks, policies
+from executive.campaign import ablations, blocks
 from executive.campaign.__main__ import parser
 from executive.campaign.campaign import Campaign
 from executive.campaign.draws import commands, drawn
@@ -44,7 +44,7 @@ def test_where_all_places_may_be_planned_exactly_the_best_plan_is_the_plan() -> 
 
 
 def test_the_best_plan_is_one_among_the_places_that_allow_it(monkeypatch) -> None:
-    monkeypatch.setattr(policies, "EXACT", 2)
+    monkeypatch.setattr(ablations, "EXACT", 2)
     exact, plan = (mission(p, "Find the mug", defaults=False) for p in ("plan-exact", "plan"))
     assert exact.visited != plan.visited
 
