@@ -201,18 +201,16 @@ def conclude(outcome: "Outcome", is_recorded: bool, as_json: bool) -> int:
 def converse(session: "Session", console: "Console", as_json: bool, line: str | None = None) -> int:
     """Do what the person types, until they end the session; the exit code of the last command.
 
-    Who says stop otherwise than the person ends the session, and not only the mission. A `line`
-    that is given is done first.
+    A signal that says stop ends the session, and not only the mission. A `line` that is given is
+    done first.
     """
-    from executive.events import THE_PERSON
-
     code = DONE
     if line is None:
         help_ = f"{PROMPT} (stop ends what I do, quit ends the session)"
         line = session.next_command(console, help_)
     while line is not None:
         code = do(session, line, as_json)
-        if session.stopped_by not in ("", THE_PERSON):
+        if session.stopped_by:
             return STOPPED
         line = session.next_command(console, PROMPT)
     return code

@@ -26,6 +26,8 @@ HEEDING_S = 0.2
 """The longest sleep at a stretch (real time): a signal just before it is heeded only after it."""
 THE_PERSON = "the person"
 """Who says stop in words."""
+EXPERIMENTER = "the experimenter"
+"""Who says stop in the experimenter's page; their name comes after it, if they gave one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,9 +54,19 @@ class DeadlinePassed:
 
 @dataclass(frozen=True, slots=True)
 class StopRequested:
-    """Someone wants the robot at rest: Ctrl-C, SIGTERM, or the word "stop"."""
+    """Someone wants the robot at rest: Ctrl-C, SIGTERM, the word "stop", or an experimenter."""
 
     by: str
+
+    @property
+    def ends_session(self) -> bool:
+        """Whether it is for good, as a signal is: who talks with the robot may go on."""
+        return self.by != THE_PERSON and not self.is_of_experimenter
+
+    @property
+    def is_of_experimenter(self) -> bool:
+        """Whether an experimenter said so."""
+        return self.by.startswith(EXPERIMENTER)
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,8 +62,8 @@ class Executive:
         self._robot = GuardedRobot(robot, inbox, recorder)
         self._recorder = GuardedRecorder(recorder)
         self.ticks = 0
-        self.stops: list[str] = []
-        """Who said stop, in this order; also those who said so when all was decided."""
+        self.stops: list[StopRequested] = []
+        """Those who said stop, in this order; also those who said so when all was decided."""
 
     def run(self) -> None:
         """Tick until the tree has decided or someone says stop; leave the robot at rest.
@@ -141,7 +141,7 @@ class Executive:
         self._situation.fold(event)
         self._recorder.record(EventTaken(event))
         if isinstance(event, StopRequested):
-            self.stops.append(event.by)
+            self.stops.append(event)
         if isinstance(event, Intervened):
             told = Intervention(event.by, event.deed, event.was, event.became)
             self._recorder.record(told)

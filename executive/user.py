@@ -191,12 +191,12 @@ class Console:
                 self._serve()
             return taken
 
-    def _stop(self) -> None:
+    def _stop(self, by: str = THE_PERSON) -> None:
         with self._lock:
             idle, forgotten = self._is_idle, bool(self._lines)
             self._lines.clear()
         if not idle:
-            self._inbox.post(StopRequested(THE_PERSON))
+            self._inbox.post(StopRequested(by))
         self._say((NOTHING_TO_STOP if idle else STOPPING) + f" {FORGOTTEN}" * forgotten)
 
     @property

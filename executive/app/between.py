@@ -2,7 +2,7 @@
 
 from collections import deque
 
-from executive.events import THE_PERSON, Ended, Heard, Inbox, Listened, StopRequested
+from executive.events import Ended, Heard, Inbox, Listened, StopRequested
 from executive.interfaces.runtime import Clock
 from executive.types.results import Answered
 from executive.user import Console
@@ -37,7 +37,7 @@ class Between:
             command: str | None = None
             for event in self._inbox.take_all():
                 match event:
-                    case StopRequested(by) if by != THE_PERSON:
+                    case StopRequested() as stop if stop.ends_session:
                         raise KeyboardInterrupt
                     case StopRequested():
                         command = None  # it was taken back at once

@@ -62,8 +62,8 @@ class Session:
         is_recorded: whether that recording has all of the mission; else warnings have told what
             it lacks.
         ticks: how often the tree of the last mission was ticked.
-        stopped_by: who said stop in the last mission, or just after it; empty if nobody did. Of
-            several, the first who was not the person: that one ends the session, too.
+        stopped_by: who ended the session, too, in the last mission or just after it; empty if
+            nobody did, as where the person or an experimenter said stop.
     """
 
     def __init__(
@@ -176,8 +176,8 @@ class Session:
         began = time.monotonic()
         self.stopped_by, self.folder = "", None
         if why := too_long(words):
-            stops = (e.by for e in self.inbox.take_all() if isinstance(e, StopRequested))
-            self.stopped_by = next(stops, "")  # there is nothing to stop
+            taken = self.inbox.take_all()  # there is nothing to stop
+            self.stopped_by = _for_good(e for e in taken if isinstance(e, StopRequested))
             return without_mission(MissionStatus.NOT_UNDERSTOOD, why)
         words = one_line(writable(words))
         if not control(words) and (said := self.talk(words)):
@@ -297,8 +297,7 @@ class Session:
             executive.run()
         finally:
             self.ticks = executive.ticks
-            others = [by for by in executive.stops if by != THE_PERSON]
-            self.stopped_by = next(iter(others or executive.stops), "")
+            self.stopped_by = _for_good(executive.stops)
 
     def talk(self, words: str) -> str:
         """Answer what needs no mission; empty if it does.
@@ -324,3 +323,8 @@ def without_mission(status: MissionStatus, said: str) -> Outcome:
     """The outcome of words for which no mission was run."""
     situation = Situation(ending=Ending(status, said))
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
+
+
+def _for_good(stops: Iterable[StopRequested]) -> str:
+    """The first who ends the session, too; empty if nobody does."""
+    return next((stop.by for stop in stops if stop.ends_session), "")

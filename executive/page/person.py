@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, cast
 
-from executive.events import Deed, Inbox, Intervened
+from executive.events import THE_PERSON, Deed, Inbox, Intervened
 from executive.page.board import Board
 from executive.page.gate import Gate
 from executive.page.hearing import BROWSER, Alternative, Hearing, stop_in
@@ -157,10 +157,10 @@ class PagePerson(Console):
         """They pressed yes or no to what was asked back; False if that is over."""
         return self._doubt is not None and self._doubt.settle(number, agrees=agrees)
 
-    def stops(self) -> None:
-        """They pressed the stop button: nothing has to be read first."""
+    def stops(self, by: str = THE_PERSON) -> None:
+        """They pressed the stop button: nothing has to be read first. Or somebody else, unseen."""
         self._board.say({"who": "person", "stop": True, "at": time.time()})
-        self._stop()
+        self._stop(by)
         self._ask_nothing_back()
 
     def show_question(self) -> None:

@@ -8,12 +8,11 @@ from collections.abc import Callable
 from typing import Any
 
 from executive.errors import InputError
-from executive.events import OFF, ON, Deed, Event, Inbox, Intervened
+from executive.events import EXPERIMENTER, OFF, ON, Deed, Event, Inbox, Intervened
 from executive.page.board import Board
 from executive.page.person import PagePerson
 from executive.text import LONGEST, one_line, printable, writable
 
-SOMEBODY = "the experimenter"
 LONGEST_NAME = 60
 OVER = "it is over"
 LEFT_S = 30.0
@@ -58,7 +57,7 @@ class Wizard:
         Raises:
             InputError: if that cannot be, or is over.
         """
-        by = _line(sent.get("by"))[:LONGEST_NAME] or SOMEBODY
+        by = _line(sent.get("by"))[:LONGEST_NAME] or EXPERIMENTER
         match sent:
             case {"deed": Deed.ANSWER, "question": int(question), "words": str(words)}:
                 done = bool(_line(words)) and self._answer(by, question, _line(words))
@@ -73,7 +72,7 @@ class Wizard:
                 done = self._hold_place(by, on)
             case {"deed": Deed.STOP}:
                 self._post(by, Deed.STOP, "", "")
-                self._person.stops()
+                self._person.stops(by if by == EXPERIMENTER else f"{EXPERIMENTER} {by}")
                 done = True
             case _:
                 raise InputError("deed", "there is no such deed")

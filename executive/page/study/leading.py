@@ -156,7 +156,7 @@ class _Talks:
         """Do what is said until the task is over.
 
         Raises:
-            KeyboardInterrupt: if someone else than the participant says stop.
+            KeyboardInterrupt: if a signal says stop.
         """
         person, session = self.page.person, self.session
         while not person.ended and (line := session.next_command(person)) is not None:
@@ -165,7 +165,7 @@ class _Talks:
                 continue
             outcome = session.run(line)
             self._write(line, outcome, where)
-            if session.stopped_by not in ("", THE_PERSON):
+            if session.stopped_by:
                 raise KeyboardInterrupt
         self._write_unheard(where)
 

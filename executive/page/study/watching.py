@@ -5,7 +5,7 @@ import time
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from executive.events import THE_PERSON, Deed, Intervened, StopRequested
+from executive.events import Intervened, StopRequested
 from executive.page.experiment.wizard import AS_BEFORE
 from executive.page.study.tables import STOP
 from executive.records import EventTaken, Record
@@ -38,24 +38,18 @@ class Watch:
         self._seen: list[SteppedIn] = []
         self._unheard: list[tuple[int, Intervened]] = []
         """With when it was done (wall time, ns since 1970)."""
-        self._was_stopped = False
-        """Whether an experimenter stops it, in the person's stead."""
 
     def write(self, stamp: Stamp, record: Record) -> None:
         """Keep it if somebody stepped in."""
         match record:
-            case EventTaken(StopRequested(by)):
-                self._stop(by, stamp)
+            case EventTaken(StopRequested() as stop) if not stop.is_of_experimenter:
+                with self._lock:
+                    seen = SteppedIn(STOP, stop.by, _iso(stamp.wall_ns), stamp.mission_s)
+                    self._seen.append(seen)
             case EventTaken(Intervened() as event):
                 self._hear(event, stamp)
             case _:
                 pass
-
-    def _stop(self, by: str, stamp: Stamp) -> None:
-        with self._lock:
-            if not (self._was_stopped and by == THE_PERSON):
-                self._seen.append(SteppedIn(STOP, by, _iso(stamp.wall_ns), stamp.mission_s))
-            self._was_stopped = False
 
     def beside(self, event: Intervened) -> None:
         """An experimenter does this; a mission that runs hears of it. From any thread."""
@@ -65,7 +59,6 @@ class Watch:
     def _hear(self, event: Intervened, stamp: Stamp) -> None:
         with self._lock:
             self._unheard = [one for one in self._unheard if one[1] is not event]
-            self._was_stopped = event.deed == Deed.STOP
             if event.was != AS_BEFORE:
                 self._seen.append(_stepped_in(event, stamp))
 

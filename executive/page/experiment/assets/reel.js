@@ -260,5 +260,6 @@ export class Reel {
       told.scores.length ? element("ol", {}, ...told.scores.map(([score, place]) =>
         element("li", {}, `${score.toFixed(2)} ${place}`))) : "");
     this.why.parentElement.scrollTop = 0;
+    this.why.parentElement.scrollIntoView({ block: "nearest" }); // on a phone it is above the list
   }
 }

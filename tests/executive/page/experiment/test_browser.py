@@ -116,6 +116,17 @@ def test_what_is_looked_at_outlives_loading_and_one_goes_back(
         expect(tab.locator("#live")).to_be_visible()
 
 
+def test_on_a_phone_it_is_read_in_lines_that_no_run_was_found(
+    browser: Browser, busy: Robot
+) -> None:
+    with desk(browser, busy, viewport=PHONE) as tab:
+        tab.get_by_role("button", name="Past runs").click()
+        tab.get_by_label("Words", exact=True).fill("nothing of the kind")
+        told = tab.locator("#runs caption")
+        expect(told).to_contain_text("None of them")
+        assert (told.bounding_box() or {})["width"] > PHONE["width"] / 2
+
+
 def test_a_run_is_held_against_todays_tree(browser: Browser, busy: Robot) -> None:
     with desk(browser, busy) as tab:
         open_past(tab, "peach done")

@@ -149,7 +149,7 @@ def test_a_stop_is_answered_although_words_are_held(stepped: Robot) -> None:
     step_in(stepped.page, "stop")
     assert heard(stepped.page, "said", who="robot")["text"].startswith("Stopping.")
     outcome = stepped.ended(1)
-    assert outcome.status == "stopped"
+    assert (outcome.status, outcome.reason) == ("stopped", f"stopped by the experimenter {ANNA}")
     assert interventions(outcome)[-1] == (ANNA, "stop", "", "")
 
 
