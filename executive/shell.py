@@ -79,6 +79,10 @@ def entry_point(main: Callable[[Sequence[str] | None], int]) -> EntryPoint:
             except ExecutiveError as error:
                 print(f"error: {printable(error)}", file=sys.stderr)
                 return BAD_INPUT
+            except PermissionError as error:
+                named = printable(str(error.filename or "the system"))
+                print(f"error: {named}: {error.strerror}; name what you may use", file=sys.stderr)
+                return BAD_INPUT
             except KeyboardInterrupt:
                 return STOPPED
             except BrokenPipeError as error:

@@ -19,7 +19,7 @@ from executive.app.sources import checked
 from executive.app.speaking import speak_aloud
 from executive.app.talking import answer, remember
 from executive.config import Settings
-from executive.errors import ExecutiveError
+from executive.errors import ExecutiveError, InputError
 from executive.events import THE_PERSON, Broke, Event, Inbox, Started, StopRequested
 from executive.guards import GuardedExperience, GuardedRecorder, GuardedRobot, GuardedUser, in_words
 from executive.interfaces.dialogue import User
@@ -168,7 +168,7 @@ class Session:
 
         Raises:
             ExecutiveError: if the session is closed.
-            InputError: if the run's folder cannot be made.
+            InputError: if the first run's folder cannot be made; later ones go on without.
             KeyboardInterrupt: if someone says stop by signal a second time.
         """
         if self._closed:
@@ -186,7 +186,7 @@ class Session:
             GuardedExperience(self.parts.experience, self.recorder).learn()
         started = datetime.now(UTC)
         if self._recording:
-            self.folder = new_folder(self.settings.runs, started, words)
+            self.folder = self._new_folder(started, words)
         situation = Situation.at_start(words, self._before)
         try:
             self._carry_out_safely(situation, started)
@@ -194,6 +194,16 @@ class Session:
             outcome = self._end(situation, began)
         self._before = remember(words, outcome, self.parts, self._before)
         return outcome
+
+    def _new_folder(self, started: datetime, words: str) -> Path | None:
+        """Where to record; nowhere if that fails later than at first, when the robot is in use."""
+        try:
+            return new_folder(self.settings.runs, started, words)
+        except InputError as error:
+            if self._before is FIRST:
+                raise
+            log.warning("the mission goes on without logs: %s", error)
+            return None
 
     def _end(self, situation: Situation, began: float) -> Outcome:
         """What came of the mission, recorded; and how things stand now, for the next one."""
@@ -268,7 +278,7 @@ class Session:
         self.inbox.drop_all()
         self.parts.clock.restart()
         logs: list[Sink] = []
-        self.is_recorded = True
+        self.is_recorded = self.folder is not None or self._recording is None
         try:
             if self.folder and self._recording:
                 before = self._before.to_metadata()

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from executive.campaign import blocks, draws
-from executive.campaign.folder import Folder, Progress
+from executive.campaign.folder import Folder, Progress, make_folder
 from executive.campaign.journal import CRASHED, Entry, Journal, in_order, write_tables
 from executive.campaign.report import paper
 from executive.campaign.report.report import not_counted, write_report
@@ -31,8 +31,8 @@ class Campaign:
         """Read the options, and make the folder and have it to oneself.
 
         Raises:
-            InputError: if an option or a file is wrong, or the folder holds another campaign, or
-                another process runs one in it.
+            InputError: if an option or a file is wrong, or a folder cannot be written to, or it
+                holds another campaign, or another process runs one in it.
         """
         self._out: Path = options.out or Path("campaigns") / options.setting
         self._policies = tuple(dict.fromkeys(options.policy or ["ours"]))
@@ -63,6 +63,8 @@ class Campaign:
         self._as_in_paper = as_in_paper(settings, commands)
         self._journal = Journal(self._out / "journal.jsonl")
         self._runner = self._runner_for(options)
+        if options.runs:
+            make_folder(options.runs, "--runs")
         self._folder = Folder(self._out, settings[0], commands, self._journal)
 
     def run(self) -> int:

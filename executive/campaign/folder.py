@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from importlib.metadata import version
 from pathlib import Path
+from tempfile import TemporaryFile
 from types import FrameType
 from typing import Any, Protocol, TextIO
 
@@ -84,7 +85,7 @@ class Folder:
         """
         self._out, self._journal = out, journal
         self._interrupted = False
-        _make(out)
+        make_folder(out, "--out")
         with ExitStack() as until_it_fails:
             self.lock = until_it_fails.enter_context(lock_folder(out, "--out"))
             """Whoever leaves it lets others have the folder; `run` does."""
@@ -143,17 +144,19 @@ class Folder:
             raise InputError(f"--out {self._out}", what, right) from None
 
 
-def _make(out: Path) -> None:
-    """Make the campaign's folder if there is none.
+def make_folder(folder: Path, option: str) -> None:
+    """Make a folder if there is none, and see that files can be made in it.
 
     Raises:
-        InputError: if it cannot be made.
+        InputError: if they cannot; it names the option.
     """
     try:
-        out.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(parents=True, exist_ok=True)
+        TemporaryFile(dir=folder).close()
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) else error
-        raise InputError("--out", f"cannot make {out}: {why}") from None
+        what = f"cannot write to {folder}: {why}"
+        raise InputError(option, what, "name a folder to write to") from None
 
 
 def claim(out: Path, settings: Settings, commands: Sequence[str]) -> dict[str, str]:

@@ -3,8 +3,8 @@
 from functools import cache
 
 from executive.language.control import Control, control
-from executive.language.grammar import EnglishInterpreter
-from executive.language.meaning import Request, Task, Thing, Things
+from executive.language.grammar import EnglishInterpreter, is_read
+from executive.language.meaning import Answer, Request, Task, Thing, Things, Unread
 from executive.language.phrases import CLAUSE_ENDS, MOST_WORDS, NEGATION, place_words, spoken
 from executive.language.reader import english
 
@@ -25,7 +25,9 @@ def heard_as(name: str) -> str | None:
         return "says that somebody does not know"
     if _says_yes_or_no(words):
         return "says yes or no"
-    return "says what was spoken of before" if _is_pronoun(words) else None
+    if _is_pronoun(words):
+        return "says what was spoken of before"
+    return "has only words that say something else" if _says_something_else(words) else None
 
 
 def says_how_many(name: str) -> bool:
@@ -38,15 +40,15 @@ def says_how_many(name: str) -> bool:
 def place_fault(name: str) -> Fault | None:
     """Why no answer can name a place that is called this; None if one can."""
     words = spoken(name)
+    telling = place_words(words)
+    if not telling:
+        return "it has no word that says which place it is", "add one, as in corner_desk"
     if meaning := heard_as(name):
         return f"this name has a meaning of its own: it {meaning}", _OTHER
     if denial := NEGATION.search(words):
         return f"an answer with {denial[0]!r} in it names no place", f"leave {denial[0]!r} out"
     if end := CLAUSE_ENDS.search(words):
         return f"{end[0]!r} would be read as the end of the name", f"leave {end[0]!r} out"
-    telling = place_words(words)
-    if not telling:
-        return "it has no word that says which place it is", "add one, as in corner_desk"
     if len(telling) > MOST_WORDS:
         return f"it has more than {MOST_WORDS} words", "shorten it"
     return None
@@ -71,6 +73,18 @@ def _is_pronoun(words: str) -> bool:
         case Request(tasks=(Task(things=Things(members=(Thing(pronoun=True),)), goal=None),)):
             return True
     return False
+
+
+def _says_something_else(words: str) -> bool:
+    """As "find it", "where" and "how many" do: sentences are made of them, not names."""
+    if not english().vocabulary.issuperset(words.split()):
+        return False
+    match english().read(words):
+        case Answer():
+            return False
+        case Unread():
+            return not is_read(words)
+    return True
 
 
 @cache

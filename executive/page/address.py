@@ -74,10 +74,15 @@ class Address:
         try:
             context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
             context.load_cert_chain(self.certificate, self.key, password="")
-        except (OSError, ValueError) as error:
-            why = error.strerror if isinstance(error, FileNotFoundError) else "is no PEM of that"
-            right = "give a certificate and its key without a password"
-            raise InputError("--page-cert", f"cannot be used: {why}", right) from None
+        except (ssl.SSLError, ValueError):
+            raise _unusable("is no PEM of that") from None
+        except OSError as error:
+            raise _unusable(str(error.strerror)) from None
+
+
+def _unusable(why: str) -> InputError:
+    right = "give a certificate and its key without a password"
+    return InputError("--page-cert", f"cannot be used: {why}", right)
 
 
 def add_page(parser: argparse.ArgumentParser, *, experimenter: bool = True) -> None:

@@ -20,7 +20,7 @@ from sim.home.arrangement import NoRoomError, Spot
 from sim.home.furniture import Furniture
 from sim.home.home import Home
 
-RIGHT = "name a file that --home-state made, or one that does not exist yet"
+RIGHT = "name a file that --home-state made, or one that does not exist yet in a folder of yours"
 STANDS_M = 0.02
 """What stands on a board is no farther above or below it."""
 _SHOWN = 80

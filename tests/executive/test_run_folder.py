@@ -1,8 +1,10 @@
 """The folder of a run: a name that every system takes, and files that are whole."""
 
 import errno
+import io
 import logging
 import os
+import shutil
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -11,6 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.app.run_folder import new_folder, write
+from executive.app.session import Session
+from executive.config import load_settings
 from executive.errors import InputError
 
 NOW = datetime(2026, 11, 25, 12, tzinfo=UTC)
@@ -31,6 +35,26 @@ def test_a_folder_is_named_after_any_words(
 def test_a_folder_that_cannot_be_made_is_a_sentence(tmp_path: Path, name: str) -> None:
     with pytest.raises(InputError, match=r"--runs: cannot make .*; name a folder to write to"):
         new_folder(tmp_path / name, NOW, "Find a mug")
+
+
+def test_a_session_goes_on_when_no_more_folders_can_be_made(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    runs = tmp_path / "runs"
+    settings = load_settings(world="fake", llm="none", user="none", runs=runs)
+    with Session(settings, out=io.StringIO()) as session:
+        runs.touch()
+        with pytest.raises(InputError, match="--runs: cannot make"):
+            session.run("Find a mug")
+        runs.unlink()
+        assert session.run("Find a mug").run_dir
+        assert session.is_recorded
+        shutil.rmtree(runs)
+        runs.touch()
+        outcome = session.run("Take the mug")
+        assert (outcome.status, outcome.run_dir) == ("done", None)
+        assert not session.is_recorded
+    assert "the mission goes on without logs: --runs" in caplog.text
 
 
 def test_a_file_that_a_full_disk_has_no_room_for_is_not_there_by_half(

@@ -1,5 +1,6 @@
 """How commands end."""
 
+import errno
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -34,6 +35,18 @@ def test_bad_input_ends_a_command_with_a_line_that_says_what_would_be_right(
 
     assert main([]) == BAD_INPUT
     assert capsys.readouterr().err == "error: --rooms: is 0; give at least 1\n"
+
+
+def test_what_the_user_may_not_use_ends_a_command_with_a_line_that_names_it(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    @entry_point
+    def main(arguments: Sequence[str] | None = None) -> int:
+        raise PermissionError(errno.EACCES, "Permission denied", "locked/mission.mcap")
+
+    assert main([]) == BAD_INPUT
+    line = "error: locked/mission.mcap: Permission denied; name what you may use\n"
+    assert capsys.readouterr().err == line
 
 
 def test_ctrl_c_ends_a_command_without_a_traceback(capsys: pytest.CaptureFixture[str]) -> None:

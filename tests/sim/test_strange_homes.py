@@ -96,6 +96,7 @@ def test_rooms_kinds_and_homes_have_names_too(said, key: str) -> None:
         *("Wait", "never mind", "bye"),
         *("I do not know", "no idea", "NoIdea", "not_sure", "nothing there"),
         *("yes", "no", "ok", "of course", "nope", "me", "it", "there", "here", "anywhere"),
+        *("stop", "where", "How many", "please", "Find it", "put it back", "thanks"),
     ],
 )
 def test_a_name_that_means_something_else_is_refused(said, name: str) -> None:

@@ -218,6 +218,17 @@ def test_a_campaign_that_cannot_write_its_tables_says_so(
     assert main([*options, "--systems", "okb"]) == 0
 
 
+def test_no_mission_is_run_if_it_cannot_be_recorded_as_asked(
+    options: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").touch()
+    runs = tmp_path / "file" / "runs"
+    assert main([*options, "--systems", "okb", "--runs", str(runs)]) == 2
+    line = f"error: --runs: cannot write to {runs}: Not a directory; name a folder to write to\n"
+    assert capsys.readouterr().err == line
+    assert not (tmp_path / "out" / "journal.jsonl").exists()
+
+
 def test_a_damaged_note_of_what_the_folder_is_for_is_a_sentence(
     options: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

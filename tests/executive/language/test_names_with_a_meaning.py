@@ -4,6 +4,8 @@ import re
 import tomllib
 from itertools import chain
 
+import pytest
+
 from executive.language import naming
 from executive.language.naming import heard_as, says_how_many
 from executive.language.reader import ASSETS, english
@@ -13,6 +15,13 @@ def test_a_name_of_words_without_a_meaning_is_not_read(monkeypatch) -> None:
     monkeypatch.setattr(naming, "_english", None)
     assert heard_as("salad spinner") is None
     assert not says_how_many("salad spinner")
+
+
+@pytest.mark.parametrize(
+    "name", ["left", "store", "spare box", "clear box", "go kart", "left closet"]
+)
+def test_a_name_of_such_words_that_is_read_as_a_name_is_fine(name: str) -> None:
+    assert heard_as(name) is None
 
 
 def test_a_name_means_what_it_means_when_all_of_it_is_read(monkeypatch) -> None:

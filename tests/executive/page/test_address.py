@@ -79,7 +79,8 @@ def test_what_is_opened_is_an_address_of_this_machine_that_a_phone_can_open() ->
 def test_a_certificate_that_is_none_is_told(tmp_path: Path) -> None:
     text = tmp_path / "cert.pem"
     text.write_text("no certificate")
-    for certificate, why in ((text, "no PEM"), (tmp_path / "none.pem", "No such file")):
+    told = ((text, "no PEM"), (tmp_path / "none.pem", "No such file"), (tmp_path, "Is a directory"))
+    for certificate, why in told:
         with pytest.raises(InputError, match=f"--page-cert: cannot be used: .*{why}"):
             Address(0, certificate=certificate).checked()
 
