@@ -1,10 +1,11 @@
 """Which things words mean, as far as nobody has to be asked."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from executive.interfaces.knowledge import Knowledge
 from executive.language.spoken import QUESTIONS
-from executive.types.commands import Command
+from executive.types.commands import Command, Commands
 from trees.context import MissionContext
 
 
@@ -48,10 +49,57 @@ def leaves_out_a_place(context: MissionContext, commands: Iterable[Command]) -> 
 
     "On the sofa, not the desk" says no more than the sofa.
     """
-    knowledge = context.knowledge
+    places = context.knowledge.places_named
     return any(
-        {*knowledge.places_named(but)} & {*knowledge.places_named(command.goal or but)}
+        {*places(but)} & {*places(command.goal or but)}
         for command in commands
+        for but in _places_left_out(context, command)
+    )
+
+
+def less_what_is_left_out(context: MissionContext, commands: Commands) -> Commands:
+    """The same with only things in their exceptions, and without tasks whose own things these are.
+
+    A place that is not meant changes nothing. Of the apple and the mug that were seen, the mug is
+    "everything but the fruit"; where nothing would be left, all stay as they are.
+    """
+    less = tuple(
+        tuple(replace(one, exceptions=_things_left_out(context, one)) for one in group)
+        for group in commands
+    )
+    wanted = (
+        tuple(one for one in group if not _is_left_out(context, one, group)) for group in less
+    )
+    return tuple(filter(None, wanted)) or less
+
+
+def _is_left_out(context: MissionContext, command: Command, group: Sequence[Command]) -> bool:
+    """Whether none of its things is meant, by what is said of the whole group."""
+    of_all = all(one.exceptions == command.exceptions for one in group)
+    named = meant(context.knowledge, command)
+    return of_all and bool(named) and not without_exceptions(context.knowledge, command, named)
+
+
+def goes_elsewhere(context: MissionContext, command: Command, before: Command) -> bool:
+    """Whether its thing is to go on the sofa, and not where the task before takes it."""
+    things = {*things_meant(context, before)}
+    if not things or not things <= {*things_meant(context, command)}:
+        return False
+    places = context.knowledge.places_named
+    goals = {*places(before.goal)}
+    return any(goals & {*places(but)} for but in _places_left_out(context, command))
+
+
+def _places_left_out(context: MissionContext, command: Command) -> tuple[str, ...]:
+    things = _things_left_out(context, command)
+    return tuple(but for but in command.exceptions if but not in things)
+
+
+def _things_left_out(context: MissionContext, command: Command) -> tuple[str, ...]:
+    """Its exceptions but for those that name a place, and no thing."""
+    knowledge = context.knowledge
+    return tuple(
+        but
         for but in command.exceptions
-        if knowledge.is_place(but) and not knowledge.objects_named(but)
+        if knowledge.objects_named(but) or not knowledge.is_place(but)
     )

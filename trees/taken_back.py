@@ -17,7 +17,9 @@ _IT = frozenset(("it", "that", "this", "them"))
 _SEVERAL = frozenset(("them", "both", "those", "these"))
 _REST = re.compile(r"(?:^|\bthe )rest\b|\b(?:every|any)thing else\b")
 _OTHERS = re.compile(r"\b(?:the|all) others?\b(?: (?:one|two|three|four|five|ones)\b)?")
-_ALL = frozenset(("anything", "everything", "all", "any", "nothing", "none"))
+_ALL = re.compile(
+    r"\b(?:anything|everything|all|any|nothing|none)\b(?!.*\b(?:else|but|except)\b)", re.I
+)
 
 
 def refused(context: MissionContext, words: str, at_hand: Command | None) -> str:
@@ -132,8 +134,8 @@ def is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
 
 
 def _means_all(words: str) -> bool:
-    """As in "do not bring anything", but not "I need nothing else"."""
-    return bool(_ALL & _words(words)) and "else" not in _words(words)
+    """As in "do not bring anything", but not "I need nothing else", "all but two"."""
+    return _ALL.search(words) is not None
 
 
 def _words(words: str) -> set[str]:

@@ -17,7 +17,7 @@ from trees.at_hand import differs
 from trees.attention import attend_to
 from trees.context import MissionContext
 from trees.corrections import correct
-from trees.meant import leaves_out_a_place
+from trees.meant import leaves_out_a_place, less_what_is_left_out
 from trees.model import ModelAction, RankKinds, WriteCommand
 from trees.nodes import FirstOf, Step, fallback, sequence
 from trees.order import begin_next
@@ -94,7 +94,7 @@ class ReadCommand(Step):
         if leaves_out_a_place(self.context, chain.from_iterable(commands)):
             self.situation.request.remark = f"I cannot {LEAVE_OUT_PLACES}."
             return self.fail("a place is not meant")
-        self.situation.agenda.add(commands)
+        self.situation.agenda.add(less_what_is_left_out(self.context, commands))
         begin_next(self.context)
         return self.succeed("; ".join(map(named, chain.from_iterable(commands))))
 

@@ -9,7 +9,7 @@ from executive.language.pronouns import resolved
 from executive.types.commands import Command, CommandKind, Commands
 from trees.at_hand import of_all_spoken
 from trees.context import MissionContext
-from trees.meant import leaves_out_a_place
+from trees.meant import goes_elsewhere, leaves_out_a_place, less_what_is_left_out
 from trees.taken_back import is_about, refused
 from trees.wishes import added, done_first, objects_of, replaced
 
@@ -23,16 +23,34 @@ def take_in(
         return added(context, commands, now)
     if leaves_out_a_place(context, chain.from_iterable(commands)):
         return f"I cannot {LEAVE_OUT_PLACES}. {now}"
+    elsewhere = _elsewhere(context, commands, at_hand)
+    commands = less_what_is_left_out(context, commands)
     if alone := left_alone(said):
         return _instead_of(context, alone, commands, at_hand)
     if at_hand:
         if fails := _if_it_fails(context, commands, at_hand):
             return replaced(context, ((fails,),))
-        if _in_its_stead(context, said, at_hand) or _lets_go(context, commands):
+        if elsewhere or _in_its_stead(context, said, at_hand) or _lets_go(context, commands):
             return replaced(context, commands)
         if said.first:
             return done_first(context, commands, at_hand)
     return added(context, commands, now)
+
+
+def _elsewhere(context: MissionContext, commands: Commands, at_hand: Command | None) -> bool:
+    """Whether what is at hand is to go elsewhere: "put it on the sofa, not the desk".
+
+    Tasks that wait, and whose things are to go elsewhere, are struck out.
+    """
+
+    def is_changed(before: Command) -> bool:
+        each = chain.from_iterable(commands)
+        return any(goes_elsewhere(context, command, before) for command in each)
+
+    agenda = context.situation.agenda
+    for task in [task for task in agenda.whole_tasks if is_changed(task.command)]:
+        agenda.tasks.remove(task)
+    return at_hand is not None and is_changed(at_hand)
 
 
 def _in_its_stead(context: MissionContext, said: Request, at_hand: Command) -> bool:

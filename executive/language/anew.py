@@ -51,7 +51,8 @@ def in_place_of(task: Task, things: Things) -> Task:
     kind = task.things.members[0].words if task.things else ""
     if [thing.words for thing in things.members] == [_ONE]:  # "no, one"
         number = None if things.members[0].definite else 1
-        thing = replace(things.members[0], words=kind, number=number, said=kind)
+        said = kind + things.members[0].said.partition(_ONE)[2]  # "one for Anna"
+        thing = replace(things.members[0], words=kind, number=number, said=said)
         return replace(task, things=replace(things, members=(thing,)))
     members = tuple(
         t if t.words or t.pronoun else replace(t, words=kind, said=f"{t.said} {kind}")

@@ -141,8 +141,8 @@ class Nouns(Transformer[Token, Said]):
         """As in "all the fruit", "everything but the mug"."""
         noun = next((p for p in parts if isinstance(p, Thing)), Thing())
         left_out = exceptions_of(parts)
-        if so_many := [t.said for t in left_out if (t.number or 0) > 1 and not t.definite]:
-            raise Unfit(so_many[0])  # "all but two fruits": which two?
+        if so_many := [t.said for t in left_out if t.number and not t.definite]:
+            raise Unfit(so_many[0])  # "all but two fruits", "all but one of them": which?
         return replace(noun, number=ALL, definite=True, exceptions=left_out, said=said_of(parts))
 
     def some_of(self, parts: list[Part]) -> Thing:

@@ -30,6 +30,8 @@ _ONE = "one"
 """Of a kind that was spoken of."""
 _ANYWHERE = (CommandKind.COUNT, CommandKind.CHECK)
 """Questions that need no place: "how many fruits are there"."""
+_EVERYTHING = ("all", "everything")
+"""Of what was just told, if a question was."""
 
 
 def resolved(said: Said, spoken: Spoken, *, holds: bool = False) -> Said:
@@ -179,7 +181,7 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
     if len(members) < 2 and all(thing.place_in_list for thing in task.things.members):
         members = tuple(map(_called, spoken.things))  # "bring the first and put the second there"
     seen = not before and spoken.request and spoken.request.tasks[-1].verb in QUESTIONS
-    if seen and (rest := _all_but(task.things, members)):
+    if seen and not task.source and (rest := _all_but(task.things, members)):
         return rest
     if seen and len(members) > 1 and is_it(task.things) and not of_several(task.things):
         return _which(task.things, spoken)
@@ -233,11 +235,14 @@ def _unclear(things: Things, members: tuple[Thing, ...]) -> bool:
 
 
 def _all_but(things: Things, members: tuple[Thing, ...]) -> Things | None:
-    """As in "bring all but the apple", of what was just told; None if it is something else."""
+    """As in "bring all but the apple", "bring everything", of what was just told.
+
+    None if it is something else.
+    """
     if len(things.members) != 1 or len(members) < 2:
         return None
     [thing] = things.members
-    if thing.words or thing.number != ALL or not thing.said.startswith("all"):
+    if thing.words or thing.number != ALL or not thing.said.startswith(_EVERYTHING):
         return None
     return _less(members, thing.exceptions)
 
@@ -269,7 +274,8 @@ def _one_of_kind(things: Things, kind: str) -> Things | None:
     """As in "is there a mug? If so, bring me one"; None if it is something else."""
     if not kind or [thing.words for thing in things.members] != [_ONE]:
         return None
-    thing = replace(things.members[0], words=kind, number=1, said=kind)
+    said = kind + things.members[0].said.partition(_ONE)[2]  # "one for Anna"
+    thing = replace(things.members[0], words=kind, number=1, said=said)
     return replace(things, members=(thing,))
 
 

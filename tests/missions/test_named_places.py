@@ -94,7 +94,13 @@ def test_a_thing_that_is_gone_from_there_is_not_looked_for_there_again(tmp_path:
 
 
 @pytest.mark.parametrize(
-    "words", ["Find the mug, but not the desk", "Find the mug but not on the desk"]
+    "words",
+    [
+        "Find the mug, but not the desk",
+        "Find the mug but not on the desk",
+        "Put the mug in the bedroom but not on the bed",
+        "Find the mug in the kitchen, not in the bedroom",
+    ],
 )
 def test_who_leaves_out_a_place_is_told_that_it_cannot_be(words: str) -> None:
     run = run_mission(words, llm=False)

@@ -8,10 +8,11 @@ from talking import session_in, session_of, told, without_room
 
 from executive.app.session import Session
 from executive.campaign.truth import completed, whereabouts
+from executive.events import Inbox
 from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
 from executive.types.commands import CommandKind
-from executive.types.goals import DriveTo, Pick
+from executive.types.goals import DriveTo, Goal, Pick, PutDown
 from executive.types.home import DELIVERY, HAND
 from executive.types.outcome import MissionStatus
 from logs.questions.decision import why_text
@@ -41,6 +42,17 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
 
 def put(words: str, **given: object) -> Run:
     return run_mission(words, llm=False, **given)
+
+
+def saying_once(words: str) -> Callable[[Goal, Inbox], None]:
+    """Says it as the robot begins with its first goal."""
+    left = [words]
+
+    def during(goal: Goal, inbox: Inbox) -> None:
+        if left:
+            inbox.hear(left.pop())
+
+    return during
 
 
 def end_of(run: Run) -> tuple[str, str]:
@@ -340,6 +352,57 @@ def test_what_is_on_one_place_goes_into_another(serve: Serve) -> None:
     assert {world.things["mug"], world.things["pudding_box"]} == {"refrigerator"}
 
 
-def test_a_goal_less_another_place_is_the_goal() -> None:
-    run = run_mission("Put the mug on the sofa instead of the desk", llm=False)
+@pytest.mark.parametrize(
+    "less",
+    [" instead of the desk", " rather than on the desk", ", not on the desk", ", not the desk"],
+)
+def test_a_goal_less_another_place_is_the_goal(less: str) -> None:
+    run = run_mission(f"Put the mug on the sofa{less}", llm=False)
     assert run.outcome.reason == "I put the mug on the sofa."
+
+
+@pytest.mark.parametrize(
+    ("words", "meanwhile"),
+    [
+        ("Put the mug on the desk", "put it on the sofa, not the desk"),
+        ("Put the mug on the desk", "put it on the sofa, not on the desk"),
+        ("Put the hammer and the mug on the desk", "put them on the sofa, not the desk"),
+        (
+            "Put the hammer on the bed and the mug on the desk",
+            "put the mug on the sofa, not the desk",
+        ),
+    ],
+)
+def test_what_is_to_go_elsewhere_does_not_go_where_it_is_not_meant(
+    words: str, meanwhile: str
+) -> None:
+    run = put(words, during=saying_once(meanwhile))
+    assert run.world.things["mug"] == "sofa"
+    assert PutDown("desk") not in run.goals
+
+
+def test_another_thing_that_is_to_go_elsewhere_is_one_more_task() -> None:
+    meanwhile = saying_once("put the mug on the sofa, not on the desk")
+    run = put("Put the hammer on the desk", during=meanwhile)
+    assert (run.world.things["hammer"], run.world.things["mug"]) == ("desk", "sofa")
+
+
+def test_what_only_one_of_several_leaves_out_is_asked_about() -> None:
+    run = put("Bring the apple and the pear, but not the fruit", answers=[None])
+    assert run.outcome.status == MissionStatus.NOT_DONE
+    assert [task.kind for task in run.outcome.tasks] == [CommandKind.BRING, CommandKind.BRING]
+
+
+@pytest.mark.parametrize(
+    ("words", "things"),
+    [
+        ("Put everything but the apple on the desk", {"banana", "strawberry", "cracker_box"}),
+        ("Put everything on the desk except the fruit", {"cracker_box"}),
+    ],
+)
+def test_everything_is_what_was_just_told(serve: Serve, words: str, things: set[str]) -> None:
+    session, world = serve()
+    session.run("What is on the dining table?")
+    before = {name for name, place in world.things.items() if place == "desk"}
+    assert session.run(words).status == "done"
+    assert {name for name, place in world.things.items() if place == "desk"} - before == things

@@ -784,3 +784,14 @@ def test_what_is_to_be_first_has_to_be_named() -> None:
 @pytest.mark.parametrize("words", ["No no, to the sofa", "No, no, to the sofa"])
 def test_who_says_no_twice_means_it(words: str) -> None:
     assert run("Bring the hammer", words).world.resting_place("hammer") == "sofa"
+
+
+def test_all_but_so_many_takes_nothing_back() -> None:
+    mission = run("Bring all the tools", "all but two")
+    assert mission.outcome.status == DONE
+    assert any(said.startswith("I hear 'but'") for said in answers(mission))
+
+
+def test_for_whom_one_more_is_to_be_is_not_lost() -> None:
+    mission = run("Bring the hammer", "and one for Anna")
+    assert "All right: I bring hammer for anna afterwards." in answers(mission)

@@ -204,8 +204,12 @@ def test_one_may_be_written_as_a_digit(words: str) -> None:
     assert (command.target, command.number) == ("tool", 0)
 
 
-def test_of_all_but_so_many_it_is_not_clear_which() -> None:
-    assert read.commands("Bring all but two fruits") == ()
+@pytest.mark.parametrize("so_many", ["two fruits", "one fruit", "one of the tools"])
+def test_of_all_but_so_many_it_is_not_clear_which(so_many: str) -> None:
+    assert read.commands(f"Bring all but {so_many}") == ()
+
+
+def test_of_all_but_those_that_are_named_it_is_clear_which() -> None:
     [[command]] = read.commands("Bring all but the two pears")
     assert command.exceptions == ("pears",)
 
