@@ -161,13 +161,13 @@ def named_in(command: Command) -> tuple[str, ...]:
 @lru_cache(maxsize=16)
 def _reader_of(names: tuple[str, ...]) -> tuple[Reader, frozenset[str]]:
     """What reads, and these names as it writes them: of every mission in a home the same."""
-    odd = tuple(sorted({name for name in names if not is_read(name)}))
+    odd = tuple(sorted({name for name in names if not _is_read(name)}))
     reader = english(odd) if odd else english()
     return reader, frozenset(map(reader.plain, names))
 
 
 @cache
-def is_read(name: str) -> bool:
+def _is_read(name: str) -> bool:
     """Whether the grammar reads a name as one, without being told."""
     if english().denial_in_name(name):
         return False

@@ -3,8 +3,17 @@
 from functools import cache
 
 from executive.language.control import Control, control
-from executive.language.grammar import EnglishInterpreter, is_read
-from executive.language.meaning import Answer, Request, Task, Thing, Things, Unread
+from executive.language.grammar import EnglishInterpreter
+from executive.language.meaning import (
+    Answer,
+    Correction,
+    Refusal,
+    Request,
+    Task,
+    Thing,
+    Things,
+    Unread,
+)
 from executive.language.phrases import CLAUSE_ENDS, MOST_WORDS, NEGATION, place_words, spoken
 from executive.language.reader import english
 
@@ -12,6 +21,7 @@ Fault = tuple[str, str]
 """What is wrong with a name, as a clause, and what would be right."""
 
 _OTHER = "give another name"
+_OFTEN_SAID = "where is it", "how many are there", "please find it", "bring two mugs"
 
 
 def heard_as(name: str) -> str | None:
@@ -76,14 +86,14 @@ def _is_pronoun(words: str) -> bool:
 
 
 def _says_something_else(words: str) -> bool:
-    """As "find it", "where" and "how many" do: sentences are made of them, not names."""
-    if not english().vocabulary.issuperset(words.split()):
+    """As "find it" does; or others are read otherwise in a home with such a name, as "where"."""
+    plain = english()
+    if not plain.vocabulary.issuperset(words.split()):
         return False
-    match english().read(words):
-        case Answer():
-            return False
-        case Unread():
-            return not is_read(words)
+    match plain.read(words):
+        case Answer() | Unread() | Refusal() | Correction():
+            told = english((words,))
+            return any(told.read(said) != plain.read(said) for said in _OFTEN_SAID)
     return True
 
 

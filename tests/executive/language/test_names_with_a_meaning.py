@@ -18,7 +18,11 @@ def test_a_name_of_words_without_a_meaning_is_not_read(monkeypatch) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["left", "store", "spare box", "clear box", "go kart", "left closet"]
+    "name",
+    [
+        *("left", "store", "spare box", "clear box", "go kart", "left closet"),
+        *("spare parts", "left hand", "other things"),
+    ],
 )
 def test_a_name_of_such_words_that_is_read_as_a_name_is_fine(name: str) -> None:
     assert heard_as(name) is None
