@@ -18,7 +18,7 @@ pytest.register_assert_rewrite("executive.testing.contracts")  # so that they te
 LIMITS = {
     "executive.campaign.cluster": ("CONNECTING_S",),
     "executive.ros.actions": ("LINK_S", "PATH_S"),
-    "executive.ros.camera": ("FRAME_S", "LINK_S"),
+    "executive.ros.camera": ("LINK_S",),
     "executive.ros.rclpy_link": ("SERVER_S",),
     "executive.ros.thread": ("LEAVING_S",),
     "kb.llm.llama": ("CLOSING_S",),

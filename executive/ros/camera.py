@@ -24,8 +24,6 @@ TOGETHER_S = 0.02
 """Colour and depth that are no further apart are of one moment."""
 KEPT = 8
 """Pictures of either that wait for their other."""
-FRAME_S = 1.0
-"""So long a picture waits for its frame to be told."""
 LINK_S = 5.0
 
 
@@ -109,13 +107,16 @@ class Shutter:
         said = str(color["header"]["frame_id"]).lstrip("/")
         camera, within = self._profile.frames.camera or said, self._profile.frames.map
         stamp = stamp_of(color)
-        latest = asyncio.get_running_loop().time() + FRAME_S
+        late_s = self._profile.camera.late_s
+        latest = asyncio.get_running_loop().time() + late_s
         while asyncio.get_running_loop().time() < latest:
             pose = self._senses.frames.pose(camera, within, stamp)
             if pose is not None and self._senses.frames.newest >= stamp:
                 return pose
             await asyncio.sleep(0.01)
         pose = self._senses.frames.pose(camera, within, stamp)
+        if pose is None and self._senses.frames.pose(camera, within) is not None:
+            raise LateError(f"it was not told in {late_s:g} s where {camera} was in {within} then")
         if pose is None:
             raise LinkError(f"nobody tells where {camera} is in {within}: is the robot localised?")
         return pose

@@ -32,6 +32,10 @@ from executive.types.home import FLOOR, PERSON, Place
 from executive.types.perception import Detection
 from executive.types.results import Failed, Succeeded
 
+BESIDE_M = 0.5
+"""A base that is further from where it was sent has not got there."""
+TOLD_S = 3.0
+"""So long after a drive it may take until the robot tells where it is."""
 BESIDE_RAD = 0.6
 """A point that is further from where the robot faces is not looked at."""
 FACING_S = 2.0
@@ -181,8 +185,24 @@ class Deeds:
                 return self._actions.failure(end, f"I did not get to the {place}", lost)
             if lost:
                 return Failed(f"what I held fell on the way to the {place}", lost)
+        if (apart := await self._apart(stand)) > BESIDE_M:
+            there = f"but I am {apart:.1f} m away from there"
+            return Failed(f"my drive says that I am at the {place}, {there}")
         self._at, self._arrived = place, (self._senses.base, self._link.losses)
         return Succeeded()
+
+    async def _apart(self, stand: Planar) -> float:
+        """How far the base is from where it was sent (metres); 0 if nobody tells.
+
+        What tells so may come later than the end of the drive.
+        """
+        latest = asyncio.get_running_loop().time() + TOLD_S
+        while (base := self._senses.base) is not None:
+            apart = math.dist(base.position[:2], stand[:2])
+            if apart <= BESIDE_M or asyncio.get_running_loop().time() > latest:
+                return apart
+            await asyncio.sleep(0.02)
+        return 0.0
 
     async def _go(self, pose: Planar) -> str:
         """Drive there, near where the robot is; why that failed, or nothing."""

@@ -1,6 +1,7 @@
 """A robot with other names and encodings keeps the contracts by its profile alone."""
 
 import math
+import threading
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -15,13 +16,14 @@ from patience import until
 from second_robot import ACTIONS, PROFILE, SecondRobot
 
 from executive.events import Inbox
+from executive.ros.camera import LateError
 from executive.ros.connection import Connection
 from executive.ros.link import LinkError
 from executive.testing.bench import four_rooms
 from executive.testing.contracts.camera import CameraBench, CameraContract
 from executive.testing.contracts.requests import end_of
 from executive.testing.contracts.robot import Bench, RobotContract
-from executive.types.goals import DriveTo, Halt
+from executive.types.goals import DriveTo, Halt, LookAt
 from executive.types.results import Failed, Succeeded
 
 
@@ -85,6 +87,55 @@ def test_a_goal_looks_as_the_profile_has_it(linked: Linked) -> None:
     assert goal["hurry"] is True
     assert goal["where"]["header"]["frame_id"] == "world"
     assert goal["where"]["pose"]["position"] == {"x": x, "y": y, "z": 0.0}
+
+
+def tells_no_more_where_it_is(there: SecondRobot) -> None:
+    """It says again and again what it said last."""
+    there.told["/tf"] = there._frames()
+
+
+def test_a_drive_that_is_said_to_have_got_there_has_not_if_the_robot_is_elsewhere(
+    linked: Linked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("executive.ros.deeds.TOLD_S", 0.1)
+    tells_no_more_where_it_is(linked.there)
+    apart = math.dist(linked.there.at[:2], four_rooms().stand("desk")[:2])
+    result = linked.bench.do(DriveTo("desk"))
+    assert result == Failed(
+        f"my drive says that I am at the desk, but I am {apart:.1f} m away from there"
+    )
+    assert isinstance(linked.bench.do(LookAt("desk")), Failed)
+
+
+def test_where_it_got_to_may_be_told_after_that(linked: Linked) -> None:
+    tells_no_more_where_it_is(linked.there)
+    request = linked.bench.robot.start(DriveTo("desk"))
+    until(lambda: linked.there.goals and not linked.there.busy, "the end of the drive")
+    linked.there.told.clear()
+    assert linked.bench.end_of(request) == Succeeded()
+
+
+def test_a_picture_waits_for_where_it_was_taken(linked: Linked) -> None:
+    tells_no_more_where_it_is(linked.there)
+    linked.bench.wait(1.0)
+    told = threading.Timer(1.5, linked.there.told.clear)
+    told.start()
+    linked.here.camera.capture()
+    told.join()
+
+
+class TestHurriedPictures:
+    @pytest.fixture
+    def profile(self, tmp_path: Path) -> Path:
+        file = tmp_path / "hurried.toml"
+        file.write_text(PROFILE.read_text().replace("[camera]", "[camera]\nlate_s = 0.5"))
+        return file
+
+    def test_they_do_not_wait_for_longer_than_they_may_take(self, linked: Linked) -> None:
+        tells_no_more_where_it_is(linked.there)
+        linked.bench.wait(1.0)
+        with pytest.raises(LateError, match="not told in 0.5 s where eye was in world then"):
+            linked.here.camera.capture()
 
 
 class TestLegs:
