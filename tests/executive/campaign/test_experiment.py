@@ -42,8 +42,8 @@ def grid_of_nine() -> list[Row]:
 @pytest.mark.usefixtures("no_plots")
 def test_the_report_says_what_a_hand_computes() -> None:
     text = text_of([*missions("okb", [1, 1, 1, 1]), *missions("okb+llm", [0, 0, 0, 1])])
-    assert "| okb, defaults | 1.00 (0.80) | 1.00 to 1.00 | 0.00 (0.40) | 4 |" in text
-    assert "| okb+llm, defaults | 0.25 (0.14) | 0.25 to 0.25 | 0.50 (0.35) | 4 |" in text
+    assert "| okb, defaults | 1.00 (0.80) | - | 0.00 (0.40) | 4 |" in text
+    assert "| okb+llm, defaults | 0.25 (0.14) | - | 0.50 (0.35) | 4 |" in text
     assert "| defaults | okb - okb+llm | +0.75 | 1.000 (n = 1) | 0.250 (n = 4) |" in text
 
 
@@ -75,7 +75,7 @@ def test_what_is_only_said_to_be_done_is_a_failure_with_its_recording(tmp_path: 
     (row,) = missions("okb", [0])
     wrong = replace(row, completed=False, object="mug", truth="sofa", run_dir=f"{tmp_path}/runs/x")
     text = to_markdown(report([wrong], {}, tmp_path / "out"), "plots")
-    assert "| okb | 0.0 % (98.0 %) | 0.0 to 0.0 | 100.0 % | 0.00 |" in text
+    assert "| okb | 0.0 % (98.0 %) | - | 100.0 % | 0.00 |" in text
     assert "said to be done, but the mug is truly sofa" in text
     assert "[Find a mug (seed 0)](<../runs/x>)" in text
 
