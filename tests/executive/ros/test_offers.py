@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from second_robot import SecondRobot
 
-from executive.ros import peer
+from executive.ros import peer, reasons
 from executive.ros.__main__ import main
 
 TOPICS = ["/tf"]
@@ -47,7 +47,8 @@ def test_look_says_what_is_wrong_with_what_it_was_told(
 def test_look_says_that_a_message_is_too_large(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(peer, "MOST_BYTES", 100)
+    for module in (peer, reasons):
+        monkeypatch.setattr(module, "MOST_BYTES", 100)
     with SecondRobot() as robot:
         assert main(["look", robot.url]) == 2
     assert "was lost: it sent a message of more than 100 bytes" in capsys.readouterr().err
