@@ -384,6 +384,19 @@ def test_a_server_of_one_model_need_not_list_it(models: object) -> None:
         assert talk.model.name.startswith("http://127.0.0.1")
 
 
+def test_a_server_that_is_too_busy_to_list_its_models_is_waited_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(asking, "LOOKING_S", 0.05)
+
+    def lists_late(handler: Handler, _: bytes) -> None:
+        time.sleep(0.5)
+        answer(handler, 200, '{"data": [{"id": "late-model"}]}')
+
+    with talking(THE_DESK, models=lists_late) as talk:
+        assert talk.reply().usage.model == "late-model"
+
+
 @pytest.mark.parametrize("end", ["", "/", "/v1/", "/v1//", "/v1/chat/completions", "/v1/models"])
 def test_an_address_may_be_written_in_several_ways(end: str) -> None:
     with serving(THE_DESK) as odd:

@@ -32,7 +32,7 @@ MOST_ERRORS = 1
 MOST_MODELS = 5
 """How many of a server's models are tried."""
 LOOKING_S = 10.0
-"""How long a server may take to list its models."""
+"""How long a server may take to list its models, if one is named or nobody asks it anything yet."""
 MOST_OF_A_LISTING = 4 << 20
 """Bytes."""
 BUSY = (429, 503, 529)
@@ -190,12 +190,17 @@ class Asking:
         return not about_the_model and self._dialect.guesses(refused, body)
 
     async def _look(self) -> None:
-        """Find the endpoints and the models, once."""
+        """Find the endpoints and the models, once.
+
+        If no model is named, one waits for the list as long as for an answer: a server that is busy
+        with somebody else's question may not list its models meanwhile.
+        """
         async with self._looking:
             if self._looked:
                 return
+            enough_s = min(LOOKING_S, self._timeout_s / 2) if self._models else None
             try:
-                async with asyncio.timeout(min(LOOKING_S, self._timeout_s / 2)):
+                async with asyncio.timeout(enough_s):
                     await self._list()
             except (TimeoutError, Refused, httpx2.TimeoutException):
                 if not self._models:
