@@ -42,6 +42,15 @@ def number_alone(things: Things) -> int:
     return 0
 
 
+def one_of_kind(things: Things, kind: str, number: int | None = 1) -> Things | None:
+    """As in "bring me one", of a kind that was spoken of; None if it is something else."""
+    if [thing.words for thing in things.members] != [_ONE]:
+        return None
+    said = kind + things.members[0].said.partition(_ONE)[2]  # "one for Anna"
+    thing = replace(things.members[0], words=kind, number=number, said=said)
+    return replace(things, members=(thing,))
+
+
 def in_place_of(task: Task, things: Things) -> Task:
     """The task with other things; a number alone is of the same kind, a name may be a place."""
     if task.things is None and task.goal:  # "go to the kitchen", "no, the bedroom"
@@ -49,11 +58,9 @@ def in_place_of(task: Task, things: Things) -> Task:
             task, goal=replace(task.goal, words=" or ".join(t.words for t in things.members))
         )
     kind = task.things.members[0].words if task.things else ""
-    if [thing.words for thing in things.members] == [_ONE]:  # "no, one"
-        number = None if things.members[0].definite else 1
-        said = kind + things.members[0].said.partition(_ONE)[2]  # "one for Anna"
-        thing = replace(things.members[0], words=kind, number=number, said=said)
-        return replace(task, things=replace(things, members=(thing,)))
+    number = None if any(thing.definite for thing in things.members) else 1
+    if one := one_of_kind(things, kind, number):  # "no, one"
+        return replace(task, things=one)
     members = tuple(
         t if t.words or t.pronoun else replace(t, words=kind, said=f"{t.said} {kind}")
         for t in things.members

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from executive.language.anew import asked_anew
+from executive.language.anew import asked_anew, one_of_kind
 from executive.language.folding import asks_for_things, folded, is_it, of_several
 from executive.language.meaning import (
     ME,
@@ -26,8 +26,6 @@ from executive.types.commands import ALL, CommandKind
 
 _OF_THE_HAND = (CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN)
 """What is put somewhere is first of all what the hand holds."""
-_ONE = "one"
-"""Of a kind that was spoken of."""
 _ANYWHERE = (CommandKind.COUNT, CommandKind.CHECK)
 """Questions that need no place: "how many fruits are there"."""
 _EVERYTHING = ("all", "everything")
@@ -189,7 +187,8 @@ def _meant_by(task: Task, before: Things | None, spoken: Spoken, holds: bool) ->
         return picked
     if _unclear(task.things, members):
         return task.things
-    if one := _one_of_kind(task.things, called(before) or spoken.called):
+    kind = called(before) or spoken.called
+    if kind and (one := one_of_kind(task.things, kind)):
         return Things(members, one_of=True) if seen and len(members) > 1 else one
     if before:
         named = is_it(task.things) and task.verb != CommandKind.PUT_DOWN
@@ -268,15 +267,6 @@ def _the_other(
 
 def _called(name: str) -> Thing:
     return Thing(name, said=name)
-
-
-def _one_of_kind(things: Things, kind: str) -> Things | None:
-    """As in "is there a mug? If so, bring me one"; None if it is something else."""
-    if not kind or [thing.words for thing in things.members] != [_ONE]:
-        return None
-    said = kind + things.members[0].said.partition(_ONE)[2]  # "one for Anna"
-    thing = replace(things.members[0], words=kind, number=1, said=said)
-    return replace(things, members=(thing,))
 
 
 def _things(things: Things, spoken: Spoken) -> Things:

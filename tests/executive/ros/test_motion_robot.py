@@ -285,26 +285,28 @@ def test_a_halt_in_the_middle_of_a_pick_ends_all_motions(linked: Linked) -> None
     assert len(linked.there.motions) == done
 
 
-def test_it_does_not_drive_with_its_arm_out(linked: Linked) -> None:
+def stopped_with_its_arm_out(linked: Linked) -> Pick:
+    """It was about to pick this up from the desk."""
     at = standing_on(linked, "desk")
     assert linked.bench.do(DriveTo("desk")) == Succeeded()
-    linked.here.robot.start(Pick(seen(at)))
+    pick = Pick(seen(at))
+    linked.here.robot.start(pick)
     while not linked.there.motions:
         linked.bench.wait(0.02)
     assert linked.bench.do(Halt()) == Succeeded()
+    return pick
+
+
+def test_it_does_not_drive_with_its_arm_out(linked: Linked) -> None:
+    stopped_with_its_arm_out(linked)
     assert linked.bench.do(DriveTo("person")) == Succeeded()
     assert "joint_constraints" in linked.there.motions[-1]["goal_constraints"][0]
 
 
 def test_it_does_not_come_near_with_its_arm_out(linked: Linked) -> None:
-    at = standing_on(linked, "desk")
-    assert linked.bench.do(DriveTo("desk")) == Succeeded()
-    linked.here.robot.start(Pick(seen(at)))
-    while not linked.there.motions:
-        linked.bench.wait(0.02)
-    assert linked.bench.do(Halt()) == Succeeded()
+    pick = stopped_with_its_arm_out(linked)
     done = len(linked.there.goals)
-    linked.here.robot.start(Pick(seen(at)))
+    linked.here.robot.start(pick)
     until(lambda: len(linked.there.goals) > done, "its next goal")
     action, goal = linked.there.goals[done]
     assert action == "/move_action"
