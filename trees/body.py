@@ -53,8 +53,8 @@ class BodyAction(Action):
 class RobotAction(BodyAction):
     """Pursues one goal of the robot.
 
-    Writes ending.restless, dialogue.at and dialogue.stands where it drove to, and hand.lost if it
-    lost what it held; what failed goes to search.looks or hand.unplaced.
+    Writes ending.restless; dialogue.at, dialogue.stands and dialogue.heads_for where it drives; and
+    hand.lost if it lost what it held; what failed goes to search.looks or hand.unplaced.
     """
 
     searches = False
@@ -82,6 +82,7 @@ class RobotAction(BodyAction):
         self.situation.ending.restless = True
         if isinstance(self._goal, DriveTo):
             self.situation.dialogue.stands = ""
+            self.situation.dialogue.heads_for = self._goal.place
         return self.context.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:

@@ -1,5 +1,6 @@
 """Leaves that drive the robot: to where a thing may be, to where it is to go, and back."""
 
+from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.records import Activity
@@ -9,6 +10,7 @@ from executive.types.knowledge import Candidate
 from executive.types.results import Result, Succeeded
 from trees.body import RobotAction
 from trees.context import MissionContext
+from trees.nodes import fallback
 from trees.progress import on_the_way, on_to_the_next
 from trees.recall import is_here
 
@@ -94,6 +96,15 @@ class DriveBack(RobotAction):
         """Be back with the person."""
         self.situation.dialogue.away = not isinstance(result, Succeeded)
         return super().ended(result)
+
+
+def back_to_the_person(context: MissionContext) -> Behaviour:
+    """Come back; what was in the way may be gone a moment later, so this is tried twice."""
+    return fallback(
+        "back to the person",
+        DriveBack("come back", context, PERSON),
+        DriveBack("once more", context, PERSON),
+    )
 
 
 class DriveToSurface(RobotAction):

@@ -67,16 +67,21 @@ def is_about_one(context: MissionContext) -> bool:
 
 
 def come_back(context: MissionContext) -> Behaviour:
-    """Return to the person, if the robot left and can, and has nothing else to do."""
-    situation = context.situation
+    """Return to the person, if the robot left, and has nothing else to do.
+
+    Not if just that has failed: of a robot that came back, it would be told that it could not.
+    """
+    dialogue, agenda = context.situation.dialogue, context.situation.agenda
+
+    def is_away() -> bool:
+        return dialogue.away and dialogue.heads_for != PERSON and not agenda.tasks
+
     return Optionally(
         "if away",
-        situation,
+        context.situation,
         sequence(
             "come back",
-            Check(
-                "is away", context, lambda: situation.dialogue.away and not situation.agenda.tasks
-            ),
+            Check("is away", context, is_away),
             DriveBack("drive", context, PERSON),
         ),
     )

@@ -35,6 +35,8 @@ def on_the_way(context: MissionContext, place: str) -> str:
         return f"I take {say.the(held)} to {say.the(place)}."
     if place != PERSON:
         return f"I drive to {say.the(place)}."
+    if situation.dialogue.away and situation.dialogue.heads_for == PERSON:
+        return "I try to come back once more."
     if situation.request.asks_to(CommandKind.FIND) and situation.search.found:
         return f"I have seen {say.it(situation.request.object or '')}, and come back."
     return "I come back." if situation.dialogue.away else "I come to you."

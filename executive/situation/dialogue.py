@@ -23,6 +23,8 @@ class Dialogue:
     """The place that the robot has driven to last, in this mission or before."""
     stands: str | None = field(default=None, metadata=NOT_LOGGED)
     """Where it came to in this mission; empty if it is on its way, None if it did not drive."""
+    heads_for: str = field(default="", metadata=NOT_LOGGED)
+    """The place that it last set out for in this mission, whether it came there or not."""
     inquiries: int = 0
     no_help: str = ""
     """Why the person cannot or will not help, as a clause; empty if they may."""

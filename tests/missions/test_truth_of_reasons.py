@@ -219,6 +219,32 @@ def test_what_was_found_is_told_even_if_the_robot_cannot_come_back() -> None:
     assert run.outcome.reason == f"the power drill is on {THERE}, but the way is blocked"
 
 
+@pytest.mark.parametrize("command", ["Find a power_drill", "Is there a power_drill on the desk?"])
+def test_a_robot_that_comes_back_at_the_second_try_does_not_say_that_it_could_not(command) -> None:
+    ways_back = iter(["the way is blocked"])
+    run = run_mission(
+        command,
+        place={"power_drill": "desk"},
+        llm=False,
+        fault=lambda goal: next(ways_back, None) if goal == DriveTo("person") else None,
+    )
+    assert run.outcome.status == MissionStatus.DONE
+    assert "blocked" not in run.outcome.reason
+    assert len(set(told(run))) == len(told(run))
+
+
+def test_who_was_not_reached_is_not_come_to_while_it_is_told() -> None:
+    goals: list[Goal] = []
+
+    def fault(goal: Goal) -> str | None:
+        goals.append(goal)
+        return "the way is blocked" if len(goals) == 2 else None
+
+    run = run_mission("Go to the desk and come here", llm=False, fault=fault)
+    assert run.outcome.tasks[1].reason == "I could not get to you: the way is blocked"
+    assert goals.count(DriveTo("person")) == 1
+
+
 @pytest.mark.parametrize("kind", [DriveTo, LookAt, Pick, PutDown])
 def test_a_robot_that_gives_no_reason_gets_one(kind: type) -> None:
     run = run_mission("Bring a hammer", answers=[], llm=False, fault=always(kind, " "))

@@ -10,11 +10,10 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.situation import Situation
-from executive.types.home import PERSON
 from executive.types.outcome import Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Conclude, Deed, asked_to
-from trees.driving import DriveBack
+from trees.driving import back_to_the_person
 from trees.nodes import Check, Step, fallback, sequence
 from trees.survey import survey
 from trees.telling import tell
@@ -32,7 +31,7 @@ class Answer(Deed):
             fallback(
                 "to the person",
                 Check("there is more to do", context, lambda: context.situation.agenda.goes_on),
-                DriveBack("come back", context, PERSON),
+                back_to_the_person(context),
                 NotBack("not back", context, self.answer),
             ),
             Tell("answer", context, self.answer),

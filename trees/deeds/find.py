@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from py_trees.behaviour import Behaviour
 
 from executive.types.commands import CommandKind
-from executive.types.home import HAND, PERSON
+from executive.types.home import HAND
 from executive.types.outcome import Outcome, TaskOutcome
 from trees.context import MissionContext
 from trees.deeds.deed import Deed, asked_to, found_at_a_place
-from trees.driving import DriveBack
+from trees.driving import back_to_the_person
 from trees.nodes import Check, sequence
 from trees.person import Report
 
@@ -34,7 +34,7 @@ class Find(Deed):
             "find",
             asked_to(context, self.kind),
             found_at_a_place(context),
-            DriveBack("come back", context, PERSON),
+            back_to_the_person(context),
             Report("report", context, "{The_object} {is_} {at}."),
         )
 
