@@ -144,7 +144,8 @@ def main() -> None:
     parser.add_argument("--missions", type=int, default=1, metavar="N", help="times (default: 1)")
     options = parser.parse_args()
     measure_wire()
-    measure_missions(options.missions)
+    if options.missions:
+        measure_missions(options.missions)
 
 
 if __name__ == "__main__":
