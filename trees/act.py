@@ -40,6 +40,5 @@ class SayHowFar(Step):
 
     def update(self) -> Status:
         """The verb knows what is worth telling."""
-        assert self.situation.request.command
-        deed, why = deed_of(self.situation.request.command.kind), self.why_before()
+        deed, why = deed_of(self.situation.request.asked_for.kind), self.why_before()
         return self.fail(deed.how_far(self.context, why))

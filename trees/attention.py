@@ -168,7 +168,7 @@ def _look_elsewhere(context: MissionContext, said: Statement) -> None:
     request, search = context.situation.request, context.situation.search
     if about(said, context.knowledge) != (request.object,):
         return
-    denied = context.facts.places_denied(request.object or "")
+    denied = context.facts.places_denied(request.thing)
     if not said.denied or said.more or (search.candidate and search.candidate.place in denied):
         is_source = bool(request.from_places) and {*request.from_places} <= {*denied}
         command = request.command

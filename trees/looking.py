@@ -26,9 +26,8 @@ class LookAtCandidate(RobotAction):
 
     def goal(self) -> Goal:
         """Look at the current view of the place."""
-        assert self.situation.search.candidate
         self.situation.search.doubtful = None
-        return LookAt(self.situation.search.candidate.place, self.situation.search.view)
+        return LookAt(self.situation.search.place, self.situation.search.view)
 
 
 class LookCloser(RobotAction):
@@ -42,10 +41,9 @@ class LookCloser(RobotAction):
 
     def goal(self) -> Goal:
         """Look at the position of the doubtful detection."""
-        assert self.situation.search.candidate
         assert self.situation.search.doubtful
         point = self.situation.search.doubtful.position
-        return LookAt(self.situation.search.candidate.place, self.situation.search.view, point)
+        return LookAt(self.situation.search.place, self.situation.search.view, point)
 
 
 class LookForLost(RobotAction):
@@ -87,14 +85,13 @@ class SeeTarget(BodyAction):
     def ended(self, result: Result) -> Status:
         """Keep the best detection of the thing, and its place; remember all that was seen."""
         search = self.situation.search
-        assert search.candidate
         if not isinstance(result, Saw):
             return self.failed(result)
         self._remember(result.detections)
         search.doubtful = None
         seen = self._best(result)
         if seen is None:
-            search.looks.without(search.candidate.place, search.view)
+            search.looks.without(search.place, search.view)
             self.feedback_message = f"no {self.situation.request.object} in view"
             return Status.FAILURE
         if doubt := self._doubt(seen):
@@ -102,8 +99,8 @@ class SeeTarget(BodyAction):
             return Status.FAILURE
         search.detection = seen
         search.found = self._where(seen)
-        if search.looks.all_but(search.candidate.place, search.view):
-            self.context.facts.looked(search.candidate.place)
+        if search.looks.all_but(search.place, search.view):
+            self.context.facts.looked(search.place)
         return self.succeed(f"{seen.label}, confidence {seen.confidence:.2f}")
 
     def attempt(self) -> str:
@@ -113,8 +110,7 @@ class SeeTarget(BodyAction):
 
     def note_failure(self, why: str) -> None:
         """Note that this view of the place was not seen."""
-        assert self.situation.search.candidate
-        self.situation.search.looks.not_seen(self.situation.search.candidate.place, why)
+        self.situation.search.looks.not_seen(self.situation.search.place, why)
 
     def cancel(self, request: int) -> None:
         """Take no picture."""
@@ -144,7 +140,6 @@ class SeeTarget(BodyAction):
 
     def _remember(self, detections: Iterable[Detection]) -> None:
         """Remember the place of each thing that was recognised with enough confidence."""
-        assert self.situation.search.candidate
         for seen in detections:
             if seen.confidence < self.context.parameters.min_confidence:
                 continue

@@ -40,12 +40,10 @@ def named_places(context: MissionContext) -> Behaviour:
     request = context.situation.request
 
     def source() -> Sequence[str]:
-        assert request.command
-        return [request.command.source] if request.command.source else []
+        return [request.asked_for.source] if request.asked_for.source else []
 
     def goes() -> Sequence[str]:
-        assert request.command
-        return [request.command.kind] if request.command.kind.means.at_goal else []
+        return [request.asked_for.kind] if request.asked_for.kind.means.at_goal else []
 
     return sequence(
         "named places",
@@ -69,7 +67,7 @@ def destination(context: MissionContext) -> Behaviour:
     request = context.situation.request
 
     def back() -> list[str]:
-        return [request.object or ""] if goes_back(request.command) else []
+        return [request.thing] if goes_back(request.command) else []
 
     return fallback(
         "to where",
@@ -120,11 +118,10 @@ class SourceIsKnown(Step):
     def update(self) -> Status:
         """Keep the places, in a room first those where the thing was seen or belongs."""
         request = self.situation.request
-        assert request.command
         assert request.object
-        named = places_in(self.context, request.command.source)
-        if not named or not is_place(self.context, request.command.source):
-            return self.fail(unknown_place(self.context, request.command.source))
+        named = places_in(self.context, request.asked_for.source)
+        if not named or not is_place(self.context, request.asked_for.source):
+            return self.fail(unknown_place(self.context, request.asked_for.source))
         likely = (
             *self.context.facts.places_of(request.object),
             *usual_places(self.context),
@@ -154,8 +151,7 @@ class AskFromWhere(AskWhere):
 
     def unresolved(self) -> str:
         """The place in the words is not known."""
-        assert self.situation.request.command
-        return unknown_place(self.context, self.situation.request.command.source)
+        return unknown_place(self.context, self.situation.request.asked_for.source)
 
 
 class SearchAnyway(Step):
@@ -164,9 +160,8 @@ class SearchAnyway(Step):
     def update(self) -> Status:
         """Tell it: the robot ignores no part of a command in silence."""
         request = self.situation.request
-        assert request.command
-        said = unknown_place(self.context, request.command.source)
-        say, name = self.context.say, request.object or ""
+        said = unknown_place(self.context, request.asked_for.source)
+        say, name = self.context.say, request.thing
         where = f"where {say.agree(name, 'it', 'they')} may be"
         tell(self.context, f"{said}; I look for {say.the(name)} {where}.")
         return self.succeed(said)
@@ -223,7 +218,7 @@ class TakenFrom(Step):
         request = self.situation.request
         known = taken_from(self.context, request.object)
         if not known:
-            what = self.context.say.the(request.object or "")
+            what = self.context.say.the(request.thing)
             return self.fail(f"I do not know where I took {what}")
         request.goals = (known[0],)
         return self.succeed(known[0])
@@ -240,7 +235,7 @@ class UsualPlace(Step):
     def update(self) -> Status:
         """Take the usual places, and tell it: the thing may have come from elsewhere."""
         request = self.situation.request
-        usual, say, name = usual_places(self.context), self.context.say, request.object or ""
+        usual, say, name = usual_places(self.context), self.context.say, request.thing
         if not usual:
             belongs = say.agree(name, "belongs", "belong")
             return self.fail(f"I do not know where {say.the(name)} {belongs}")
@@ -261,7 +256,7 @@ class AskWhereTo(AskForPlace):
         """Offer the places that the words may mean; else say what is not known."""
         goes = self.situation.request.asks_to(CommandKind.GO)
         kind = QuestionKind.WHERE_TO_GO if goes else QuestionKind.WHERE_TO_PUT
-        about = self.situation.request.object or ""
+        about = self.situation.request.thing
         goal, options = goal_words(self.context), options_in(self.context)
         say = self.context.say
         if options:
@@ -320,9 +315,8 @@ class EachGoesThere(Step):
     def update(self) -> Status:
         """Replace the words for the goal, so that nobody is asked again for each thing."""
         request = self.situation.request
-        assert request.command
-        request.command = replace(request.command, goal=" or ".join(request.goals))
-        return self.succeed(request.command.goal)
+        request.command = replace(request.asked_for, goal=" or ".join(request.goals))
+        return self.succeed(request.asked_for.goal)
 
 
 def taken_from(context: MissionContext, name: str | None) -> tuple[str, ...]:

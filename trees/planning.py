@@ -71,7 +71,7 @@ class PlanNext(Step):
         assert plan
         whereabouts.is_over = plan.is_over
         said = decision(plan, belief)
-        thing = self.situation.request.object or ""
+        thing = self.situation.request.thing
         self.context.recorder.record(planned(thing, plan, belief, whereabouts.away))
         if plan.is_over or plan.asks:
             return self.fail(said)
@@ -126,15 +126,13 @@ class PlanStands(PlanNext):
         assert search.candidate
         if not search.whereabouts.news or search.candidate.source == EXPERIMENTER:
             return self.succeed()
-        if not search.whereabouts.may_look_at(search.candidate.place, search.looks):
-            search.whereabouts.named.add(search.candidate.place)  # it was worth a look when chosen
+        if not search.whereabouts.may_look_at(search.place, search.looks):
+            search.whereabouts.named.add(search.place)  # it was worth a look when chosen
         plan = self.plan()
-        if plan.order[:1] == (search.candidate.place,) and not plan.asks:
+        if plan.order[:1] == (search.place,) and not plan.asks:
             return self.follow()
         search.whereabouts.is_fresh = True
-        return self.fail(
-            f"not on to {search.candidate.place}: {decision(plan, search.whereabouts.belief)}"
-        )
+        return self.fail(f"not on to {search.place}: {decision(plan, search.whereabouts.belief)}")
 
 
 class HoldAsPlanned(HoldWhereToLook):
@@ -166,10 +164,9 @@ class DriveAsPlanned(Visit):
     def start(self) -> int:
         """Set out; if the robot stands between two places, the length of the way is unknown."""
         search = self.situation.search
-        assert search.candidate
         start, now = self.situation.dialogue.at, self.context.clock.now()
         broken_off = search.whereabouts.leg is not None
-        search.whereabouts.leg = None if broken_off else Leg(start, search.candidate.place, now)
+        search.whereabouts.leg = None if broken_off else Leg(start, search.place, now)
         return super().start()
 
     def terminate(self, new_status: Status) -> None:
@@ -290,14 +287,14 @@ class TellWhere(Step):
         return self.succeed(first.place)
 
     def _tell_missed(self) -> None:
-        looks, name = self.situation.search.looks, self.situation.request.object or ""
+        looks, name = self.situation.search.looks, self.situation.request.thing
         if looks.missed:
             why_not = looks.why_not(name, looks.missed, self.context.say)
             tell(self.context, sentence(beginning(why_not)))
         looks.missed = ""
 
     def _tell(self, places: tuple[str, ...], source: str) -> None:
-        name, say = self.situation.request.object or "", self.context.say
+        name, say = self.situation.request.thing, self.context.say
         the, where = say.the(name), ", then ".join(say.at_each(places))
         if self.situation.search.whereabouts.thinks:
             may_be = f"where {say.agree(name, 'it', 'they')} may be"

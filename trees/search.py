@@ -55,7 +55,7 @@ def look_where_the_words_say(context: MissionContext) -> Behaviour:
 
     def who() -> Source:
         """The person; but the memory, if the robot itself saw the thing there for a larger task."""
-        known = set(context.facts.places_of(situation.request.object or ""))
+        known = set(context.facts.places_of(situation.request.thing))
         seen = situation.agenda.wholes and known & set(situation.request.from_places)
         return Source.MEMORY if seen else Source.USER
 
@@ -120,8 +120,7 @@ def look_over(context: MissionContext) -> Behaviour:
     """Look at every view of the place until the thing is seen; remember if it is not there."""
 
     def views() -> range:
-        assert context.situation.search.candidate
-        place = context.situation.search.candidate.place
+        place = context.situation.search.place
         parts = context.robot.views(place)
         context.situation.search.looks.begin(place, parts)
         return range(parts)
@@ -178,8 +177,7 @@ class NotHere(Step):
         """Conclude only from views that were seen; else say why one was not."""
         name, search, say = self.situation.request.object, self.situation.search, self.context.say
         assert name
-        assert search.candidate
-        place = search.candidate.place
+        place = search.place
         if not search.looks.all_without(place):
             return self.fail(search.looks.why_not(name, place, say))
         self.context.facts.missed(name, place)
@@ -195,7 +193,7 @@ class SayNotThere(Step):
 
     def update(self) -> Status:
         """Tell it if the search goes on; of places that were not seen, say why."""
-        name, search = self.situation.request.object or "", self.situation.search
+        name, search = self.situation.request.thing, self.situation.search
         say, places = self.context.say, [c.place for c in search.candidates]
         said = f"{say.are(name)} not {either(say.at_each(places))}"
         if not all(map(search.looks.all_without, places)):
@@ -213,7 +211,7 @@ class GiveUpSearch(Step):
 
     def update(self) -> Status:
         """Sum up the search; if the person was asked, say why they could not help."""
-        name, silence = self.situation.request.object or "", self.situation.dialogue.no_help
+        name, silence = self.situation.request.thing, self.situation.dialogue.no_help
         say = self.context.say
         so_far = self.situation.search.so_far(name, say) or f"I do not know where {say.are(name)}"
         return self.fail(f"{so_far}, and {silence}" if silence else so_far)

@@ -61,8 +61,7 @@ class OnACondition(Step):
 
     def update(self) -> Status:
         """Without a place where to look first, trying to do it shows whether there is one."""
-        command = self.situation.request.command
-        assert command
+        command = self.situation.request.asked_for
         if not command.conditional and (beside := not_seen_yet(self.context)):
             either = tuple(beside.split(" or "))
             among = either if len(either) > 1 else ()
@@ -84,8 +83,7 @@ class EachThing(Step):
 
     def update(self) -> Status:
         """Of names that were given, each; of a class, each of its things, or those seen."""
-        command, found = self.situation.request.command, self.situation.survey.found
-        assert command
+        command, found = self.situation.request.asked_for, self.situation.survey.found
         why = not_seen(self.context) if self.situation.survey.seen else ""
         if self.situation.survey.seen:
             if not found:

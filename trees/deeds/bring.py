@@ -57,7 +57,7 @@ class ThereIndeed(Step):
         hand, say = self.situation.hand, self.context.say
         if hand.put_at == DELIVERY:
             return self.succeed()
-        name, why = self.situation.request.object or "", hand.unplaced.get(DELIVERY, "")
+        name, why = self.situation.request.thing, hand.unplaced.get(DELIVERY, "")
         there = f"I could not put {say.it(name)} {say.at(DELIVERY)}"
         return self.fail(f"I put {say.the(name)} {say.at(hand.put_at)}; {there}: {why}")
 

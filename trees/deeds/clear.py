@@ -55,8 +55,7 @@ class Clear(Deed):
 
 def which_to_clear(context: MissionContext) -> tuple[str, ...]:
     """The places that the words may mean, if one is meant and they leave open which."""
-    command = context.situation.request.command
-    assert command
+    command = context.situation.request.asked_for
     one = not is_plural(command.source) and may_be_several(context, command.source)
     return places_in(context, command.source) if one else ()
 
@@ -78,9 +77,8 @@ class AskWhichToClear(Ask):
         """Any of those that were offered."""
         request = self.situation.request
         chosen = chosen_of(self.context, answer, which_to_clear(self.context))
-        assert request.command
         if chosen:
-            request.command = replace(request.command, source=" or ".join(chosen))
+            request.command = replace(request.asked_for, source=" or ".join(chosen))
         return bool(chosen)
 
     def unresolved(self) -> str:
@@ -88,8 +86,7 @@ class AskWhichToClear(Ask):
         return may_be(self.context, self._words(), which_to_clear(self.context))
 
     def _words(self) -> str:
-        assert self.situation.request.command
-        return self.situation.request.command.source
+        return self.situation.request.asked_for.source
 
 
 class PutEachAway(Step):
@@ -100,8 +97,7 @@ class PutEachAway(Step):
 
     def update(self) -> Status:
         """What has no other place goes to one that serves for all such things, which is told."""
-        command, found = self.situation.request.command, self.situation.survey.found
-        assert command
+        command, found = self.situation.request.asked_for, self.situation.survey.found
         if not found:
             return self.fail(nothing_there(self.context))
         parts = []

@@ -68,5 +68,4 @@ def found_at_a_place(context: MissionContext) -> Check:
 
 def meaning(situation: Situation) -> Meaning:
     """What the verb means that was asked for."""
-    assert situation.request.command
-    return situation.request.command.kind.means
+    return situation.request.asked_for.kind.means

@@ -49,7 +49,5 @@ class SayItFell(Step):
             return self.fail(f"{lost}, and {why}")
         if held:
             return self.fail(f"{why}; I still hold {self.context.say.the(held)}")
-        gone = (
-            f"{self.context.say.are(self.situation.request.object or '')} not in my hand any more"
-        )
+        gone = f"{self.context.say.are(self.situation.request.thing)} not in my hand any more"
         return self.fail(why if lost else f"{why}; {gone}")

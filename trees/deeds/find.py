@@ -49,5 +49,5 @@ class Find(Deed):
         found, say = context.situation.search.found, context.say
         if not found:
             return why
-        where = f"{say.are(context.situation.request.object or '')} {say.at_in_full(found.place)}"
+        where = f"{say.are(context.situation.request.thing)} {say.at_in_full(found.place)}"
         return f"{where}, but {why}"

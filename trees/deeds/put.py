@@ -124,7 +124,7 @@ class PutElsewhere(Step):
         """That was not what was asked for."""
         hand, say = self.situation.hand, self.context.say
         hand.elsewhere = hand.put_at
-        it = say.it(self.situation.request.object or "")
+        it = say.it(self.situation.request.thing)
         return self.fail(f"I put {it} {say.at(hand.put_at)}")
 
 
@@ -134,7 +134,7 @@ class NotAtGoal(Step):
     def update(self) -> Status:
         """Put the clauses together."""
         hand, say = self.situation.hand, self.context.say
-        name, why = self.situation.request.object or "", why_not(self.context) or self.why_before()
+        name, why = self.situation.request.thing, why_not(self.context) or self.why_before()
         if hand.elsewhere:
             instead = f"I put {say.it(name)} {say.at(hand.elsewhere)} instead, as you said"
             return self.fail(f"{why}; {instead}")
@@ -150,7 +150,7 @@ class NotAtGoal(Step):
 def why_not(context: MissionContext) -> str:
     """Where it could not be put of all the places that were tried, and why; empty if nowhere."""
     situation, say = context.situation, context.say
-    it = say.it(situation.request.object or "")
+    it = say.it(situation.request.thing)
     tried = [
         why if say.the(place) in why else f"I could not put {it} {say.at(place)}: {why}"
         for place, why in situation.hand.unplaced.items()

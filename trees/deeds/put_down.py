@@ -136,8 +136,7 @@ class HoldsWhatIsMeant(Step):
 
     def update(self) -> Status:
         """Nobody need say the name of what is held; if they do, it has to be that."""
-        assert self.situation.request.command
-        held, target = self.situation.hand.in_hand, self.situation.request.command.target
+        held, target = self.situation.hand.in_hand, self.situation.request.asked_for.target
         if held is None:
             return self.fail("my hand is empty")
         named = self.context.knowledge.objects_named(target)

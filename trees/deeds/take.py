@@ -37,5 +37,5 @@ class Take(Deed):
         """It may have fallen since."""
         if context.situation.has_it:
             return why
-        name = context.situation.request.object or ""
+        name = context.situation.request.thing
         return f"{context.say.are(name)} not in my hand any more"
