@@ -1,4 +1,4 @@
-"""Mission time: that of simulated worlds, and that of the world outside."""
+"""Clocks of mission time: one for simulated worlds, one for real robots."""
 
 import time
 
@@ -7,15 +7,16 @@ from executive.events import Inbox
 from executive.interfaces.simulation import World
 
 PACE_S = 0.02
-"""While a person or a model thinks and the robot still moves, the world catches up this often."""
+"""How often the world catches up with real time while somebody thinks and the robot moves."""
 HANGING_S = 60.0
-"""What is computed for longer than this (real seconds) hangs: from then on, time passes."""
+"""A computation that takes longer than this (real seconds) hangs; then mission time goes on."""
 
 
 class SimulatedClock:
-    """Free-running while the robot acts, real while a person or a model thinks.
+    """Runs as fast as the simulation while only the robot acts, in real time while a person thinks.
 
-    It advances a world inside `wait`; with nothing moving it sleeps, or jumps to the deadline.
+    It advances the world inside `wait`. While nothing moves, it sleeps until somebody answers; if
+    nobody is asked, it jumps to the deadline.
     """
 
     def __init__(self, inbox: Inbox, world: World) -> None:
@@ -35,7 +36,7 @@ class SimulatedClock:
     def wait(self, deadline: float | None) -> None:
         """Let time pass until an event is in the inbox or the deadline is reached.
 
-        While something is computed, time stands still.
+        Time stands still while something is computed.
 
         Raises:
             ExecutiveError: if nothing is under way that could ever end the wait.
@@ -52,7 +53,7 @@ class SimulatedClock:
                 raise ExecutiveError("the mission waits for nothing: no request, no deadline")
 
     def _goes_on(self, deadline: float | None) -> bool:
-        """Have all computed first; whether nothing has come of it, nor of anything else."""
+        """Finish all computations; return whether there is still neither event nor deadline."""
         while not self._inbox.await_computed(HANGING_S):
             self._now += HANGING_S
             if deadline is not None and self._now >= deadline:
@@ -71,7 +72,7 @@ class SimulatedClock:
 
 
 class RealClock:
-    """Real time, for a robot that is real: while the tree decides, it stands still."""
+    """Real time, for a real robot; it is read inside `wait`, so that it stands still in a tick."""
 
     def __init__(self, inbox: Inbox) -> None:
         """Start at 0."""

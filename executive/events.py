@@ -1,7 +1,7 @@
-"""Everything that can wake the executive, and the one box where it waits to be read.
+"""The events that wake the executive, and the inbox where they wait for it.
 
-Slow things (a drive, a grasp, a picture, a reply, an answer) are opened here as a request, go on
-elsewhere, and end as an `Ended` event. The Inbox is the only thing that threads share.
+Whatever is slow (a drive, a grasp, a picture, a reply, an answer) is opened as a request in the
+inbox, goes on elsewhere, and ends as an `Ended` event. Threads share nothing but the inbox.
 """
 
 import math
@@ -23,11 +23,11 @@ from executive.types.results import Answered, Failed, Replied, Result, Saw, Scor
 T = TypeVar("T")
 
 HEEDING_S = 0.2
-"""The longest sleep at a stretch (real time): a signal just before it is heeded only after it."""
+"""The longest single sleep (real time): a signal just before one is handled only after it."""
 THE_PERSON = "the person"
-"""Who says stop in words."""
+"""`StopRequested.by` of a stop in words."""
 EXPERIMENTER = "the experimenter"
-"""Who says stop in the experimenter's page; their name comes after it, if they gave one."""
+"""How `StopRequested.by` begins if an experimenter says stop; their name may follow."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Started:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ended:
-    """The request with this number ended, well or not."""
+    """A request has ended, as a success or not."""
 
     request: int
     result: Result
@@ -47,67 +47,67 @@ class Ended:
 
 @dataclass(frozen=True, slots=True)
 class DeadlinePassed:
-    """The time that some behaviour waited for has come (mission time, seconds)."""
+    """The deadline of a behaviour has passed; `time` is the mission time (s)."""
 
     time: float
 
 
 @dataclass(frozen=True, slots=True)
 class StopRequested:
-    """Someone wants the robot at rest: Ctrl-C, SIGTERM, the word "stop", or an experimenter."""
+    """Someone says stop: by Ctrl-C, by SIGTERM, in words, or as an experimenter."""
 
     by: str
 
     @property
     def ends_session(self) -> bool:
-        """Whether it is for good, as a signal is: who talks with the robot may go on."""
+        """Whether it ends the session, as a signal does; after others, talking may go on."""
         return self.by != THE_PERSON and not self.is_of_experimenter
 
     @property
     def is_of_experimenter(self) -> bool:
-        """Whether an experimenter said so."""
+        """Whether an experimenter says stop."""
         return self.by.startswith(EXPERIMENTER)
 
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """The person said something that answers no question, while the robot is at something."""
+    """The person said something that answers no question, while the robot is busy."""
 
     words: str
 
 
 @dataclass(frozen=True, slots=True)
 class HandFelt:
-    """What the fingers feel is not what they felt before: something, nothing; None: no telling."""
+    """What the fingers feel has changed: a thing or none; None if the robot cannot tell."""
 
     holding: bool | None
 
 
 @dataclass(frozen=True, slots=True)
 class Broke:
-    """The program itself failed, and why, as a clause: the mission cannot go on."""
+    """The program itself has failed, for this reason (a clause); the mission cannot go on."""
 
     reason: str
 
 
 class Deed(StrEnum):
-    """What an experimenter may do in somebody's stead."""
+    """What an experimenter can do in place of the person or the robot."""
 
     ANSWER = "answer"
-    """Answer a question in the person's stead."""
+    """Answer a question in place of the person."""
     HOLD = "hold"
-    """Hold what the robot says from here on, or let it go."""
+    """Hold all sentences of the robot from now on (`on`), or do so no longer (`off`)."""
     WORDS = "words"
-    """Let a sentence go that was held, as it was or otherwise; empty: it is never said."""
+    """Release a held sentence, as it was or changed; an empty one is never said."""
     PLACE = "place"
-    """Send the robot elsewhere than it would go: on its way to look, or where its choice waits."""
+    """Send the robot to another place: while it drives to look, or while its choice is held."""
     HOLD_PLACE = "hold_place"
-    """Hold what the robot chooses from here on of places (`on`), or let it go (`off`)."""
+    """Hold all of the robot's choices of places from now on (`on`), or no longer (`off`)."""
     STOP = "stop"
 
 
 ON, OFF = "on", "off"
-"""What becomes of `HOLD` and `HOLD_PLACE`."""
+"""Values of `Intervened.became` for `HOLD` and `HOLD_PLACE`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +115,10 @@ class Intervened:
     """An experimenter stepped in.
 
     Attributes:
-        by: who.
+        by: the experimenter.
         deed: what was done: a `Deed`.
-        was: the question; the sentence as the robot made it; the place that it had chosen.
-        became: the answer; the sentence as it was said; the place where it was sent.
+        was: the question, the robot's own sentence, or the place that the robot had chosen.
+        became: the answer, the sentence that was said, or the place where the robot was sent.
     """
 
     by: str
@@ -129,13 +129,13 @@ class Intervened:
 
 @dataclass(frozen=True, slots=True)
 class Listened:
-    """Ears understood something; what comes of it is an event of its own.
+    """A speech recogniser has understood something; what follows from it is an event of its own.
 
     Attributes:
-        by: which ears.
+        by: the recogniser.
         text: the words; empty if there were none.
-        confidence: between 0 and 1; 0 if the ears cannot tell.
-        became: what was made of it: "certain", "asked back", ...
+        confidence: between 0 and 1; 0 if the recogniser does not tell.
+        became: what was done with the words: "certain", "asked back", ...
     """
 
     by: str
@@ -146,9 +146,9 @@ class Listened:
 
 @dataclass(frozen=True, slots=True)
 class BodyTold:
-    """The robot's body has something to tell the person, a sentence, and goes on with what it does.
+    """The robot's body tells the person something, in a sentence, and goes on with what it does.
 
-    So is told that a link is lost and waited for, and that it is back.
+    For example that a connection is lost and the robot waits for it, and that it is back.
     """
 
     words: str
@@ -170,20 +170,20 @@ Event = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Computed:
-    """Not an event: nobody ticks for it. Its sequel may post one."""
+    """A computation is done. This is no event, and no cause to tick; its sequel may post one."""
 
     computation: Computation[Any]
 
 
 class Inbox:
-    """Events on their way to the thread that ticks, and what is computed for it meanwhile.
+    """Events on their way to the ticking thread, open requests, and computations for it.
 
-    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant), and
-    `hear` and `end` from any thread; the rest belongs to the thread that ticks.
+    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant);
+    `hear` and `end` from any thread; everything else only from the ticking thread.
     """
 
     def __init__(self) -> None:
-        """Make an empty box with nothing under way."""
+        """Begin empty, with no request open."""
         self._queue: queue.SimpleQueue[Event | _Computed] = queue.SimpleQueue()
         self._taken: deque[Event] = deque()
         self._open: dict[int, bool] = {}
@@ -192,43 +192,43 @@ class Inbox:
         self._wanted: dict[Computation[Any], tuple[Callable[[], None], int | None]] = {}
 
     def open(self, *, real: bool = False) -> int:
-        """Number a new request; `real` if a person or a model, not the simulator, will end it."""
+        """Open a request; `real` if a person or a model will end it, not the simulator."""
         self._last += 1
         self._open[self._last] = real
         return self._last
 
     def drop(self, request: int) -> None:
-        """Forget a cancelled request: its end, should it still come, is not delivered.
+        """Forget a cancelled request: its end is not delivered, should it still come.
 
-        What is computed for it is given up.
+        Computations for it are given up.
         """
         self._open.pop(request, None)
         for computation in [c for c, (_, of) in self._wanted.items() if of == request]:
             self.give_up(computation)
 
     def drop_all(self) -> None:
-        """Forget every request that is under way: what was asked for is not wanted any more."""
+        """Forget all open requests."""
         for request in tuple(self._open):
             self.drop(request)
 
     def fail(self, request: int, reason: str) -> None:
-        """End a request as Failed for one who cannot: it counts, even if it was dropped."""
+        """End a request as Failed, also one that was dropped, for a part that cannot do so."""
         self._open[request] = False
         self.end(request, Failed(reason))
 
     def post(self, event: Event) -> None:
-        """Put an event in the box and wake whoever waits."""
+        """Put an event into the inbox, and wake the ticking thread."""
         self._queue.put(event)
 
     def hear(self, words: str) -> None:
-        """Post what the person says unasked, from any thread; what says stop is a stop."""
+        """Post what the person says unasked; words that say stop are a stop."""
         said = writable(words)
         self.post(StopRequested(THE_PERSON) if control(said) else Heard(said))
 
     def end(self, request: int, result: Result) -> None:
-        """Post the end of a request; what is no result is Failed.
+        """Post the end of a request; any object that is not a result becomes Failed.
 
-        An answer that says stop is a stop, whoever was asked.
+        An answer that says stop is a stop.
         """
         result = _fit(result)
         stops = isinstance(result, Answered) and control(result.text)
@@ -236,21 +236,21 @@ class Inbox:
 
     @property
     def last(self) -> int:
-        """Number of the last request that was opened (0: none yet)."""
+        """Number of the latest request (0: none yet)."""
         return self._last
 
     @property
     def awaits_real(self) -> bool:
-        """Whether something that takes real time (a person, a model) is under way."""
+        """Whether a request is open that takes real time (of a person or a model)."""
         return any(self._open.values())
 
     @property
     def awaits_anything(self) -> bool:
-        """Whether any request is under way."""
+        """Whether any request is open."""
         return bool(self._open)
 
     def is_open(self, request: int) -> bool:
-        """Whether this request was neither ended (and its end taken) nor dropped."""
+        """Whether a request is open: neither dropped, nor its end taken."""
         return request in self._open
 
     def compute(
@@ -263,10 +263,10 @@ class Inbox:
         """Have something computed, while mission time stands still.
 
         Args:
-            worker: who does it, as soon as the ticking thread sleeps.
-            work: what.
-            sequel: done by the ticking thread when it wakes.
-            request: for which it is; where that is dropped, there is no sequel.
+            worker: does it, as soon as the ticking thread sleeps.
+            work: the computation.
+            sequel: called in the ticking thread, when it wakes after that.
+            request: what the computation is for; if this is dropped, there is no sequel.
         """
         computation = Computation(work)
         self._ready.append((worker, computation))
@@ -274,21 +274,22 @@ class Inbox:
         return computation
 
     def give_up(self, computation: Computation[T]) -> None:
-        """Nobody waits for it any more: there will be no sequel."""
+        """Give a computation up: there will be no sequel."""
         computation.given_up = True
         self._wanted.pop(computation, None)
 
     @property
     def computes(self) -> bool:
-        """Whether something is computed that is still wanted."""
+        """Whether a computation is under way that was not given up."""
         self._collect()
         return bool(self._wanted)
 
     def await_computed(self, seconds: float) -> bool:
-        """Sleep until all is computed or someone says stop; False if the real time is up first.
+        """Sleep until all computations are done, or someone says stop.
 
-        Other events wait: which of them would come before the end is the machine's chance. But a
-        body has something to tell just when it takes long.
+        Other events must wait: how many of them come before the end depends on how fast the machine
+        is, and a mission must not. Only what the body tells does not wait: it tells why it takes
+        long. Returns False if the time (real seconds) is up first.
         """
         latest = time.monotonic() + seconds
         while self.computes and not self._waits(StopRequested, BodyTold):
@@ -299,7 +300,7 @@ class Inbox:
         return True
 
     def wait(self, seconds: float | None) -> bool:
-        """Sleep until an event is there or the time (real seconds; None: no limit) is up."""
+        """Sleep until there is an event, or the time is up (real seconds; None: no limit)."""
         if self._collect():
             return True
         self._sleep(seconds)
@@ -312,16 +313,16 @@ class Inbox:
 
     @property
     def stop_waits(self) -> bool:
-        """Whether someone said stop, and nobody has heard it yet."""
+        """Whether a stop waits in the inbox."""
         return self._waits(StopRequested)
 
     def _waits(self, *kinds: type) -> bool:
-        """Whether there is such an event, and nobody has taken it yet."""
+        """Whether an event of one of these kinds waits in the inbox."""
         self._collect()
         return any(isinstance(event, kinds) for event in self._taken)
 
     def take_all(self) -> tuple[Event, ...]:
-        """Empty the box, oldest first.
+        """Take all events, the oldest first.
 
         Ends of dropped requests are left out, and so is a second end of the same request.
         """
@@ -331,13 +332,16 @@ class Inbox:
         return events
 
     def _close(self, event: Event) -> bool:
-        """Whether the event counts; an end closes its request."""
+        """Close the request of an end; return whether the event counts."""
         if not isinstance(event, Ended):
             return True
         return self._open.pop(event.request, None) is not None
 
     def _collect(self) -> bool:
-        """Move what was posted to the taken side, less the ends of dropped requests."""
+        """Receive all that was posted; return whether there are events.
+
+        Ends of dropped requests are removed.
+        """
         while True:
             try:
                 self._receive(self._queue.get_nowait())
@@ -349,7 +353,7 @@ class Inbox:
         return bool(self._taken)
 
     def _sleep(self, seconds: float | None) -> None:
-        """Have computed what is ready, until something comes or the time is up."""
+        """Start the computations that are ready; sleep until something comes or time is up."""
         while self._ready:
             worker, computation = self._ready.popleft()
             if computation in self._wanted:
@@ -369,7 +373,7 @@ class Inbox:
 
 
 def _fit(result: Result) -> Result:
-    """The result with texts that can be written down, whoever made it."""
+    """The same result, with texts that can be written to a file, whatever an adapter made."""
     match result:
         case Failed(reason):
             return replace(result, reason=_text(reason))

@@ -1,8 +1,9 @@
-"""What stands between the executive and the code of others: nothing that they raise gets through.
+"""Wrappers around code of others, which let none of its exceptions reach the executive.
 
-Robot, perception, person and model may be anybody's code. What raises when it is asked to start
-something is a request that failed, in words, and so an event like any other: it is recorded, and a
-replay is the same. What raises otherwise is noted in the log, and the mission goes on.
+Robot, perception, person and model may be anybody's code. If one raises when it is asked to start
+something, that becomes a failed request with a reason, and so an event like any other: it is
+recorded, and a replay is the same. If it raises anywhere else, the exception is noted in the log,
+and the mission goes on.
 """
 
 import logging
@@ -29,17 +30,17 @@ from executive.types.llm import ChatRequest, RankRequest
 T = TypeVar("T")
 
 UNKNOWN_WAY_S = 10.0
-"""How long a way is taken to be of which the robot does not tell."""
+"""The assumed duration of a drive that the robot cannot estimate."""
 LONGEST = 120
-"""What an exception of others says is cut to so many characters."""
+"""The text of a foreign exception is cut to this many characters."""
 WHOLE = 500
-"""One of our own has its sentence to the end, where it says what would be right."""
+"""The same for our own exceptions, which are longer: at the end they say what would be right."""
 
 log = logging.getLogger(__name__)
 
 
 def in_words(error: BaseException) -> str:
-    """An exception as a clause: "ConnectionError: driver gone"; that of our own, what it says."""
+    """An exception as a clause: "ConnectionError: driver gone"; of our own, only the message."""
     name = type(error).__name__
     try:
         said = printable(error).strip()
@@ -51,7 +52,7 @@ def in_words(error: BaseException) -> str:
 
 
 def traceback_of(error: BaseException) -> str:
-    """Where it was raised, as Python tells it."""
+    """The traceback of an exception, as Python prints it."""
     try:
         return writable("".join(traceback.format_exception(error)))
     except Exception:  # an exception that cannot even be printed
@@ -62,11 +63,11 @@ class GuardedRecorder:
     """Implements `Recorder` around one that may raise: then that record is lost."""
 
     def __init__(self, recorder: Recorder) -> None:
-        """Keep what happened in this one."""
+        """Guard this recorder."""
         self._recorder = recorder
 
     def record(self, record: Record) -> None:
-        """Pass it on."""
+        """Pass the record on; if that raises, warn."""
         try:
             self._recorder.record(record)
         except Exception as error:
@@ -74,7 +75,7 @@ class GuardedRecorder:
 
 
 class _Fault:
-    """What is told of one that raises: a warning the first time, a note in the log each time."""
+    """Reports the exceptions of one part: each as a note in the log, the first as a warning."""
 
     def __init__(self, what: str, recorder: Recorder) -> None:
         self._what = what
@@ -91,11 +92,11 @@ class _Fault:
 class GuardedSource:
     """Implements `PlaceSource` around one that may raise: then it knows no place.
 
-    Each answer is recorded, so that a replay is told the same. That it raises is said once.
+    Each answer is recorded, so that a replay gets the same. The first exception is a warning.
     """
 
     def __init__(self, source: PlaceSource, recorder: Recorder) -> None:
-        """Guard this source, whose name and clause stay as they are now."""
+        """Guard this source; its `name` and `says` are read once, here."""
         self._source = source
         self._recorder = GuardedRecorder(recorder)
         self.name = printable(source.name)
@@ -103,12 +104,12 @@ class GuardedSource:
         self._fault = _Fault(f"the {self.name} does not answer", self._recorder)
 
     def places_of(self, name: str) -> tuple[str, ...]:
-        """What it says."""
-        places = self._asked(name)
+        """The places that the source names for this thing; recorded."""
+        places = self._ask(name)
         self._recorder.record(SourceAnswer(self.name, name, places))
         return places
 
-    def _asked(self, name: str) -> tuple[str, ...]:
+    def _ask(self, name: str) -> tuple[str, ...]:
         try:
             said: Any = self._source.places_of(name)
             places = [said] if isinstance(said, str) else said
@@ -121,24 +122,24 @@ class GuardedSource:
 class GuardedExperience:
     """Implements `Experience` around one that may raise: then nothing was learned.
 
-    Each answer is recorded, so that a replay is told the same.
+    Each answer is recorded, so that a replay gets the same.
     """
 
     def __init__(self, experience: Experience, recorder: Recorder) -> None:
-        """Guard this one."""
+        """Guard this experience."""
         self._experience = experience
         self._recorder = GuardedRecorder(recorder)
         self._fault = _Fault("what was learned is of no use", self._recorder)
 
     def learn(self) -> None:
-        """Learn, as far as that goes."""
+        """Learn from what is remembered; nothing is learned if that raises."""
         try:
             self._experience.learn()
         except Exception as error:
             self._fault.tell(error)
 
     def recalled(self, name: str) -> tuple[Statement, ...]:
-        """What it says."""
+        """What was learned about this thing; recorded."""
         try:
             said = tuple(self._experience.recalled(name))
         except Exception as error:
@@ -159,7 +160,7 @@ class GuardedExperience:
 
 
 class _Guard(ABC):
-    """Catches, words and notes what others raise."""
+    """Turns the exceptions of a part into failed requests and notes in the log."""
 
     def __init__(self, inbox: Inbox, recorder: Recorder) -> None:
         self._inbox = inbox
@@ -167,18 +168,19 @@ class _Guard(ABC):
 
     @abstractmethod
     def _cancel(self, request: int) -> None:
-        """Have the other one cancel it."""
+        """Cancel the request at the guarded part."""
 
     def cancel(self, request: int) -> None:
-        """Call it off; its end is not delivered, whatever comes of that."""
+        """Cancel a request; its end is not delivered, even if cancelling raises."""
         self._try(lambda: self._cancel(request), None)
         self._inbox.drop(request)
 
     def _start(self, clause: str, start: Callable[[], int]) -> int:
-        """The request that was started; one that failed with this clause, if it could not be.
+        """Start something; return its request, or if `start` raises, one that has failed.
 
-        What was half started is called off. The failed request has the number that it was given, if
-        it came so far: in a replay, where nothing raises, those after it have the same numbers.
+        `clause` says what failed, in the reason. Requests that `start` opened before it raised are
+        cancelled. The failed request takes the number of the first of them: so the requests after
+        it have the same numbers in a replay, where nothing raises.
         """
         before = self._inbox.last
         try:
@@ -215,18 +217,18 @@ class GuardedRobot(_Guard):
         self._robot = robot
 
     def start(self, goal: Goal) -> int:
-        """Pursue a goal."""
+        """Start to pursue a goal."""
         return self._start(f"my {_part(goal)} failed", lambda: self._robot.start(goal))
 
     def _cancel(self, request: int) -> None:
         self._robot.cancel(request)
 
     def views(self, place: str) -> int:
-        """How many head poses it takes to see all of a place; one, if the robot cannot tell."""
+        """How many head poses it takes to see all of a place; 1 if the robot cannot tell."""
         return max(1, self._try(lambda: int(self._robot.views(place)), 1))
 
     def seconds(self, start: str, place: str) -> float:
-        """How long the way takes; if the robot cannot tell, as long as any other."""
+        """How long the drive takes (s); `UNKNOWN_WAY_S` if the robot cannot tell."""
         if not hasattr(self._robot, "seconds"):
             return UNKNOWN_WAY_S
         seconds = self._try(lambda: float(self._robot.seconds(start, place)), UNKNOWN_WAY_S)
@@ -234,7 +236,7 @@ class GuardedRobot(_Guard):
 
     @property
     def holding(self) -> bool | None:
-        """What the fingers feel; None if the robot cannot tell."""
+        """Whether the fingers feel something; None if the robot cannot tell."""
         return self._try(self._holding, None)
 
     def _holding(self) -> bool | None:
@@ -243,7 +245,7 @@ class GuardedRobot(_Guard):
 
 
 def _part(goal: Goal) -> str:
-    """The part of the robot that a goal needs."""
+    """The part of the robot that pursues such a goal, as a word for the person."""
     match goal:
         case DriveTo():
             return "base"
@@ -256,7 +258,7 @@ def _part(goal: Goal) -> str:
 
 
 class GuardedPerception(_Guard):
-    """Implements `Perception` around some that may raise."""
+    """Implements `Perception` around one that may raise."""
 
     def __init__(self, perception: Perception, inbox: Inbox, recorder: Recorder) -> None:
         """Guard this perception."""
@@ -264,7 +266,7 @@ class GuardedPerception(_Guard):
         self._perception = perception
 
     def see(self) -> int:
-        """Take a picture and recognise."""
+        """Start to take a picture and recognise what is in it."""
         return self._start("my camera failed", lambda: self._perception.see())
 
     def _cancel(self, request: int) -> None:
@@ -275,19 +277,19 @@ class GuardedUser(_Guard):
     """Implements `User` around one that may raise."""
 
     def __init__(self, user: User, inbox: Inbox, recorder: Recorder) -> None:
-        """Guard the way to this person."""
+        """Guard this person's interface."""
         super().__init__(inbox, recorder)
         self._user = user
 
     def ask(self, question: Question) -> int:
-        """Put a question."""
+        """Start to ask a question."""
         return self._start("I cannot ask you", lambda: self._user.ask(question))
 
     def _cancel(self, request: int) -> None:
         self._user.cancel(request)
 
     def tell(self, text: str) -> None:
-        """Say something, if that can be."""
+        """Say something to the person."""
         self._try(lambda: self._user.tell(text), None)
 
 
@@ -301,7 +303,7 @@ class GuardedModel(_Guard):
 
     @property
     def name(self) -> str:
-        """What to call it in logs."""
+        """Name for the logs."""
         return self._try(lambda: self._model.name, "a model without a name")
 
     @property
@@ -315,22 +317,22 @@ class GuardedModel(_Guard):
         return self._try(lambda: self._model.can_rank, False)
 
     def chat(self, request: ChatRequest) -> int:
-        """Write a reply."""
+        """Start to write a reply."""
         return self._start("my language model failed", lambda: self._model.chat(request))
 
     def rank(self, request: RankRequest) -> int:
-        """Score the options."""
+        """Start to score the options."""
         return self._start("my language model failed", lambda: self._model.rank(request))
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Get ready, if that can be."""
+        """Let the model get ready for such a request."""
         self._try(lambda: self._model.prepare(request), None)
 
     def _cancel(self, request: int) -> None:
         self._model.cancel(request)
 
     def count_tokens(self, text: str) -> int:
-        """How many tokens the text takes; one for each byte, if the model cannot tell."""
+        """Length of a text in tokens; if the model cannot tell, its bytes (never too few)."""
         return self._try(lambda: self._model.count_tokens(text), len(text.encode()))
 
     def close(self) -> None:

@@ -19,7 +19,7 @@ from executive.interfaces.robot import Robot
 from executive.interfaces.runtime import Clock, Recorder, Tree
 from executive.language.wording import WITHOUT_KNOWLEDGE
 from executive.pending import Pending
-from executive.records import EventTaken, Intervention, LlmCall, Note, Record, Tick
+from executive.records import EventTaken, Intervention, LlmCall, Note, Tick
 from executive.situation import Situation
 from executive.text import printable
 from executive.types.goals import Halt
@@ -30,7 +30,7 @@ log = logging.getLogger(__name__)
 REST_S = 5.0
 """How long the robot may take to come to rest (mission time, s)."""
 HALTS = 3
-"""How often it is told to, if it fails; and how many failures of the clock are borne meanwhile."""
+"""How often a failed halt is tried, and how many failures of the clock each try tolerates."""
 
 
 class Executive:
@@ -50,9 +50,9 @@ class Executive:
         robot: Robot,
         recorder: Recorder,
     ) -> None:
-        """Put the parts together; `run` starts.
+        """Connect the parts; `run` starts the mission.
 
-        `pending` is where the behaviours of this tree, and no others, wait for what they started.
+        `pending` holds the open requests and deadlines of this tree's behaviours, and no others.
         """
         self._tree = tree
         self._situation = situation
@@ -63,16 +63,17 @@ class Executive:
         self._recorder = GuardedRecorder(recorder)
         self.ticks = 0
         self.stops: list[StopRequested] = []
-        """Those who said stop, in this order; also those who said so when all was decided."""
+        """All requests to stop, in order, including those that came after the tree had decided."""
 
     def run(self) -> None:
         """Tick until the tree has decided or someone says stop; leave the robot at rest.
 
-        Whatever raises, ends the mission as not done: what it raised goes to the log. At the end
+        An exception ends the mission as not done, and its traceback goes to the log. In the end,
         no request is open, and the situation says how the mission ended.
 
         Raises:
-            KeyboardInterrupt: or what else is no Exception; the robot is told to halt even then.
+            KeyboardInterrupt: this, and whatever else is not an `Exception`, is passed on after
+                the robot was told to halt.
         """
         try:
             decided = self._decide()
@@ -94,7 +95,7 @@ class Executive:
     # --- the mission ---
 
     def _decide(self) -> bool:
-        """Whether the tree has decided; if not, the mission was cut short."""
+        """Run the mission; return whether the tree has decided (else it was cut short)."""
         try:
             self._recorder.record(self._tree.shape())
             self._feel()
@@ -118,12 +119,12 @@ class Executive:
             self._clock.wait(self._pending.next_deadline)
 
     def _take_events(self) -> str:
-        """Fold what happened into the situation; say what it was."""
+        """Fold all new events into the situation; return their names, the cause of the tick."""
         events = self._take_all()
         if not events:
             events = (DeadlinePassed(self._clock.now()),)
             self._take_in(*events)
-            self._feel()  # what takes too long may have come far
+            self._feel()  # an action that runs out of time may already have moved the hand
         elif any(_may_change_the_hand(event) for event in events):
             self._feel_at_rest()
         woke = (event for event in events if not isinstance(event, HandFelt))
@@ -150,31 +151,32 @@ class Executive:
             self._recorder.record(LlmCall(result))
 
     def _feel_at_rest(self) -> None:
-        """Ask the fingers, unless the robot is at something."""
+        """Ask the fingers what they hold, unless some request is still open."""
         if not self._inbox.awaits_anything:
             self._feel()
 
     def _feel(self) -> None:
-        """Ask the fingers; what they feel anew is an event."""
+        """Ask the fingers what they hold; a change is an event."""
         holding = self._robot.holding
         if holding != self._situation.hand.felt:
             self._take_in(HandFelt(holding))
 
     def _tick(self, cause: str) -> None:
-        """Let the tree decide; what it does before it raises, counts for nothing.
+        """Tick the tree, and record it; if it raises, undo what it changed in the situation.
 
-        So what is known is what the record of the mission tells, and its replay knows the same.
+        A tick that raised is not recorded. Undoing it keeps the situation equal to what a replay
+        of the record computes.
         """
         before = self._situation.saved()
         try:
-            record = self._ticked(cause)
+            record = self._tick_tree(cause)
         except BaseException:
             self._situation.restore(before)
             raise
         self._recorder.record(record)
         self.ticks += 1
 
-    def _ticked(self, cause: str) -> Record:
+    def _tick_tree(self, cause: str) -> Tick:
         began = time.perf_counter()
         self._tree.tick()
         return Tick(
@@ -186,17 +188,17 @@ class Executive:
             duration_s=time.perf_counter() - began,
         )
 
-    # --- its end ---
+    # --- the end of the mission ---
 
     def _call_off(self) -> None:
-        """Have every behaviour cancel what it started."""
+        """Stop the tree, so that every behaviour cancels what it started."""
         try:
             self._tree.stop()
         except Exception as error:
             self._note(error)
 
     def _come_to_rest(self) -> None:
-        """Stop the robot and let time pass until it stands still; say so if it may not."""
+        """Halt the robot; if it may still be moving after that, the situation says so."""
         result: Result | None = None
         for _ in range(HALTS):
             result = self._halt()
@@ -214,7 +216,7 @@ class Executive:
             self._situation.ending.hold_on_to(WITHOUT_KNOWLEDGE.the(held))
 
     def _halt(self) -> Result | None:
-        """Tell the robot to halt, and wait; how that ended (None: not in time)."""
+        """Tell the robot to halt, and wait; return its result, or None if it took too long."""
         request = self._robot.start(Halt())
         latest, failures = self._clock.now() + REST_S, 0
         while self._inbox.is_open(request) and self._clock.now() < latest and failures < HALTS:
@@ -232,10 +234,10 @@ class Executive:
 
 
 def who_interrupts(interrupt: BaseException) -> str:
-    """Who said stop, by what was raised for it."""
+    """The name under which an interrupt is recorded as a request to stop."""
     return "Ctrl-C" if isinstance(interrupt, KeyboardInterrupt) else type(interrupt).__name__
 
 
 def _may_change_the_hand(event: Event) -> bool:
-    """Whether it may be the end of something that the robot did."""
+    """Whether the event may be the end of a movement, which may have changed what is held."""
     return isinstance(event, Ended) and isinstance(event.result, Succeeded | Failed)

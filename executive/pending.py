@@ -1,4 +1,4 @@
-"""What the behaviours of a mission wait for: ends that nobody has read yet, and deadlines."""
+"""What the behaviours of a mission wait for: results that nobody has taken yet, and deadlines."""
 
 from dataclasses import dataclass
 
@@ -7,40 +7,44 @@ from executive.types.results import Result
 
 @dataclass(frozen=True, slots=True)
 class Deadline:
-    """Until when (mission time, s) somebody waits for the end of a request."""
+    """Until when (mission time, s) a behaviour waits for the end of a request.
+
+    Attributes:
+        waiting: the name of that behaviour, for the log.
+    """
 
     waiting: str
     time_s: float
 
 
 class Pending:
-    """The requests of one mission, by their numbers: how they ended, until when they may.
+    """The results and deadlines of one mission's requests, by request number.
 
-    The loop puts in the ends, and sleeps until the next deadline; behaviours take the ends out.
+    The loop puts the results in, and sleeps until the next deadline; behaviours take them out.
     """
 
     def __init__(self) -> None:
-        """Nothing is waited for."""
+        """Begin with no results and no deadlines."""
         self._ends: dict[int, Result] = {}
         self._deadlines: dict[int, Deadline] = {}
 
     def end(self, request: int, result: Result) -> None:
-        """A request ended; keep how, until somebody reads it."""
+        """Keep the result of a request that ended, until its behaviour takes it."""
         self._ends[request] = result
 
     def take_end(self, request: int) -> Result | None:
-        """How a request ended, for its one reader; None if it has not."""
+        """Take the result of a request out; None if it has not ended."""
         return self._ends.pop(request, None)
 
     def wait_until(self, time_s: float, request: int, waiting: str) -> None:
-        """Have the tree ticked at this mission time (s), if the request has not ended by then.
+        """Set the deadline of a request: the tree is ticked at this mission time (s).
 
         `waiting` is the name of the behaviour that waits, for the log.
         """
         self._deadlines[request] = Deadline(waiting, time_s)
 
     def wait_no_more(self, request: int) -> None:
-        """The deadline of a request does not count any more."""
+        """Remove the deadline of a request, if it has one."""
         self._deadlines.pop(request, None)
 
     @property
@@ -49,5 +53,5 @@ class Pending:
         return min((deadline.time_s for deadline in self._deadlines.values()), default=None)
 
     def deadlines(self) -> dict[str, float]:
-        """Who waits until when, by name, as the log keeps it."""
+        """The deadlines by the name of the behaviour that waits, as the log keeps them."""
         return {deadline.waiting: deadline.time_s for deadline in self._deadlines.values()}

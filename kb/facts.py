@@ -1,7 +1,7 @@
-"""What was seen where and when, looked for in vain, said, taken and put down: facts with a time.
+"""The memory: timed facts about what was seen, missed, said, taken and put down where.
 
-Facts are only ever added. What is believed follows from the order in which they came, and is kept
-beside them, so that a question takes as long with a million facts as with ten.
+Facts are only ever added. What is believed follows from their order. It is kept in a table of its
+own, so that a question takes as long with a million facts as with ten.
 """
 
 import logging
@@ -22,13 +22,13 @@ from kb.facts_file import opened
 log = logging.getLogger(__name__)
 
 MOST_BELIEFS, MOST_PLACES, MOST_NAME = 10_000, 100, 200
-"""Objects that are believed to be anywhere; places of one; letters of a name."""
+"""Limits: objects with a believed place, places of one object, characters of a name."""
 EVERYTHING = "everything"
-"""What is looked at where a place is looked at all over."""
+"""The object of a fact of kind LOOKED."""
 SAID_THERE, DENIED_THERE = 0, -1
-"""In the column `seen` of what is believed: nobody has seen it there, but the person says so."""
+"""Values of the column `seen` of a belief that comes from the person; any other: it was seen."""
 MOST_LOOKED_BACK = 20_000
-"""Facts among which it is looked for where the robot took things from: some milliseconds."""
+"""`origins` reads only this many of the latest facts: that takes some milliseconds."""
 
 
 class FactKind(StrEnum):
@@ -42,11 +42,11 @@ class FactKind(StrEnum):
     DENIED = "denied"
     """The person said that it is not there."""
     TAKEN = "taken"
-    """The robot picked it up there: it is nowhere now."""
+    """The robot picked it up there; after that it is at no place."""
     PUT = "put"
     """The robot put it down there."""
     LOOKED = "looked"
-    """All of the place was looked at, for everything: what was not seen is not there."""
+    """All of the place was looked at: what was not seen is not there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,11 +60,11 @@ class Fact:
 
 
 class FactStore:
-    """Implements `Facts` with an SQLite file, each fact one committed transaction.
+    """Implements `Facts` with an SQLite file; each fact is one committed transaction.
 
-    A process that is killed at any moment leaves every fact that it was told (write-ahead log).
-    A disk that is full, or a file that is damaged later, costs the fact and a warning, not the
-    mission. Several processes may open one file, and make it, at a time.
+    No fact is lost if the process is killed at any moment (write-ahead log). If the disk is full,
+    or the file gets damaged, a warning says that the fact was not kept, and the mission goes on.
+    Several processes may create and use the same file at the same time.
     """
 
     def __init__(
@@ -74,22 +74,22 @@ class FactStore:
         learns: bool = True,
         now: Callable[[], float] = time.time,
     ) -> None:
-        """Open the file, or make it.
+        """Open the file, or create it.
 
         Args:
-            file: None: facts are kept until the process ends.
+            file: where facts are kept; None: in memory, until the process ends.
             learns: whether facts are added; if not, the file is only read.
-            now: the time (UTC, s) that facts get.
+            now: the time that new facts get (UTC, seconds since 1970).
 
         Raises:
-            InputError: if the file cannot be opened or is something else.
+            InputError: if the file cannot be opened, or is not a file of facts.
         """
         self._learns = learns
         self._now = now
         self._where = printable(file or "memory")
         self._database = opened(file, learns=learns)
         self._failing = False
-        """Whether the person knows that it does not work."""
+        """Whether the last access failed, and a warning has said so."""
 
     @classmethod
     def believing(
@@ -100,7 +100,7 @@ class FactStore:
         *,
         learns: bool = True,
     ) -> Self:
-        """A store that lasts as long as the process and believes what another one did."""
+        """A store in memory that believes what another one did; for replays."""
         store = cls()
         kinds = (FactKind.TAKEN, FactKind.SAID, FactKind.DENIED)
         for kind, known in zip(kinds, (origins, beliefs, denials), strict=True):
@@ -120,7 +120,7 @@ class FactStore:
             self._add(FactKind.SEEN, name, place)
 
     def missed(self, name: str, place: str) -> None:
-        """It was looked for there, and is not there."""
+        """The object was looked for there, and not seen."""
         self._add(FactKind.MISSED, name, place)
 
     def heard(self, name: str, places: Iterable[str]) -> None:
@@ -134,41 +134,42 @@ class FactStore:
             self._add(FactKind.DENIED, name, place)
 
     def took(self, name: str, place: str) -> None:
-        """The robot has it, from there."""
+        """The robot has picked the object up there."""
         self._add(FactKind.TAKEN, name, place)
 
     def put(self, name: str, place: str) -> None:
-        """The robot has put it down there."""
+        """The robot has put the object down there."""
         self._add(FactKind.PUT, name, place)
 
     def places_of(self, name: str) -> tuple[str, ...]:
-        """Where it was last seen or put; before that, where the person has since said that it is.
+        """The places where the object may be, the newest belief first.
 
-        A look in vain, or a person who says that it is not there, contradicts what was known before
-        about that place. Once taken, it is nowhere until seen again.
+        These are the places that the person has named since it was last seen or put down, then
+        that place itself. A look in vain, or the person's denial, removes a place. What was taken
+        is at no place until there is news of it.
         """
         return self._places(name, there=True)
 
     def places_denied(self, name: str) -> tuple[str, ...]:
-        """Where the person said that it is not, until it is seen, or said to be there."""
+        """Where the person said that it is not; until it is seen, or said to be there."""
         return self._places(name, there=False)
 
     def looked(self, place: str) -> None:
-        """All of it was looked at."""
+        """All of the place was looked at."""
         self._add(FactKind.LOOKED, EVERYTHING, place)
 
-    # --- for whoever keeps and shows them ---
+    # --- for those who keep and show facts ---
 
     def beliefs(self) -> dict[str, tuple[str, ...]]:
-        """Each object that is believed to be anywhere, and where."""
+        """The places of every object that is believed to be somewhere."""
         return self._of_each(self.places_of)
 
     def denials(self) -> dict[str, tuple[str, ...]]:
-        """Each object that was said not to be somewhere, and where, if nothing came since."""
+        """The denied places of every object that has some; see `places_denied`."""
         return self._of_each(self.places_denied)
 
     def origins(self) -> dict[str, tuple[str, ...]]:
-        """Each object that the robot took, and from where, the last time first."""
+        """The places that the robot took each object from, the latest first."""
         query = (
             "SELECT object, place FROM fact WHERE kind = ? AND number > "
             "(SELECT max(number) FROM fact) - ? ORDER BY number DESC"
@@ -183,7 +184,7 @@ class FactStore:
         return {name: tuple(places)[:MOST_PLACES] for name, places in known.items()}
 
     def all(self) -> tuple[Fact, ...]:
-        """Every fact, oldest first; rows that are none are passed over.
+        """Every fact, the oldest first; invalid rows are skipped.
 
         Raises:
             InputError: if the file cannot be read.
@@ -195,9 +196,9 @@ class FactStore:
             raise InputError(self._where, f"cannot be read: {error}") from error
 
     def since(self, number: int, most: int) -> tuple[tuple[Fact, ...], int]:
-        """Facts that came after the one of a number, the last so many; and the number of the last.
+        """The facts after number `number`, at most the latest `most`; and the last one's number.
 
-        There are none if they cannot be read.
+        No facts if they cannot be read.
         """
         query = (
             "SELECT kind, object, place, time_s, number FROM "
@@ -217,14 +218,14 @@ class FactStore:
                 yield kind, name, place, float(time_s)
 
     def load(self, facts: Iterable[Fact]) -> None:
-        """Add facts with the times that they have."""
+        """Add facts with their own times."""
         insert = "INSERT INTO fact (time_s, kind, object, place) VALUES (?, ?, ?, ?)"
         deny = "INSERT OR REPLACE INTO belief VALUES (?, ?, ?, ?)"
         with self._database:
             for fact in facts:
                 values = (fact.time_s, fact.kind, fact.object, fact.place)
                 number = self._database.execute(insert, values).lastrowid
-                if fact.kind == FactKind.DENIED:  # files of before have no trigger for it
+                if fact.kind == FactKind.DENIED:  # older files have no trigger for it
                     self._database.execute(deny, (fact.object, fact.place, DENIED_THERE, number))
 
     def forget(self, name: str | None = None) -> int:
@@ -265,7 +266,7 @@ class FactStore:
         return places
 
     def _believed(self, name: str) -> dict[str, bool]:
-        """Whether it is there, of each place of which that is known; the newest first."""
+        """Whether the object is there, for each place that something is known of, newest first."""
         newest_first = self._database.execute(
             "SELECT place, seen FROM belief WHERE object = ? ORDER BY number DESC LIMIT ?",
             (name, MOST_PLACES),
@@ -289,7 +290,7 @@ class FactStore:
             self._failing = False
 
     def _warn(self, what: str, error: Exception) -> None:
-        """Say it once, until it works again."""
+        """Warn once, until an access succeeds again."""
         if not self._failing:
             log.warning("%s, %s: %s", printable(what), self._where, printable(error))
         self._failing = True
@@ -298,7 +299,7 @@ class FactStore:
 _KINDS = frozenset(FactKind)
 
 _FAILURES = (sqlite3.Error, ValueError, OverflowError)
-"""What a query raises: the disk or the file fails, or a value is none for a database."""
+"""Raised by queries: the disk or the file fails, or the database cannot store a value."""
 
 
 def _is_fact(kind: object, name: object, place: object, time_s: object) -> bool:

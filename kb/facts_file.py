@@ -1,4 +1,4 @@
-"""The SQLite file of facts: made by us, possibly by several processes at once, or refused."""
+"""The SQLite file of facts: it is created here, by several processes if need be, or refused."""
 
 import os
 import sqlite3
@@ -12,22 +12,22 @@ from executive.text import printable
 APPLICATION_ID = 0x0FAC7501
 """Marks an SQLite file as ours (https://sqlite.org/fileformat.html, "Application ID")."""
 BUSY_S = 0.25
-"""How long to wait for another process that is writing; a stop waits for it, too."""
+"""How long to wait for another process that is writing; short, because a stop waits, too."""
 OPENING_S = 10.0
-"""The same while it is opened: others may be making it."""
+"""The same while the file is opened: another process may be creating it."""
 MOST_CHECKED = 16 * 1024 * 1024
-"""A file of so many bytes is looked through for damage when it is opened; a larger one is not."""
+"""Files of up to this many bytes are checked for damage when they are opened."""
 _BESIDE = ("-journal", "-wal", "-shm")
-"""What SQLite opens, too."""
+"""Endings of the files that SQLite opens beside it."""
 MOST_BYTES = 1_000_000
-"""Of a row."""
+"""The largest row."""
 
 _SCHEMA = (
     """CREATE TABLE fact (
     number INTEGER PRIMARY KEY, time_s REAL NOT NULL, kind TEXT NOT NULL, object TEXT NOT NULL,
     place TEXT NOT NULL)""",
-    # Where an object was seen (or put) and said to be, less what is contradicted since. The
-    # triggers belong to the transaction that adds the fact: a kill leaves both or neither.
+    # Where an object was seen (or put) and said to be, without what was contradicted since. The
+    # triggers run in the transaction that adds the fact: a kill leaves both or neither.
     """CREATE TABLE belief (
     object TEXT NOT NULL, place TEXT NOT NULL, seen INTEGER NOT NULL, number INTEGER NOT NULL,
     PRIMARY KEY (object, place, seen)) WITHOUT ROWID""",
@@ -43,18 +43,19 @@ END""",
 END""",
     f"PRAGMA application_id = {APPLICATION_ID}",
 )
-"""A file with anything else in it, such as another's trigger or view, is not opened."""
+"""A file with any other definition in it, such as a strange trigger or view, is refused."""
 
 
 def opened(file: Path | None, *, learns: bool) -> sqlite3.Connection:
-    """Open a file of facts, or make it; None: in this process' memory.
+    """Open a file of facts, or create it.
 
     Args:
-        file: where.
-        learns: whether it will be added to.
+        file: the file; None for a database in memory.
+        learns: whether facts will be added.
 
     Raises:
-        InputError: if it cannot be opened, is something else, or cannot be added to.
+        InputError: if the file cannot be opened, is something else, or cannot be written although
+            facts will be added.
     """
     with ExitStack() as on_error:
         try:
@@ -88,15 +89,14 @@ def _connect(file: Path | None, learns: bool) -> sqlite3.Connection:
     for beside in (Path(f"{file}{ending}") for ending in _BESIDE):
         if beside.exists() and not beside.is_file():  # SQLite would wait for a pipe for ever
             raise sqlite3.DatabaseError(f"{beside.name} beside it is no file")
-    if not learns and not os.access(
-        file.parent, os.W_OK
-    ):  # no place for what SQLite puts beside it
+    if not learns and not os.access(file.parent, os.W_OK):
+        # SQLite cannot put its own files beside it, and needs none for a file that does not change
         return sqlite3.connect(f"{file.absolute().as_uri()}?immutable=1", uri=True)
     return sqlite3.connect(str(file.absolute()), timeout=OPENING_S)
 
 
 def _distrust(database: sqlite3.Connection) -> None:
-    """Let nothing in a stranger's file run, and nothing in it be large."""
+    """Let no code in a file of others run, and limit the size of what is read."""
     database.text_factory = lambda text: text.decode(errors="replace")
     database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MOST_BYTES)
     database.execute("PRAGMA trusted_schema = OFF")
@@ -104,14 +104,14 @@ def _distrust(database: sqlite3.Connection) -> None:
 
 
 def _prepare(database: sqlite3.Connection) -> None:
-    """Make the tables in an empty file; let no other file pass."""
+    """Create the tables in an empty file; refuse any other file that is not ours."""
     if _is_empty(database):
-        database.execute("BEGIN IMMEDIATE")  # others wait here, and then find it made
+        database.execute("BEGIN IMMEDIATE")  # other processes wait here, then find the tables
         with database:
             if _is_empty(database):
                 for statement in _SCHEMA:
                     database.execute(statement)
-        with suppress(sqlite3.OperationalError):  # another one is at it
+        with suppress(sqlite3.OperationalError):  # another process is doing it
             database.execute("PRAGMA journal_mode = WAL")
     if _mark(database) != APPLICATION_ID or _definitions(database) != _ours():
         raise sqlite3.DatabaseError("it is a database of something else")
@@ -127,7 +127,7 @@ def _mark(database: sqlite3.Connection) -> int:
 
 
 def _definitions(database: sqlite3.Connection) -> list[tuple[object, ...]]:
-    """All that is defined in a file, as text: it is compared, never run."""
+    """All definitions in a file, as text: they are compared, never run."""
     query = "SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY type, name LIMIT 99"
     return database.execute(query).fetchall()
 

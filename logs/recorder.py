@@ -1,4 +1,4 @@
-"""From the ticking thread to every log: one queue, one writing thread, any number of sinks."""
+"""The recorder: one queue and one writing thread between the ticking thread and all sinks."""
 
 import contextlib
 import logging
@@ -16,19 +16,22 @@ from logs.unwritten import Unwritten
 log = logging.getLogger(__name__)
 
 CAPACITY = 1024
-"""Records that may wait to be written."""
+"""How many records may wait to be written."""
 PATIENCE_S = 0.5
-"""How long the ticking thread waits for room in a full queue before a record is given up."""
+"""How long the ticking thread waits for room in a full queue, before it drops the record."""
 POLL_S = 0.005
-"""How often it looks for room."""
+"""How often it checks for room."""
 FLUSH_S = 0.5
-"""How long records gather before they are written and flushed together. A thread that is woken for
-each record costs the mission half as much again; and with the time that writing takes, on a busy
-machine too, no more than a second is lost."""
+"""How long records gather before they are written and flushed together.
+
+Longer is cheaper: to wake the thread for each record would make a mission half as expensive again.
+Shorter is safer: with the time that writing takes, a kill loses no more than a second, even on a
+busy machine.
+"""
 LIVE_FLUSH_S = 0.1
-"""The same of sinks that someone watches; the others are flushed as ever."""
+"""The same for sinks that someone watches."""
 CLOSE_S = 30.0
-"""How long `close` waits for what is queued to be written."""
+"""How long `close` waits until the queue is written."""
 
 
 class Stamp(NamedTuple):
@@ -39,16 +42,16 @@ class Stamp(NamedTuple):
 
 
 class Sink(Protocol):
-    """One log. Everything but its making happens in the writing thread; it may raise."""
+    """One log. All methods are called in the writing thread, and may raise."""
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Keep a record. An OSError is the end of the log, another exception that of the record."""
+        """Write a record. After an OSError the sink is closed; after others, the record is lost."""
         ...
 
     def flush(self) -> None:
         """Bring what was written to where it survives the death of this process.
 
-        Sooner, if someone watches: a sink with a true attribute `live` says so.
+        This is called more often for a sink that someone watches: one with a true attribute `live`.
         """
         ...
 
@@ -58,35 +61,35 @@ class Sink(Protocol):
 
 
 class FanOut:
-    """The Recorder: stamps each record with the time and passes it to every sink.
+    """The Recorder: stamps each record with the time and passes it to every sink, in order.
 
-    It outlives missions: `open` begins a mission's logs, `close` ends them, and what is recorded in
-    between reaches the sinks in order. A record that a sink cannot write costs it that record, and
-    is told once a kind; a sink that the disk fails is closed and dropped, and the others are told.
-    Records are not copied: whoever hands one over must not change it afterwards.
+    It outlives missions: `open` begins the logs of a mission, `close` ends them. If a sink cannot
+    write a record, only that record is lost in that sink, with a warning for the first of its kind.
+    If the disk fails a sink, it is closed and dropped, and the other sinks record that. Records are
+    not copied: do not change one after you have passed it on.
     """
 
     def __init__(self, now: Callable[[], float], *, live: bool = False) -> None:
-        """Stamp with what `now` returns: the mission time (s); `live` if someone watches."""
+        """`now` returns the mission time (s) for the stamps; `live` if someone watches the logs."""
         self._now = now
         self._live = live
         self._writer: _Writer | None = None
         self.is_whole = True
-        """Whether every log of the last mission has all of it, as far as that has been written."""
+        """Whether no log of the last mission lacks anything, as far as they are written."""
 
     def open(self, sinks: Sequence[Sink], started: datetime) -> None:
-        """Begin a mission that started at this wall time; a mission still open is closed first."""
+        """Begin the logs of a mission that started at this wall time; close those still open."""
         self.close()
         self.is_whole = True
         try:
             self._writer = _Writer(sinks, LIVE_FLUSH_S if self._live else FLUSH_S)
-        except RuntimeError as error:  # no thread is to be had
+        except RuntimeError as error:  # no thread can be started
             log.warning("the mission goes on without logs: %s", error)
             self.is_whole = False
         self.record(Note("info", f"mission time 0 is {started.isoformat()}"))
 
     def record(self, record: Record) -> None:
-        """Pass a record on; without an open mission it is ignored. Never raises."""
+        """Pass a record on; between `close` and `open` it is ignored. Never raises."""
         if self._writer is not None:
             self._writer.put(Stamp(self._now(), time.time_ns()), record)
 
@@ -99,7 +102,7 @@ class FanOut:
 
 
 class _Writer:
-    """The thread that feeds one mission's sinks: writes what is there, flushes, and rests."""
+    """The thread that feeds the sinks of one mission: it writes the queue, flushes, and rests."""
 
     def __init__(self, sinks: Sequence[Sink], rest_s: float) -> None:
         self._sinks = list(sinks)
@@ -107,22 +110,21 @@ class _Writer:
         self._rest_s = LIVE_FLUSH_S if any(map(_is_live, sinks)) else rest_s
         self._flush_s = rest_s
         self._flushed = -rest_s
-        """When all sinks were flushed last (s)."""
+        """When all sinks were last flushed (monotonic time, s)."""
         self._unflushed = False
         self._queue: queue.SimpleQueue[tuple[Stamp, Record | None]] = queue.SimpleQueue()
         self._hurry = threading.Event()
-        """Ends the rest."""
+        """Ends the rest early."""
         self._lost = 0
         self.is_whole = True
-        """Whether nothing was lost so far."""
+        """Whether nothing has been lost so far."""
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
 
     def put(self, stamp: Stamp, record: Record) -> None:
-        """Queue a record; if the sinks cannot keep up, wait once, then give up records.
+        """Queue a record; if the sinks cannot keep up, wait once, then drop records.
 
-        Nobody waits for a thread that has ended: what another one hands over as the logs are closed
-        is given up.
+        The wait ends at once if the writing thread has ended, because the logs are being closed.
         """
         if not self._has_room(0.0 if self._lost else PATIENCE_S):
             self._lost += 1
@@ -166,7 +168,7 @@ class _Writer:
             self._hurry.clear()
 
     def _batch(self) -> list[tuple[Stamp, Record | None]]:
-        """All that waits to be written; none, if nothing comes before sinks have to be flushed."""
+        """All queued records; none if none comes before the sinks must be flushed."""
         left = max(0.0, self._flushed + self._flush_s - time.monotonic())
         try:
             first = self._queue.get(timeout=left if self._unflushed else None)
@@ -175,7 +177,7 @@ class _Writer:
         return [first, *(self._queue.get() for _ in range(self._queue.qsize()))]
 
     def _flush(self, stamp: Stamp) -> None:
-        """Flush those that someone watches, and if it is time, all."""
+        """Flush all sinks if it is time, else only those that someone watches."""
         now = time.monotonic()
         if now - self._flushed < self._flush_s and self._rest_s < self._flush_s:
             self._each(stamp, lambda sink: sink.flush() if _is_live(sink) else None)
@@ -191,16 +193,16 @@ class _Writer:
             sink.write(stamp, record)
         except OSError:
             raise
-        except Exception as error:  # whatever is wrong is wrong with this record
+        except Exception as error:  # the fault is in this record, not in the log
             if note := self._unwritten[id(sink)].note(type(record).__name__, error):
                 self._write(stamp, note)
 
     def _each(self, stamp: Stamp, do: Callable[[Sink], None]) -> None:
-        """Do it to every sink; close and drop those that raise, and tell the others."""
+        """Call `do` with every sink; close and drop those that raise, and tell the others."""
         for sink in tuple(self._sinks):
             try:
                 do(sink)
-            except BaseException as error:  # a panic in a sink's Rust code is no Exception
+            except BaseException as error:  # a panic in Rust code is not an Exception
                 if sink in self._sinks:
                     self._sinks.remove(sink)
                     with contextlib.suppress(BaseException):
@@ -223,5 +225,5 @@ class _Writer:
 
 
 def _is_live(sink: Sink) -> bool:
-    """Whether someone watches what it is told."""
+    """Whether someone watches this sink."""
     return bool(getattr(sink, "live", False))

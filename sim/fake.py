@@ -1,7 +1,7 @@
-"""The instant world: the contract of the simulated robot without physics, for tests and campaigns.
+"""The instant world: a robot, camera and detector without physics, for tests and campaigns.
 
-It keeps which thing is on which furniture and lets nominal times pass; it drives in straight lines,
-always sees what is there, and never drops a thing unless a fault is asked for.
+The world knows which thing is on which furniture, and every action takes a nominal time. The robot
+drives in straight lines, sees whatever is there, and never drops a thing unless a fault makes it.
 """
 
 import heapq
@@ -33,9 +33,10 @@ SPEED_M_S = 0.8
 LOOK_S, PICK_S, PUT_DOWN_S, REST_S = 0.5, 8.0, 6.0, 0.5
 """Nominal durations."""
 EYE_HEIGHT_M = 1.35
+"""Height of the camera above the floor."""
 
 Fault = Callable[[Goal], str | None]
-"""Says why a goal fails, or None if it does not."""
+"""Returns why a goal fails, or None if it does not."""
 
 
 def _no_fault(goal: Goal) -> None:
@@ -60,7 +61,7 @@ class Drive:
     seconds: float
 
     def at(self, time: float) -> tuple[float, float, float]:
-        """Where the robot is then; it turns as it sets off."""
+        """Where the robot is at a time (s); it has the yaw of the goal from the start."""
         part = min(1.0, (time - self.began) / self.seconds) if self.seconds else 1.0
         x, y, _ = (a + part * (b - a) for a, b in zip(self.start, self.goal, strict=True))
         return x, y, self.goal[2]
@@ -72,7 +73,7 @@ def knows(home: Home, place: str) -> bool:
 
 
 def straight_s(home: Home, start: str, place: str, speed_m_s: float = SPEED_M_S) -> float:
-    """Seconds of the straight way; infinite if one of the two is not in this home."""
+    """How long the straight way takes (s); infinite if one of the places is not in this home."""
     if not (knows(home, start) and knows(home, place)):
         return math.inf
     ends = (home.stand(name)[:2] for name in (start, place))
@@ -80,7 +81,7 @@ def straight_s(home: Home, start: str, place: str, speed_m_s: float = SPEED_M_S)
 
 
 class FakeWorld:
-    """Who is where, and what ends when. Implements World."""
+    """Implements `SimulatedHome`: where everything is, and when each request ends."""
 
     def __init__(
         self,
@@ -94,10 +95,10 @@ class FakeWorld:
 
         Args:
             home: what is where.
-            inbox: where the ends of the robot's goals go.
+            inbox: where the results of the robot's goals go.
             recorder: where movements go.
-            fault: makes chosen goals fail.
-            spots: how many things have room on a piece of furniture; None: any number.
+            fault: says which goals fail, and why.
+            spots: how many things fit on a piece of furniture; None: any number.
         """
         self.home = home
         self.inbox = inbox
@@ -110,18 +111,21 @@ class FakeWorld:
         self.pose = home.robot_start
         self.looking_at: str | None = None
         self.drive: Drive | None = None
-        """The drive that is under way."""
+        """The current drive; None while the robot stands."""
         self._time = 0.0
         self._numbers = count()
         self._agenda: list[_Due] = []
 
     @property
     def busy(self) -> bool:
-        """Whether anything is due."""
+        """Whether a request is under way."""
         return bool(self._agenda)
 
     def advance(self, at_most: float) -> float:
-        """Jump to when something is due, at most so many seconds; then, in no time, end it."""
+        """Jump towards the end of the next request, by at most so many seconds; return how many.
+
+        When its time has come, end the request; that takes no time.
+        """
         until_due = self._agenda[0].time - self._time if self._agenda else math.inf
         if until_due > 0:
             passed = min(at_most, until_due)
@@ -135,17 +139,17 @@ class FakeWorld:
         """Nothing to free."""
 
     def resting_place(self, name: str) -> str | None:
-        """The furniture that a thing is on, by the world's truth; None if held or not here."""
+        """The furniture that a thing is on; None if it is held or not in this world."""
         return self.things.get(name)
 
     def left(self) -> dict[str, Spot]:
-        """Where things are that are on furniture."""
+        """Where the things are that are on furniture."""
         pieces = {piece.name for piece in (*self.home.furniture, self.home.delivery)}
         on_furniture = ((name, place) for name, place in self.things.items() if place in pieces)
         return {name: Spot(furniture=place) for name, place in on_furniture}
 
     def put(self, name: str, furniture: str) -> bool:
-        """Have somebody put a thing on other furniture; whether it could be done."""
+        """Put a thing on other furniture, as a person would; whether that was possible."""
         there = list(self.things.values()).count(furniture)
         if name not in self.things or (self.spots is not None and there >= self.spots):
             return False
@@ -161,11 +165,11 @@ class FakeWorld:
 
     @property
     def time(self) -> float:
-        """How long it has gone on (s)."""
+        """How long this world has existed (s)."""
         return self._time
 
     def brake(self) -> None:
-        """Be where the drive that is given up has led so far, if there is one."""
+        """End the current drive, if there is one: the robot stands where it has come to."""
         if self.drive:
             self.pose, self.drive = self.drive.at(self._time), None
             self.describe()
@@ -177,7 +181,7 @@ class FakeWorld:
         return request
 
     def forget(self, request: int) -> bool:
-        """Take a request off the agenda; whether it was on it."""
+        """Remove a request, so that it never ends; return whether it was under way."""
         before = len(self._agenda)
         self._agenda = [due for due in self._agenda if due.request != request]
         heapq.heapify(self._agenda)
@@ -185,10 +189,10 @@ class FakeWorld:
 
 
 class FakeRobot:
-    """Implements Robot in the instant world."""
+    """Implements `Robot` in the instant world."""
 
     def __init__(self, world: FakeWorld) -> None:
-        """Stand where the world says."""
+        """Control the robot of this world."""
         self._world = world
         self._request: int | None = None
 
@@ -202,7 +206,7 @@ class FakeRobot:
         return 1
 
     def seconds(self, start: str, place: str) -> float:
-        """By the straight line; infinite if one of the two is not in this home."""
+        """How long the straight way takes (s); infinite if a place is not in this home."""
         return straight_s(self._world.home, start, place)
 
     def start(self, goal: Goal | GoTo) -> int:
@@ -220,7 +224,7 @@ class FakeRobot:
         return self._request
 
     def cancel(self, request: int) -> None:
-        """Stop where it is."""
+        """Stop where the robot is; nothing is delivered."""
         if self._world.forget(request):
             self._world.brake()
         self._world.inbox.drop(request)
@@ -295,17 +299,17 @@ class FakeRobot:
 
 
 class FakeCamera:
-    """Implements Camera: a grey picture with a tag for each thing in view."""
+    """Implements `Camera`: a grey picture with a tag for each thing in view."""
 
     intrinsics = Intrinsics(width=160, height=120, fx=125.0, fy=125.0, cx=79.5, cy=59.5)
 
     def __init__(self, world: FakeWorld) -> None:
-        """Look from the robot's head."""
+        """Look at this world from the robot's head."""
         self._world = world
         self._numbers = count()
 
     def capture(self) -> Frame:
-        """Draw what is there."""
+        """Draw a tag for each thing in view."""
         size = (self.intrinsics.height, self.intrinsics.width)
         color = np.full((*size, 3), 120, dtype=np.uint8)
         for name, box in zip(in_view(self._world), spots(size[1], size[0]), strict=False):
@@ -318,14 +322,14 @@ class FakeCamera:
 
 
 class FakeDetector:
-    """Implements Detector by asking the world: stands in for real recognition."""
+    """Implements `Detector` by asking the world, in place of real recognition."""
 
     def __init__(self, world: FakeWorld) -> None:
-        """See what is in the world."""
+        """Detect the things of this world."""
         self._world = world
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
-        """Everything on the furniture that the robot looks at."""
+        """A detection of each thing on the furniture that the robot looks at."""
         return tuple(
             Detection(name, 1.0, spot(index, FakeCamera.intrinsics.width), whole())
             for index, name in enumerate(in_view(self._world))

@@ -1,4 +1,4 @@
-"""The simulated robot: turns goals into skills and runs one at a time."""
+"""The simulated robot: turns goals into skills, and runs one skill at a time."""
 
 import logging
 import math
@@ -29,17 +29,20 @@ from sim.navigation.navigator import Navigator
 log = logging.getLogger(__name__)
 
 FLOOR_PANS = (0.0, 1.0, -1.0, 2.0, -2.0)
-"""Where the robot looks for what fell to the floor: to the left of where it faces (radians)."""
+"""Bearings at which the robot looks at the floor, counted from its own yaw to the left (rad)."""
 FLOOR_AHEAD_M = 0.9
-"""How far from its middle it looks there."""
+"""How far from its middle it looks at the floor."""
 REST_S = 1.5
-"""The longest that anything moves on when the base stands."""
+"""How long arm, fingers and head may move on after the base has stopped."""
 ROLLING_S = 1.5
-"""How long the robot waits for what fell to come to rest before it says so."""
+"""How long the robot waits for a thing that fell to come to rest, before it reports the loss."""
 
 
 class SimulatedRobot:
-    """Implements Robot with the skills of this package; the world calls `control`."""
+    """Implements `Robot` with the skills of this package.
+
+    The world calls `feel` and `control` in every control period.
+    """
 
     def __init__(
         self,
@@ -52,7 +55,7 @@ class SimulatedRobot:
         inbox: Inbox,
         thinker: Thinker,
     ) -> None:
-        """Stand idle."""
+        """Connect the parts; the robot is idle, and not at any place."""
         self._hardware = hardware
         self._navigator = navigator
         self._durations = durations
@@ -69,7 +72,7 @@ class SimulatedRobot:
 
     @property
     def holding(self) -> bool:
-        """Whether both fingers touch a thing, now."""
+        """Whether both fingers touch a thing now."""
         return self._manipulator.hand.holding
 
     def views(self, place: str) -> int:
@@ -77,11 +80,11 @@ class SimulatedRobot:
         return FLOOR_VIEWS if place == FLOOR else len(self._home.view_targets(place))
 
     def seconds(self, start: str, place: str) -> float:
-        """How long the way takes by the map, with an empty hand; infinite if there is none."""
+        """How long the drive takes with an empty hand (s), by the map; infinite if it cannot be."""
         return self._durations.seconds(start, place)
 
     def start(self, goal: AnyGoal) -> int:
-        """Pursue a goal; ends Succeeded, or Failed with a reason."""
+        """Pursue a goal; it ends as Succeeded, or as Failed with a reason."""
         if self._request is not None:
             self._inbox.end(self._request, Failed("replaced by another goal"))
             hold(self._hardware)
@@ -97,7 +100,7 @@ class SimulatedRobot:
             self._pursue(self._rest())
 
     def close(self) -> None:
-        """Give up what it does and computes."""
+        """Give up the skill that is under way, and what is being computed for it."""
         if self._skill is not None:
             self._skill.close()
         self._thinker.close()
@@ -121,20 +124,20 @@ class SimulatedRobot:
         return self._skill is not None
 
     def moving(self) -> tuple[str, ...]:
-        """Which parts move: of base, arm, fingers and head."""
+        """Which of base, arm, fingers and head move."""
         return self._hardware.moving()
 
     @property
     def computing(self) -> bool:
-        """Whether the skill waits for something to be computed; no time shall pass meanwhile."""
+        """Whether the skill waits for a computation; no time may pass meanwhile."""
         return self._thinker.busy
 
     def feel(self) -> None:
-        """Feel what is in the hand; called once per control period, whether it acts or not."""
+        """Feel what is in the hand; called in every control period, also of an idle robot."""
         self._manipulator.hand.sense()
 
     def control(self) -> None:
-        """Let the skill command the motors for the next control period."""
+        """Let the skill command the motors for one control period; report its end."""
         if self._skill is None:
             return
         try:
@@ -186,11 +189,17 @@ class SimulatedRobot:
                 return self._motions.grip(goal)
 
     def _drive(self, place: str) -> Skill:
-        self._check(place)
+        self._check_exists(place)
         yield from self._go(self._home.stand(place), place, place)
 
     def _go(self, pose: PlanarPose, place: str, called: str) -> Skill:
-        """Drive to where one stands to use the place (empty: none), called so in reasons."""
+        """Drive to a pose.
+
+        Args:
+            pose: x, y (metres) and yaw (radians) in `map`.
+            place: the robot is at this place when it arrives; empty: at none.
+            called: what reasons call the goal.
+        """
         yield from brake(self._hardware)
         yield from self._manipulator.stow()
         self._at = None
@@ -231,29 +240,29 @@ class SimulatedRobot:
         yield from self._manipulator.put_down(place)
 
     def _rest(self) -> Skill:
-        """Come to rest with base, arm, fingers and head; what is in the hand stays there.
+        """Come to rest with base, arm, fingers and head; the hand keeps what it holds.
 
         Raises:
-            CannotError: if something goes on moving.
+            CannotError: if a part goes on moving.
         """
         hold(self._hardware)
         hold_head(self._hardware)
         self._manipulator.hand.hold()
         yield from brake(self._hardware)
-        at_rest = wait_until(lambda: not self._unrest(), REST_S)
+        at_rest = wait_until(lambda: not self._restless_parts(), REST_S)
         if not (yield from at_rest):
-            raise CannotError(_moves(self._unrest()))
+            raise CannotError(_moves(self._restless_parts()))
         self._manipulator.hand.settle()
 
-    def _unrest(self) -> tuple[str, ...]:
-        """What moves; while the fingers do not know what they hold, they are not at rest either."""
+    def _restless_parts(self) -> tuple[str, ...]:
+        """The parts that move, and the fingers as long as it is not clear what they hold."""
         moving = self._hardware.moving()
         wavers = self._manipulator.hand.wavers and "fingers" not in moving
         return (*moving, "fingers") if wavers else moving
 
     # --- helpers ---
 
-    def _check(self, place: str) -> None:
+    def _check_exists(self, place: str) -> None:
         if place == PERSON:
             return
         try:
@@ -262,7 +271,7 @@ class SimulatedRobot:
             raise CannotError(f"there is no {place} in this home") from None
 
     def _check_here(self, place: str) -> None:
-        self._check(place)
+        self._check_exists(place)
         if self._at != place:
             raise CannotError(f"I am not at the {place}")
 

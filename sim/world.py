@@ -1,4 +1,4 @@
-"""The home, its things and the robot in PyBullet: advances physics and writes down what moves."""
+"""The home, its things and the robot in PyBullet: advances physics, and records what moves."""
 
 from collections.abc import Collection, Mapping
 
@@ -46,20 +46,22 @@ from sim.robot import SimulatedRobot
 from sim.transforms import FrameTree
 
 COARSE_STEPS, FINE_STEPS = 2, 4
-"""Physics steps per control period: driving with an empty hand, and handling things. With fewer of
-these, what the fingers hold creeps and falls."""
+"""Physics steps per control period: while driving with an empty hand, and while handling things.
+
+With fewer fine steps, held things creep out of the fingers and fall.
+"""
 TRANSFORMS_EVERY = 6
-"""Control periods between records of what moved: ten a second."""
+"""Control periods between two records of what moved: ten records a second."""
 RESTING_M_S = 0.01
 """A thing slower than this is at rest."""
 SETTLING_PERIODS = 60
-"""The longest that the world goes on after the robot is done, for what it let go of."""
+"""How long the world goes on at most after the robot's last act, until things are at rest."""
 _SHIFT_M, _TURN = 0.015, 0.2
-"""How far the seed moves things from their spots (metres, radians)."""
+"""How far the seed moves and turns things at most (metres, radians)."""
 
 
 class PhysicsWorld:
-    """Implements SimulatedHome; owns the simulator, the robot and its senses."""
+    """Implements `SimulatedHome`: owns the simulator, the robot, its camera and its detector."""
 
     def __init__(
         self,
@@ -79,15 +81,15 @@ class PhysicsWorld:
         Args:
             home: what is where.
             models: the things that may be in it.
-            inbox: where the ends of the robot's goals go.
+            inbox: where the results of the robot's goals go.
             recorder: where movements and pictures go.
-            seed: moves and turns things a little from where the home has them; 0 does not.
-            gui: show PyBullet's window.
-            camera_hz: pictures for the log per second while something moves; 0 for none.
-            injector: what goes wrong by order.
-            left: things that are where they were left, so that the seed leaves them there.
-            beside: whether another process draws the pictures for the log, and what `eyes` see.
-                It cannot where pictures are spoilt by order.
+            seed: moves and turns things a little from where the home has them; 0: not at all.
+            gui: whether to show PyBullet's window.
+            camera_hz: pictures per second for the log while something moves; 0: none.
+            injector: the faults that were ordered; None: none.
+            left: things that are exactly where they were left; the seed does not move them.
+            beside: whether another process draws the pictures for the log and for `eyes`. It is
+                not used if a fault spoils the pictures.
         """
         self._home = home
         self._models = models
@@ -118,21 +120,21 @@ class PhysicsWorld:
         self._cameras = Cameras(self._client, self._hardware, injector, self._beside)
         self.camera = self._cameras.looking
         self.eyes = self._cameras.eyes
-        """The same camera, for who needs no more than the picture: it need not be drawn here."""
+        """The same camera for those who need only the picture: another process may draw it."""
         self.detector = SimulatedDetector(self._cameras.drawn, self._things)
         self.robot = self._robot()
 
         self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
         self._waits = False
-        """Whether the control period that has begun waits for something to be computed."""
+        """Whether the current control period waits for a computation of the robot."""
         self._periods = 0
-        """Control periods so far."""
+        """How many control periods have passed."""
         self._last_act = 0
-        """The last of them in which the robot was active."""
+        """The number of the last control period in which the robot was active."""
         self._steps = 0
-        """Physics steps in each, as PyBullet is set now; 0 if it has not been set."""
+        """Physics steps per control period for which PyBullet is set; 0: not set yet."""
         self._owed = 0.0
-        """Time that has passed since the last (s)."""
+        """Time that has passed since the last control period (s)."""
 
     # --- SimulatedHome ---
 
@@ -144,9 +146,10 @@ class PhysicsWorld:
         return self._periods - self._last_act < SETTLING_PERIODS and self._unsettled()
 
     def advance(self, at_most: float) -> float:
-        """Let at most one control period pass; physics follows in whole periods.
+        """Let up to `at_most` seconds pass, one control period at most; return how many.
 
-        No time passes while the robot has something computed: that is waited for, until a stop.
+        Physics follows in whole control periods. While the robot waits for a computation, no time
+        passes: this waits for it, too, until a stop.
         """
         if self.robot.computing:
             self._inbox.await_computed(HANGING_S)
@@ -171,7 +174,7 @@ class PhysicsWorld:
         self._client.disconnect()
 
     def describe(self) -> None:
-        """Record the whole scene, where everything is, and what the camera sees from the start."""
+        """Record the scene, the pose of everything, and the first picture for the log."""
         extra = self._world_faults.entities() if self._world_faults else ()
         robot = robot_entities(describe_robot())
         entities = (*home_entities(self._home, self._models), *extra, *robot)
@@ -204,17 +207,17 @@ class PhysicsWorld:
         return self._hardware
 
     def robots_frames(self) -> tuple[Transform, ...]:
-        """Where the robot's own links are: what it knows by itself."""
+        """The frames of the robot's own links, which it knows from its encoders."""
         return self._robots_frames.all()
 
     def truth(self, name: str) -> Pose:
-        """Where an object is in `map`, by the simulator's truth: for tests, never for the robot."""
+        """The true pose of an object in `map`: for tests, never for the robot."""
         body = self._body(name)
         assert body is not None
         return frame_pose(self._client, body)
 
     def left(self) -> dict[str, Spot]:
-        """Where things stand that are on furniture."""
+        """Where the things are that are on furniture."""
         spots = {}
         for body, name in self._things.items():
             if (place := self.resting_place(name)) and name != self.held:
@@ -224,7 +227,7 @@ class PhysicsWorld:
         return spots
 
     def put(self, name: str, furniture: str) -> bool:
-        """Have somebody put a thing on other furniture; whether there is room for it."""
+        """Put a thing on other furniture, as a person would; whether there was room."""
         body = self._body(name)
         if body is None or name == self.held:
             return False
@@ -245,7 +248,7 @@ class PhysicsWorld:
     # --- physics ---
 
     def _control(self) -> None:
-        """Begin a control period, or go on with one in which the robot had something computed."""
+        """Begin a control period, or continue one after a computation of the robot."""
         if not self._waits:
             if self.robot.active:
                 self._last_act = self._periods
@@ -256,7 +259,7 @@ class PhysicsWorld:
         self._waits = self.robot.computing
 
     def _pass_period(self) -> None:
-        """Let physics follow the motors."""
+        """Step physics through one control period, and record what is due."""
         if self.robot.handling:
             self._contacts.keep()
         self._use_steps(FINE_STEPS if self.robot.handling else COARSE_STEPS)
@@ -289,7 +292,7 @@ class PhysicsWorld:
     # --- helpers ---
 
     def _with_faults(self, injector: FaultInjector | None) -> tuple[Hardware, WorldFaults | None]:
-        """The robot, and what happens to it and the world by order."""
+        """The robot's hardware, and the faults of the world that were ordered."""
         start = self._home.robot_start
         if injector is None:
             return Hardware(self._client, start), None
@@ -297,7 +300,7 @@ class PhysicsWorld:
         return hardware, WorldFaults(self._client, self._home, self._things, hardware, injector)
 
     def _robot(self) -> SimulatedRobot:
-        """What drives, looks and handles with the hardware and its senses."""
+        """Build the robot on its hardware: navigation, manipulation and their planning."""
         home, hardware, thinker = self._home, self._hardware, Thinker(self._inbox)
         laser = Laser(self._client, hardware)
         grid = OccupancyGrid.from_home(home)
@@ -311,7 +314,7 @@ class PhysicsWorld:
         )
 
     def _disturb(self, seed: int, left: Collection[str]) -> None:
-        """Move and turn the things a little, once, before anything begins."""
+        """Move and turn the things a little, as the seed says."""
         if seed == 0:
             return
         chance = np.random.default_rng(seed)
@@ -329,10 +332,11 @@ class PhysicsWorld:
             )
 
     def _let_sleep(self) -> None:
-        """Things at rest cost nothing until something touches them.
+        """Let things at rest sleep: they cost nothing until something touches them.
 
-        Contacts are looked for wherever one of two bodies is awake. So what never moves sleeps,
-        too: by itself, two seconds on, by when the contacts of what stands on it are found.
+        PyBullet checks a pair of bodies for contact if one of the two is awake. So furniture must
+        be able to sleep, too. It falls asleep by itself after two seconds; by then the contacts of
+        the things on it are known.
         """
         for body in (*self._things, *self._fixtures):
             self._activate(body, pybullet.ACTIVATION_STATE_ENABLE_SLEEPING)

@@ -1,4 +1,4 @@
-"""A question to the person: put again while the answer makes no sense, and given up in the end."""
+"""A question to the person: asked again while the answers make no sense, given up in the end."""
 
 from abc import abstractmethod
 from dataclasses import replace
@@ -19,9 +19,9 @@ from trees.telling import tell
 
 
 class Ask(Action):
-    """Puts a question, and puts it again while the answer makes no sense.
+    """Asks a question, and asks it again while the answers make no sense.
 
-    Writes dialogue.inquiries, and dialogue.no_help if no answer is of use.
+    Writes dialogue.inquiries, and dialogue.no_help if no answer helps.
     """
 
     source = Source.USER
@@ -35,18 +35,18 @@ class Ask(Action):
 
     @abstractmethod
     def question(self) -> Question:
-        """What to ask."""
+        """The question; it may differ from try to try."""
 
     @abstractmethod
     def understood(self, answer: str) -> bool:
-        """Take the answer in, if it makes sense."""
+        """Take the answer in; return whether it makes sense."""
 
     @abstractmethod
     def unresolved(self) -> str:
-        """What stays unknown without an answer, as a clause."""
+        """What is unknown without an answer, as a clause."""
 
     def declines(self, answer: str) -> bool:
-        """Whether the answer is that there is none."""
+        """Whether the person says that they do not know."""
         return self.context.interpreter.declines(answer)
 
     def initialise(self) -> None:
@@ -55,7 +55,7 @@ class Ask(Action):
         super().initialise()
 
     def start(self) -> int:
-        """Ask."""
+        """Ask, and record the question."""
         question = self.question()
         question = replace(question, text=printable(question.text))
         self._tries += 1
@@ -64,9 +64,9 @@ class Ask(Action):
         return self.context.user.ask(question)
 
     def ended(self, result: Result) -> Status:
-        """Take the answer, ask again, or accept that there is none."""
+        """Take the answer, ask again, or give up."""
         if not isinstance(result, Answered):
-            self.situation.dialogue.inquiries -= 1  # nobody was there to hear it
+            self.situation.dialogue.inquiries -= 1  # nobody has heard the question
             return self._no_help(why_of(result))
         self.context.recorder.record(Utterance("person", result.text))
         unread = too_long(result.text)
@@ -80,13 +80,13 @@ class Ask(Action):
             return self.succeed(result.text)
         self._attended = not unread and self._attend_to(said, result.text)
         if self.situation.agenda.interrupts:
-            return Status.RUNNING  # until the tree gives it up, in this tick
+            return Status.RUNNING  # in this tick the tree will stop it for another task
         if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
 
     def _passed_over(self, said: Said, words: str) -> list[str]:
-        """The things that an answer names beside what was taken from it, if it was not read."""
+        """Other things that the answer names, if the grammar has not read all of it."""
         request, knowledge = self.situation.request, self.context.knowledge
         about = {request.object, *request.options}
         names = knowledge.names_in(words) if isinstance(said, Unread) else ()
@@ -94,14 +94,14 @@ class Ask(Action):
         return [f"'{as_said(words, self.context.say.words(name))}'" for name in others]
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Answer what is no answer: a further wish, a correction, a question."""
+        """Deal with words that are no answer: another request, a correction, a question."""
         if isinstance(said, Answer | Unread):
             return False
         tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
         return True
 
     def doing(self) -> str:
-        """It waits."""
+        """It waits for the answer."""
         return "wait for your answer"
 
     def out_of_time(self) -> Status:
@@ -118,33 +118,32 @@ class Ask(Action):
 
 
 class AskYesNo(Ask):
-    """Asks whether something is so; fails if it is not."""
+    """Asks a yes-no question; fails if the answer is no."""
 
     _agrees: bool | None = None
 
     @abstractmethod
     def agreed(self) -> None:
-        """Take it as so."""
+        """Do what follows from a yes."""
 
     def declines(self, answer: str) -> bool:
         """A no is an answer."""
         return self.context.interpreter.agrees(answer) is None and super().declines(answer)
 
     def understood(self, answer: str) -> bool:
-        """Hear yes and no."""
+        """Take yes or no."""
         self._agrees = self.context.interpreter.agrees(answer)
         if self._agrees:
             self.agreed()
         return self._agrees is not None
 
     def ended(self, result: Result) -> Status:
-        """Fail on a no, too; a yes settles what is asked for."""
+        """Fail on a no, too; on a yes, the command is settled."""
         status = super().ended(result)
         if status != Status.SUCCESS:
             return status
         if not self._agrees:
             return self.fail(f"{self.unresolved()}, and you said no")
-        assert self.situation.request.command
         return self.succeed(
-            f"{self.situation.request.command.kind} {self.situation.request.command.target}"
+            f"{self.situation.request.asked_for.kind} {self.situation.request.asked_for.target}"
         )

@@ -1,7 +1,10 @@
-"""What is said while the robot is at something is answered at once, and the tree goes by it.
+"""What the person says while the robot is busy: it is answered at once, and changes the agenda.
 
-A question is answered, and what is told is remembered; a further wish goes on the agenda; a
-correction takes the place of the task at hand; what is taken back is not done.
+Questions are answered, and statements are remembered. A new request goes on the agenda, a
+correction changes the current task, and what the person takes back is not done.
+
+In these functions `at_hand` is the current task (None: there is none), `words` what the person
+said, and `now` a sentence that says what the robot is doing. Each returns the answer.
 """
 
 import re
@@ -44,14 +47,14 @@ _TELLS = re.compile(
     r"(?!.*\b(?:need|want|necessary|bother|matter))",
     re.I,
 )
-"""What is asked, or told of a thing, takes nothing back: "it is not heavy"."""
+"""Questions and statements, which take nothing back: "it is not heavy"."""
 
 
 def attend_to(context: MissionContext, words: str, now: str) -> str:
-    """Note what follows from words that answer no question, and say what to say to them.
+    """Do what follows from words that answer no question of the robot; return the answer to them.
 
     Args:
-        context: whom it is about; its agenda is changed, and its facts.
+        context: its agenda and its facts may be changed.
         words: what the person said.
         now: what the robot is doing, as a sentence.
     """
@@ -87,7 +90,7 @@ def attend_to(context: MissionContext, words: str, now: str) -> str:
 
 
 def _as_correction(said: Said, at_hand: Command | None) -> Correction | None:
-    """What is to be changed by it; None for nothing."""
+    """The correction that the words are; None if they are not one."""
     match said:
         case Answer(things=None, where=[place, *_], told=False) if _goes_somewhere(at_hand):
             return Correction(place=place)  # "on the sofa": where to, and not where it is
@@ -97,7 +100,7 @@ def _as_correction(said: Said, at_hand: Command | None) -> Correction | None:
 def _denied(
     context: MissionContext, words: str, denial: str, at_hand: Command | None, now: str
 ) -> str:
-    """Do not what a negation is about, if that can be known: "I do not need the mug"."""
+    """Leave out what a negation is about, if that is clear: "I do not need the mug"."""
     if at_hand and _denies_goal(context, words, at_hand):
         context.situation.agenda.replace(replace(at_hand, goal=""))
         return "Then not there."
@@ -109,19 +112,19 @@ def _denied(
 def _taken_back(
     context: MissionContext, said: Refusal, words: str, at_hand: Command | None, now: str
 ) -> str:
-    """Do not what is refused; empty if it names nothing, and nothing follows from it."""
+    """Leave out what is refused; no answer if the refusal changes nothing."""
     if answer := refused(context, said.words, at_hand):
         beside = _beside(context, said.words.partition(" but ")[2], at_hand)
         return answer + (SAY_INSTEAD if said.more else beside)
     if not said.words or named_in(context, said.words):
         return ""
     if _FORGETS.search(words) and (all_of_it := refused(context, "everything", at_hand)):
-        return all_of_it  # what nobody knows may be all that is to be done
+        return all_of_it  # "forget it", of something unknown, may mean all tasks
     return f"{NOT_KNOWN_WHAT.format('not')} {now}"
 
 
 def _beside(context: MissionContext, words: str, at_hand: Command | None) -> str:
-    """What words name that none of the tasks is about, as one more sentence; empty if nothing."""
+    """A sentence about things that the words name and no task is about; empty if there are none."""
     tasks = [at_hand] if at_hand else []
     tasks += [task.command for task in context.situation.agenda.tasks]
     about = {name for one in tasks for name in objects_of(context, one)}
@@ -131,7 +134,7 @@ def _beside(context: MissionContext, words: str, at_hand: Command | None) -> str
 
 
 def _denies_goal(context: MissionContext, words: str, at_hand: Command) -> bool:
-    """Whether it is the place where the thing is to go that is not meant: "not on the sofa"."""
+    """Whether the words take back where the thing is to go: "not on the sofa"."""
     if at_hand.kind != CommandKind.PUT or named_in(context, words):
         return False
     places = context.knowledge.places_named
@@ -140,12 +143,12 @@ def _denies_goal(context: MissionContext, words: str, at_hand: Command) -> bool:
 
 
 def _goes_somewhere(command: Command | None) -> bool:
-    """Whether the task at hand has a place where the thing, or the robot, is to go."""
+    """Whether the current task has a goal: a place where the thing, or the robot, is to go."""
     return command is not None and command.kind.means.at_goal
 
 
 def _reply(context: MissionContext, said: Question | Statement | Request, now: str) -> str:
-    """Answer; if the thing that is looked for is elsewhere, look there from now on."""
+    """The answer; a statement about the thing that the robot looks for redirects the search."""
     situation, spoken = context.situation, spoken_now(context.situation)
     if isinstance(said, Statement) and said.denied and (next_one := situation.search.candidate):
         spoken = replace(spoken, place=next_one.place)  # "it is not there": where the robot looks
@@ -161,11 +164,11 @@ def _reply(context: MissionContext, said: Question | Statement | Request, now: s
 
 
 def _look_elsewhere(context: MissionContext, said: Statement) -> None:
-    """Search anew, if that is about the thing; go on, if the robot looks where it may be."""
+    """Begin the task anew if the statement is about its thing and changes where to look."""
     request, search = context.situation.request, context.situation.search
     if about(said, context.knowledge) != (request.object,):
         return
-    denied = context.facts.places_denied(request.object or "")
+    denied = context.facts.places_denied(request.thing)
     if not said.denied or said.more or (search.candidate and search.candidate.place in denied):
         is_source = bool(request.from_places) and {*request.from_places} <= {*denied}
         command = request.command

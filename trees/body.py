@@ -1,4 +1,4 @@
-"""What all actions of the robot's body and eyes have in common: a goal, and what its failure means.
+"""The base classes of leaves that act with the robot's body or camera.
 
 The leaves themselves are in `trees/driving.py`, `trees/looking.py` and `trees/handling.py`.
 """
@@ -16,9 +16,9 @@ from trees.telling import tell
 
 
 class BodyAction(Action):
-    """Something that the robot does with its body or its eyes.
+    """An action of the robot's body or camera.
 
-    Whatever fails, or takes too long, comes by here: it is noted where it counts, once for all.
+    Every failure and every timeout is noted by `note_failure`, and gets a reason in words.
     """
 
     def __init__(self, name: str, context: MissionContext) -> None:
@@ -27,20 +27,20 @@ class BodyAction(Action):
 
     @abstractmethod
     def attempt(self) -> str:
-        """What is tried, as an infinitive."""
+        """What the action tries, to follow "I could not"."""
 
     @abstractmethod
     def note_failure(self, why: str) -> None:
-        """Note what cannot be known, or be done, because this failed."""
+        """Note in the situation what is unknown, or cannot be done, because this failed."""
 
     def failed(self, result: Result) -> Status:
-        """Fail for the reason that the robot gives."""
+        """Fail with the reason that the robot gives."""
         why = self.why(result)
         self.note_failure(why)
         return self.fail(f"I could not {self.attempt()}: {why}" if why == UNSAID else why)
 
     def why(self, result: Result) -> str:
-        """Why it failed, in words: what robots say of things and places are names."""
+        """The robot's reason, with words in place of its names of things and places."""
         return self.context.say.in_words(why_of(result))
 
     def out_of_time(self) -> Status:
@@ -53,24 +53,25 @@ class BodyAction(Action):
 class RobotAction(BodyAction):
     """Pursues one goal of the robot.
 
-    Writes ending.restless; dialogue.at, dialogue.stands and dialogue.heads_for where it drives; and
-    hand.lost if it lost what it held; what failed goes to search.looks or hand.unplaced.
+    Writes ending.restless. A drive writes dialogue.at, dialogue.stands and dialogue.heads_for. If
+    the robot loses what it holds, hand.lost and hand.in_hand are written. A failure is noted in
+    search.looks or hand.unplaced.
     """
 
     searches = False
-    """Whether it serves to look for the thing, so that its failure leaves a place unseen."""
+    """Whether it is part of a search, so that a place stays unseen if it fails."""
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Have no goal yet."""
+        """Begin without a goal."""
         super().__init__(name, context)
         self._goal: Goal = Halt()
 
     @abstractmethod
     def goal(self) -> Goal:
-        """What to pursue."""
+        """The goal for the robot."""
 
     def progress(self) -> str:
-        """What to tell the person when it begins, who cannot see it; empty if that is known."""
+        """What to tell the person at the start; empty if they know it already."""
         return ""
 
     def start(self) -> int:
@@ -86,7 +87,7 @@ class RobotAction(BodyAction):
         return self.context.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
-        """Succeed as the robot did; note if it lost what it held."""
+        """Succeed or fail as the robot did; note where it is, and whether it lost a thing."""
         self.situation.ending.restless = not isinstance(result, Succeeded)
         if isinstance(result, Succeeded):
             if isinstance(self._goal, DriveTo):
@@ -97,7 +98,7 @@ class RobotAction(BodyAction):
         return self.failed(result)
 
     def doing(self) -> str:
-        """By the goal."""
+        """It pursues its goal."""
         say = self.context.say
         match self._goal:
             case DriveTo(place):
@@ -112,7 +113,7 @@ class RobotAction(BodyAction):
                 return "stop"
 
     def attempt(self) -> str:
-        """By the goal."""
+        """It is to reach its goal."""
         say = self.context.say
         match self._goal:
             case DriveTo(place):
@@ -128,7 +129,7 @@ class RobotAction(BodyAction):
                 return "stop"
 
     def note_failure(self, why: str) -> None:
-        """A place stays out of reach, or unseen; or there is no room for what is in the hand."""
+        """Note why a place was not reached or not seen, or why a thing was not put down there."""
         match self._goal:
             case DriveTo(place) if self.searches:
                 self.situation.search.looks.not_reached(place, why)
@@ -138,7 +139,7 @@ class RobotAction(BodyAction):
                 self.situation.hand.unplaced[place] = why
 
     def cancel(self, request: int) -> None:
-        """Brake."""
+        """Cancel the goal, so that the robot brakes."""
         self.context.robot.cancel(request)
 
 

@@ -1,4 +1,4 @@
-"""Search: by one belief and a plan that weighs looking against asking; or by the paper's stages."""
+"""The search by plan: one belief, and a plan that weighs looking against asking."""
 
 from collections.abc import Iterator
 from itertools import count, takewhile
@@ -30,14 +30,17 @@ from trees.ways import Ways
 
 
 def search(context: MissionContext) -> Behaviour:
-    """An object -> `situation.search.detection` and `situation.search.found`."""
+    """Search for the object, by plan or by the paper's stages.
+
+    Reads request.object; writes search.detection and search.found.
+    """
     if context.parameters.search == "paper":
         return search_by_stages(context)
     return search_by_plan(context)
 
 
 def search_by_plan(context: MissionContext) -> Behaviour:
-    """All sources are heard, then the robot looks or asks, whichever costs less, until it sees."""
+    """Hear all sources; then look or ask, whichever costs less, until the thing is seen."""
     situation = context.situation
     return fallback(
         "search",
@@ -54,7 +57,7 @@ def search_by_plan(context: MissionContext) -> Behaviour:
 
 
 def until_it_is_seen(context: MissionContext) -> Behaviour:
-    """Step by step; while the language model thinks about where it may be, the search goes on."""
+    """Search step by step; the search goes on while the language model thinks."""
     search, ways = context.situation.search, Ways(context)
 
     def steps() -> Iterator[int]:
@@ -71,7 +74,7 @@ def until_it_is_seen(context: MissionContext) -> Behaviour:
 
 
 def next_step(context: MissionContext, ways: Ways) -> Behaviour:
-    """One look, at what is best to look at next; before it a question, if that is better."""
+    """Look at the best place; before that, ask the person if it costs less."""
     search = context.situation.search
     return sequence(
         "next step",
@@ -103,7 +106,7 @@ def next_step(context: MissionContext, ways: Ways) -> Behaviour:
 
 
 def hear_the_model_out(context: MissionContext, ways: Ways) -> tuple[Behaviour, ...]:
-    """While the language model thinks, nobody is asked who might not have to be."""
+    """Wait for the language model before a question to the person: it may make that needless."""
     search = context.situation.search
 
     def may_help() -> bool:
@@ -123,7 +126,7 @@ def hear_the_model_out(context: MissionContext, ways: Ways) -> tuple[Behaviour, 
 
 
 def go_there(context: MissionContext, ways: Ways) -> Behaviour:
-    """Drive to the place that is next, unless what is heard on the way makes another one better."""
+    """Drive to the next place, as long as no news makes another one better."""
     if context.model is None:
         return Visit("drive", context)
     return as_long_as(

@@ -1,4 +1,4 @@
-"""Questions to the person about which thing is meant."""
+"""Questions to the person about which thing they mean."""
 
 from dataclasses import replace
 
@@ -31,15 +31,14 @@ _QUESTIONS = {CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKin
 
 
 class AskDoYouMean(AskYesNo):
-    """Asks whether a known name is meant: the robot never silently guesses.
+    """Asks whether a known name is meant: the robot never guesses in silence.
 
     Reads request.guess; writes request.command.
     """
 
     def question(self) -> Question:
         """Offer the guess."""
-        assert self.situation.request.command
-        target, guess = self.situation.request.command.target, self.situation.request.guess
+        target, guess = self.situation.request.asked_for.target, self.situation.request.guess
         meant = self.context.say.the(guess)
         text = f"{unknown(self.context, target)}. Do you mean {meant}?"
         if more := passed_over_in_name(self.context, target, guess):
@@ -48,13 +47,12 @@ class AskDoYouMean(AskYesNo):
         return Question(QuestionKind.CONFIRM, guess, text, objects)
 
     def agreed(self) -> None:
-        """The guess is what was asked for."""
-        assert self.situation.request.command
-        command = replace(self.situation.request.command, target=self.situation.request.guess)
-        self.situation.request.command = command
+        """Take the guess as the target of the command."""
+        request = self.situation.request
+        request.command = replace(request.asked_for, target=request.guess)
 
     def understood(self, answer: str) -> bool:
-        """Instead of yes or no, the person may say what they mean: "no, the mug"."""
+        """Take yes or no, or the name that the person says instead: "no, the mug"."""
         if beside := self._beside_yes(answer):
             return beside.adds and self._attend_to(Unread(answer), answer)
         names = self.context.knowledge.names_in(answer)
@@ -67,7 +65,7 @@ class AskDoYouMean(AskYesNo):
         return True
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Of "yes, and the drill", the yes is the answer, and the rest a wish beside it."""
+        """Take "yes, and the drill" as a yes with one more request."""
         if not (beside := self._beside_yes(words)):
             return super()._attend_to(said, words)
         self._agrees = True
@@ -76,37 +74,35 @@ class AskDoYouMean(AskYesNo):
         return True
 
     def _passed_over(self, said: Said, words: str) -> list[str]:
-        """Nothing, if there was a wish."""
+        """Nothing, if the answer is a yes with one more request."""
         return [] if self._beside_yes(words) else super()._passed_over(said, words)
 
     def _beside_yes(self, words: str) -> Correction | None:
-        """What is wished beside the yes, or in place of what was asked for."""
+        """What the person asks for after a yes: in addition, or instead."""
         said = self.context.interpreter.after_yes(words)
         if isinstance(said, Request):
             return Correction(said)
         return said if isinstance(said, Correction) else None
 
     def unresolved(self) -> str:
-        """Name the guess."""
-        assert self.situation.request.command
-        target, guess = self.situation.request.command.target, self.situation.request.guess
+        """It may be the guess, and that is not sure."""
+        target, guess = self.situation.request.asked_for.target, self.situation.request.guess
         return unresolved(self.context, target, (guess,))
 
 
 class AskWhichObject(Ask):
-    """Asks which thing is meant, where the words fit several or none.
+    """Asks which thing is meant, if the words fit several things or none.
 
     Reads request.options; writes request.object, or fewer request.options.
     """
 
     def question(self) -> Question:
         """Offer the members of the class, or the nearest known names."""
-        assert self.situation.request.command
-        target, any_of = self.situation.request.command.target, self.context.say.any_of
+        target, any_of = self.situation.request.asked_for.target, self.context.say.any_of
         if (options := self.situation.request.options) and self.situation.request.several:
             text = f"I can do one thing at a time. Which first: {any_of(options)}?"
         elif options:
-            kind = "" if self.situation.request.command.purpose else f" {target}"
+            kind = "" if self.situation.request.asked_for.purpose else f" {target}"
             text = f"Which{kind} do you mean: {any_of(options)}?"
         elif self._all_left_out():
             text = f"I know no other {target}. Which thing do you mean?"
@@ -117,17 +113,16 @@ class AskWhichObject(Ask):
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
 
     def _all_left_out(self) -> bool:
-        """Whether things were named, and all of them said not to be meant: "another mug"."""
-        assert self.situation.request.command
-        return bool(self.context.knowledge.objects_named(self.situation.request.command.target))
+        """Whether all things that the target names are excluded, as by "another mug"."""
+        return bool(self.context.knowledge.objects_named(self.situation.request.asked_for.target))
 
     def _other_names(self, target: str) -> tuple[str, ...]:
-        """The nearest known names, less the one that the person did not mean."""
+        """The most similar known names, without the one that the person has rejected."""
         names = nearest(self.context, target)
         return tuple(name for name in names if name != self.situation.request.guess)
 
     def understood(self, answer: str) -> bool:
-        """One object is enough; several narrow the next question down."""
+        """Take the object that the answer names; if it names several, ask among those next."""
         options, find = self.situation.request.options, self.context.knowledge.objects_named
         said = _all_named(self.context.interpreter.read(answer))
         if self._names_others_too(said) or self._to_another_place(said) or _from_where(said):
@@ -138,8 +133,7 @@ class AskWhichObject(Ask):
             meant = find(answer) or self._named(said) or self._nearly(answer)
         if options:
             meant = tuple(one for one in meant if one in options)
-        assert self.situation.request.command
-        meant = without_exceptions(self.context.knowledge, self.situation.request.command, meant)
+        meant = without_exceptions(self.context.knowledge, self.situation.request.asked_for, meant)
         if len(meant) > 1:
             self.situation.request.options = meant
         elif meant:
@@ -147,15 +141,15 @@ class AskWhichObject(Ask):
         return len(meant) == 1
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Several may be meant, or any but the one that is named."""
+        """Take answers that name several things, or change the command, or exclude one."""
         request, find = self.situation.request, self.context.knowledge.objects_named
         said = _all_named(said)
         if isinstance(said, Refusal) and (rest := self._but(said.words)):
             request.options = rest
             return True
         if isinstance(said, Answer) and (number := how_many_of(said)):
-            number_so = Correction(Things((Thing(number=number, said=str(number)),)))
-            return self._correct(number_so, words)
+            so_many = Correction(Things((Thing(number=number, said=str(number)),)))
+            return self._correct(so_many, words)
         if self._to_another_place(said):  # "put the pear on the desk"
             assert isinstance(said, Request)
             return self._correct(Correction(said), words)
@@ -170,12 +164,12 @@ class AskWhichObject(Ask):
         return True
 
     def _correct(self, said: Correction, words: str, instead: str = " instead") -> bool:
-        """Do this in place of what was asked about: there is nothing left to be answered."""
+        """Correct the command by the answer; then the question needs no answer any more."""
         tell(self.context, correct(self.context, said, words, f"I {self.doing()}.", instead))
         return True
 
     def _names_others_too(self, said: Said) -> bool:
-        """Whether all of several things are meant, of which some were not offered."""
+        """Whether the answer means several things, and some of them were not offered."""
         find, options = self.context.knowledge.objects_named, self.situation.request.options
         things = said.things if isinstance(said, Answer) else None
         if not options or not things or things.one_of or len(things.members) < 2:
@@ -184,7 +178,7 @@ class AskWhichObject(Ask):
         return all(named) and any(not {*each} & {*options} for each in named)
 
     def _to_another_place(self, said: Said) -> bool:
-        """Whether one of the things is to go elsewhere than was asked for."""
+        """Whether the answer names another goal than the command does."""
         match said:
             case Request(tasks=[Task(goal=Where() as goal)]) if named(said) and goal != ME:
                 command = self.situation.request.command
@@ -192,7 +186,7 @@ class AskWhichObject(Ask):
         return False
 
     def _but(self, words: str) -> tuple[str, ...]:
-        """What is left of the things that were offered; none if none is named, or each."""
+        """The offered things that the words do not name; empty if they name none, or all."""
         request, find = self.situation.request, self.context.knowledge.objects_named
         named = [one for name in self.context.knowledge.names_in(words) for one in find(name)]
         named += picked(self.context.interpreter.read(words), request.options)
@@ -200,7 +194,7 @@ class AskWhichObject(Ask):
         return rest if len(rest) < len(request.options) else ()
 
     def _several(self, said: Said) -> tuple[str, ...]:
-        """More than one of those that were offered: "all", "the apple and the pear"."""
+        """The names of several things that the answer chooses: "all", "the apple and the pear"."""
         offered = self.question().options
         if not isinstance(said, Answer) or (said.things and said.things.one_of):
             return ()
@@ -220,7 +214,10 @@ class AskWhichObject(Ask):
         return names if len(names) > 1 and are_known else ()
 
     def _named(self, said: Said) -> tuple[str, ...]:
-        """What an answer names in more words; a command is one only for what was offered."""
+        """The objects that a longer answer names.
+
+        A request counts as an answer only if things were offered, and if it is no question.
+        """
         command = self.situation.request.command
         if (
             isinstance(said, Request)
@@ -234,16 +231,15 @@ class AskWhichObject(Ask):
         return find(words) or tuple(one for name in words.split(" or ") for one in find(name))
 
     def _nearly(self, answer: str) -> tuple[str, ...]:
-        """What was offered, if an answer is a slip of it; that is asked, with nothing else."""
+        """No objects; but an offered name that is like the answer is asked about next."""
         near = self.context.knowledge.near_name(answer)
         if near in self.situation.request.options:
             self.situation.request.options = (near,)
         return ()
 
     def unresolved(self) -> str:
-        """Name the nearest known things."""
-        assert self.situation.request.command
-        target = self.situation.request.command.target
+        """It may be one of the options, or of the most similar known names."""
+        target = self.situation.request.asked_for.target
         if self.situation.request.options:
             options = self.context.say.any_of(self.situation.request.options)
             return f"'{self.context.as_said(target)}' may be {options}"
@@ -253,7 +249,7 @@ class AskWhichObject(Ask):
 
 
 def _all_named(said: Said) -> Said:
-    """An answer with one thing more is one with all of them: "the pear, the mug, too"."""
+    """The same; but "the pear, the mug, too" is an answer with both things, not a correction."""
     match said:
         case Correction(meant=Things(members=[_, _, *_]) as things, adds=True):
             return Answer(things=things)
@@ -261,7 +257,7 @@ def _all_named(said: Said) -> Said:
 
 
 def _from_where(said: Said) -> Correction | None:
-    """An answer that says where the thing is, too: "the pear from the sofa"."""
+    """The correction in an answer that also says where the thing is: "the pear from the sofa"."""
     match said:
         case Answer(things=Things() as things, where=[source]):
             return Correction(things, source=source)

@@ -1,4 +1,4 @@
-"""Whom the behaviours work with, and by which parameters."""
+"""What every behaviour of a mission gets: its collaborators and its parameters."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -18,7 +18,7 @@ from executive.types.geometry import Vector3
 
 @dataclass(frozen=True, slots=True)
 class Parameters:
-    """Limits of patience and effort.
+    """Timeouts, limits and costs.
 
     Attributes:
         elicit: `generate` asks the model for a list (the paper), `rank` scores the known places.
@@ -26,16 +26,16 @@ class Parameters:
         answer_s: how long to wait for the person (mission time, s).
         model_s: how long to wait for one call of the model (mission time, s).
         action_s: how long one action of the robot may take (mission time, s).
-        min_confidence: from which a detection is believed and remembered; what may be the thing but
-            is less sure is looked at more closely.
-        grasps: how often the robot tries to grasp a thing, each time after another look.
-        questions: how often an answer that makes no sense is followed by the question again.
+        min_confidence: detections of at least this confidence are believed and remembered; at
+            what may be the thing with less, the robot takes a closer look.
+        grasps: how often the robot tries to grasp a thing; it looks again before each try.
+        questions: how often a question is put if the answers make no sense.
         search: `plan` weighs looking against asking, `paper` has the paper's stages.
-        question_s: what a question to the person costs, and
-        visit_s: what a visit costs beside its time, both in seconds of searching.
+        question_s: the cost of a question to the person (seconds of searching).
+        visit_s: the cost of a visit in addition to its duration (seconds of searching).
         look_s: how long a look at one view of a place takes (s).
-        planned: among so many places it is planned, the likeliest; the others come in when those
-            are done.
+        planned: how many of the likeliest places a plan considers; the others follow when the
+            robot has looked there.
     """
 
     elicit: str = "rank"
@@ -100,17 +100,21 @@ class NoFacts:
 
 @dataclass(frozen=True, slots=True)
 class MissionContext:
-    """The collaborators of a mission; no `model` and `advice` for the system without an LLM.
+    """The collaborators of one mission.
 
-    `place_at` tells on which furniture a point of `map` is (None: on none, or nobody can tell).
-    `blind_to` are known objects that perception would not recognise. A robot without an arm
-    (`has_arm`) takes nothing.
-    `experience` is what was learned of where things are, if anything is kept to learn from.
-    The `sources` know where things are without looking; they are asked in this order, after memory.
-    `near_person` is the furniture by the person, the nearest first, where things may be put down if
-    the delivery table has no room; `handiest` is all furniture, that where things are put down most
-    easily first. `pending` is what the behaviours wait for: the loop that ticks them has to be
-    given the same. `standby` is how they wait for somebody who was not asked.
+    Attributes:
+        standby: waits for what a person may do unasked.
+        model: None in a system without a language model, and then `advice` is, too.
+        experience: what was learned about where things are; None if nothing is kept to learn from.
+        sources: what knows places without looking; asked in this order, after the memory.
+        place_at: the furniture on which a point of `map` (metres) is; None if there is none, or
+            nobody can tell.
+        near_person: the furniture near the person, the nearest first: where things are put down
+            if the delivery table is full.
+        handiest: all furniture, first where things are put down most easily.
+        blind_to: known objects that perception would not recognise.
+        has_arm: whether the robot can take things.
+        pending: what the behaviours wait for; the loop that ticks them must be given the same.
     """
 
     situation: Situation
@@ -136,10 +140,10 @@ class MissionContext:
     pending: Pending = field(default_factory=Pending)
 
     def as_said(self, words: str) -> str:
-        """A part of the command that was read, as the person said it."""
+        """A part of the command, in the spelling that the person used."""
         return as_said(self.situation.request.words, words)
 
     @property
     def say(self) -> Wording:
-        """Words for the names of things and places."""
+        """Turns names of things and places into words for the person."""
         return Wording(self.knowledge.called)

@@ -1,4 +1,8 @@
-"""What is corrected: the task at hand, one that waits, or all that was said in one sentence."""
+"""Corrections: of the current task, of one that waits, or of all tasks of the same sentence.
+
+In these functions `at_hand` is the current task, `words` what the person said just now, and `now`
+a sentence that says what the robot is doing. Each returns the answer to the person.
+"""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,7 +22,15 @@ from trees.wishes import added, named_in, objects_of, replaced
 def correct(
     context: MissionContext, said: Correction, words: str, now: str, instead: str = " instead"
 ) -> str:
-    """Do this instead of the task at hand, or beside it."""
+    """Change the current task, a waiting one, or add one, as the correction asks for.
+
+    Args:
+        context: its agenda is changed.
+        said: the correction, as it was understood.
+        words: what the person said.
+        now: what the robot is doing, as a sentence.
+        instead: ends the answer if another task takes the place of the current one.
+    """
     at_hand = context.situation.agenda.whole_of(context.situation.request.command)
     assert at_hand
     spoken = of_all_spoken(context.situation, said.meant)
@@ -34,18 +46,18 @@ def correct(
 
 
 def _is_goal(context: MissionContext, left_out: Sequence[Thing], at_hand: Command) -> bool:
-    """Whether it is where the task at hand goes that is not meant: "on the sofa, not the desk"."""
+    """Whether what is left out is the current goal: "on the sofa, not the desk"."""
     places = context.knowledge.places_named
     named = {place for but in left_out for place in places(but.words)}
     return bool(named) and named <= {*places(at_hand.goal)}
 
 
 def _less(context: MissionContext, said: Correction, at_hand: Command, words: str, now: str) -> str:
-    """Do it so, but for what is not meant: "to the desk, but not the pear"."""
+    """Do what the correction says, without what it leaves out: "to the desk, but not the pear"."""
     agenda, left_out = context.situation.agenda, " and ".join(but.words for but in said.left_out)
     rest = replace(said, left_out=())
     if not (without := refused(context, left_out, at_hand)):
-        if all(named_in(context, but.words) for but in said.left_out):  # it is not done anyhow
+        if all(named_in(context, but.words) for but in said.left_out):  # no task is about it
             return correct(context, rest, words, now)
         return f"{context.interpreter.not_understood(words)}. {now}"
     if agenda.taken_back:
@@ -63,17 +75,17 @@ def _less(context: MissionContext, said: Correction, at_hand: Command, words: st
 def _likewise(
     context: MissionContext, said: Correction, at_hand: Command, commands: Commands, words: str
 ) -> Commands:
-    """What else was asked for in one sentence with the task at hand, if it is to go elsewhere, too.
+    """The waiting tasks of the same sentence, corrected likewise: they all go elsewhere.
 
-    Tasks that wait, of which that takes the place, are struck out; so are those that are asked for
-    anew.
+    They leave the agenda, and so do waiting tasks about things that `commands`, the corrected
+    current task, already asks for.
     """
     agenda, asked_anew = context.situation.agenda, [*chain.from_iterable(commands)]
     things = {name for one in asked_anew for name in objects_of(context, one)}
     changed: list[tuple[Command, ...]] = []
     whole = agenda.whole_tasks
-    breath = [at_hand, *(t.command for t in whole if t.command.words == at_hand.words)]
-    wanted = {name for one in breath for name in objects_of(context, one)}
+    sentence = [at_hand, *(t.command for t in whole if t.command.words == at_hand.words)]
+    wanted = {name for one in sentence for name in objects_of(context, one)}
     only_these = len(asked_anew) > 1 and things <= wanted  # "no, the mug and the pear", of three
     for task in whole:
         command = task.command
@@ -94,9 +106,10 @@ def _likewise(
 
 
 def _correct_later(context: MissionContext, said: Correction, at_hand: Command, words: str) -> str:
-    """Change the task that waits, if it is that which is not meant: "the pear, not the apple".
+    """Change a waiting task if the correction is about it; else the answer is empty.
 
-    So it is if what it is about is to go elsewhere: "no, the pear to the desk".
+    It is if its thing is not meant ("the pear, not the apple"), or is to go elsewhere ("no, the
+    pear to the desk").
     """
     agenda, meant = context.situation.agenda, said.wrong or _to_go_elsewhere(said)
     named = " or ".join(thing.words for thing in meant.members) if meant else ""
@@ -117,13 +130,13 @@ def _correct_later(context: MissionContext, said: Correction, at_hand: Command, 
 
 
 def _asks_for_the_same(context: MissionContext, command: Command, other: Command) -> bool:
-    """Whether both are the same deed with the same things: one of them is enough."""
+    """Whether both commands have the same kind, goal and things, so that one is enough."""
     same = (command.kind, command.goal) == (other.kind, other.goal)
     return same and objects_of(context, command) == objects_of(context, other)
 
 
 def _to_go_elsewhere(said: Correction) -> Things | None:
-    """The things that are to go to another place; None if none are."""
+    """The things of a correction that names a goal for them; None if it does not."""
     match said.meant:
         case Request(tasks=[task]) if task.goal not in (None, ME):
             return task.things
@@ -133,9 +146,9 @@ def _to_go_elsewhere(said: Correction) -> Things | None:
 def all_of(
     context: MissionContext, names: Sequence[str], words: str, *, one_of: bool = False
 ) -> str:
-    """Do what is at hand with each of these things, which were named where one was asked for.
+    """Do the current task with each of these things, or with `one_of` them, the fastest.
 
-    Or with `one_of` them, which takes least time.
+    They are the answer to the question which one is meant.
     """
     at_hand = context.situation.agenda.whole_of(context.situation.request.command)
     assert at_hand

@@ -1,4 +1,4 @@
-"""Leaves that drive the robot: to where a thing may be, to where it is to go, and back."""
+"""Leaves that drive the robot: to where a thing may be, to where it goes, and back."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -15,11 +15,11 @@ from trees.progress import on_the_way, on_to_the_next
 from trees.recall import is_here
 
 EXPERIMENTER = "experimenter"
-"""Who names a place to which an experimenter sends the robot."""
+"""The source of a place to which an experimenter sends the robot."""
 
 
 class DriveToCandidate(RobotAction):
-    """Goes to the place where the thing may be.
+    """Drives to the place where the thing may be.
 
     Reads search.candidate; writes dialogue.away.
     """
@@ -29,21 +29,20 @@ class DriveToCandidate(RobotAction):
 
     def goal(self) -> Goal:
         """Drive to the candidate."""
-        assert self.situation.search.candidate
         self.situation.dialogue.away = True
-        return DriveTo(self.situation.search.candidate.place)
+        return DriveTo(self.situation.search.place)
 
 
 class Visit(DriveToCandidate):
-    """Goes to a place for the first time: it counts as visited if it is reached.
+    """Drives to a candidate, which then counts as visited.
 
-    Where an experimenter sends the robot meanwhile, it goes instead.
+    If an experimenter sends the robot to another place meanwhile, it drives there instead.
 
     Reads search.candidate, search.sent_to and search.looks; writes search.looks.
     """
 
     def start(self) -> int:
-        """Go where it is sent, if it is."""
+        """Take the place where an experimenter sends the robot, if any."""
         search = self.situation.search
         if search.sent_to and is_here(self.context, search.sent_to):
             search.candidate = Candidate(search.sent_to, EXPERIMENTER)
@@ -51,7 +50,7 @@ class Visit(DriveToCandidate):
         return super().start()
 
     def update(self) -> Status:
-        """Turn round where it is sent elsewhere."""
+        """Start again if an experimenter sends the robot elsewhere on the way."""
         sent_to, request = self.situation.search.sent_to, self._request
         if sent_to and is_here(self.context, sent_to) and request is not None:
             self._wait_no_more(request)
@@ -60,19 +59,18 @@ class Visit(DriveToCandidate):
         return super().update()
 
     def progress(self) -> str:
-        """The first place was announced; of the next ones, say why."""
+        """Say why it goes on to the next place; the first one was announced."""
         return on_to_the_next(self.context)
 
     def ended(self, result: Result) -> Status:
-        """Count only a place that was reached."""
-        assert self.situation.search.candidate
+        """Count the place as visited, if it was reached."""
         if isinstance(result, Succeeded):
-            self.situation.search.looks.reached(self.situation.search.candidate.place)
+            self.situation.search.looks.reached(self.situation.search.place)
         return super().ended(result)
 
 
 class DriveBack(RobotAction):
-    """Goes to where things are asked for or delivered: `person` or `delivery`.
+    """Drives back to the person or to the delivery table: `person` or `delivery`.
 
     Writes dialogue.away.
     """
@@ -85,7 +83,7 @@ class DriveBack(RobotAction):
         self._place = place
 
     def progress(self) -> str:
-        """Say what comes of it."""
+        """Say that it comes back, or with what."""
         return on_the_way(self.context, self._place)
 
     def goal(self) -> Goal:
@@ -93,13 +91,13 @@ class DriveBack(RobotAction):
         return DriveTo(self._place)
 
     def ended(self, result: Result) -> Status:
-        """Be back with the person."""
+        """Note whether the robot is back."""
         self.situation.dialogue.away = not isinstance(result, Succeeded)
         return super().ended(result)
 
 
 def back_to_the_person(context: MissionContext) -> Behaviour:
-    """Come back; what was in the way may be gone a moment later, so this is tried twice."""
+    """Come back; try twice, because what was in the way may be gone a moment later."""
     return fallback(
         "back to the person",
         DriveBack("come back", context, PERSON),
@@ -108,7 +106,7 @@ def back_to_the_person(context: MissionContext) -> Behaviour:
 
 
 class DriveToSurface(RobotAction):
-    """Goes to the furniture where the held thing may be put down.
+    """Drives to the furniture where the held thing may be put down.
 
     Reads hand.surface; writes dialogue.away and hand.unplaced.
     """
@@ -120,17 +118,17 @@ class DriveToSurface(RobotAction):
         return on_the_way(self.context, self.situation.hand.surface)
 
     def goal(self) -> Goal:
-        """Drive there; the person is not there."""
+        """Drive there, away from the person."""
         self.situation.dialogue.away = True
         return DriveTo(self.situation.hand.surface)
 
     def note_failure(self, why: str) -> None:
-        """It cannot be put down there."""
+        """Note why the thing was not put down there."""
         self.situation.hand.unplaced[self.situation.hand.surface] = why
 
 
 class DriveToGoal(RobotAction):
-    """Goes to where the thing, or the robot, is to go.
+    """Drives to the goal of the command, alone or with the thing.
 
     Reads request.goal; writes dialogue.away, and hand.unplaced if there is something in the hand.
     """
@@ -147,13 +145,13 @@ class DriveToGoal(RobotAction):
         return DriveTo(self.situation.request.goal)
 
     def ended(self, result: Result) -> Status:
-        """Be with the person, if that is the goal."""
+        """Note that the robot is with the person, if that was the goal."""
         if isinstance(result, Succeeded) and self.situation.request.goal == PERSON:
             self.situation.dialogue.away = False
         return super().ended(result)
 
     def note_failure(self, why: str) -> None:
-        """It cannot be put down there."""
+        """Note why the held thing was not put down there."""
         if self.situation.hand.in_hand:
             place = self.situation.request.goal
             there = self.context.say.the(place)

@@ -1,4 +1,4 @@
-"""Leaves that use the robot's hand: what the fingers feel decides."""
+"""Leaves that use the robot's hand; what the fingers feel decides whether they succeed."""
 
 from abc import abstractmethod
 
@@ -13,34 +13,35 @@ from trees.context import MissionContext
 
 
 class PickUp(RobotAction):
-    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides.
+    """Grasps the thing where it was seen, and lifts it.
 
-    Reads search.detection, search.found and hand.felt; writes hand.reached_for and hand.in_hand,
+    Reads search.detection, search.found and hand.felt; writes hand.reached_for and hand.in_hand;
     clears hand.lost and hand.unplaced.
     """
 
     activity = Activity.HANDLING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Reach for it."""
+        """Begin with no grasp."""
         super().__init__(name, context)
         self._finished = False
 
     def initialise(self) -> None:
-        """Begin."""
+        """Send the goal; the robot may finish once more."""
         self._finished = False
         super().initialise()
 
     def goal(self) -> Goal:
-        """Pick what was detected."""
+        """Pick up what was detected."""
         assert self.situation.search.detection
         self.situation.hand.reached_for = self.situation.search.detection.label
         return Pick(self.situation.search.detection)
 
     def ended(self, result: Result) -> Status:
-        """Remember that it is no longer there.
+        """Note what is in the hand; remember that the thing was taken.
 
-        If the robot failed with the thing in its hand, it is given one chance to finish.
+        If the robot has failed, but has the thing in its hand, it gets one more try to finish; then
+        that counts as a success.
         """
         hand, search = self.situation.hand, self.situation.search
         assert search.detection
@@ -59,7 +60,7 @@ class PickUp(RobotAction):
         return super().ended(result)
 
     def out_of_time(self) -> Status:
-        """With the thing in the hand it is as if the robot had failed; only that it may move."""
+        """Treat it as a failure of the robot if it has the thing; note that it may still move."""
         hand, seen = self.situation.hand, self.situation.search.detection
         assert seen
         if not (hand.felt and hand.in_hand == seen.label):
@@ -78,21 +79,21 @@ class PutDownAction(RobotAction):
     activity = Activity.HANDLING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Hold nothing yet."""
+        """Begin with nothing held."""
         super().__init__(name, context)
         self._held: str | None = None
 
     @abstractmethod
     def place(self) -> str:
-        """Where to."""
+        """The furniture to put it on."""
 
     def goal(self) -> Goal:
-        """Put it there; afterwards the hand does not tell what it was."""
+        """Put it there; keep its name, which the hand will not tell afterwards."""
         self._held = self.situation.hand.in_hand
         return PutDown(self.place())
 
     def ended(self, result: Result) -> Status:
-        """Remember that it is here now."""
+        """Remember that the thing is here now, and that the hand is empty."""
         if isinstance(result, Succeeded) and self.situation.hand.felt:
             result = Failed("my fingers do not let go of it")
         if isinstance(result, Succeeded):
@@ -112,34 +113,34 @@ class PutDownAt(PutDownAction):
         self._place = place
 
     def place(self) -> str:
-        """That one."""
+        """The place that the tree names."""
         return self._place
 
 
 class PutDownThere(PutDownAction):
-    """Puts the held thing down on the surface at hand.
+    """Puts the held thing down on the chosen furniture.
 
     Reads hand.surface.
     """
 
     def place(self) -> str:
-        """The surface that was chosen."""
+        """The chosen furniture."""
         return self.situation.hand.surface
 
 
 class PutDownAtGoal(PutDownAction):
-    """Puts the held thing down where it is to go.
+    """Puts the held thing down at the goal of the command.
 
     Reads request.goal.
     """
 
     def place(self) -> str:
-        """The goal that was chosen."""
+        """The chosen goal."""
         return self.situation.request.goal
 
 
 class ComeToRest(RobotAction):
-    """Stands still, so that the fingers tell what was got hold of; always fails: then one goes on.
+    """Halts, so that the fingers tell what is in the hand; always fails, and so tries what follows.
 
     Reads and writes agenda.unsettled.
     """
@@ -147,11 +148,11 @@ class ComeToRest(RobotAction):
     activity = Activity.HANDLING
 
     def goal(self) -> Goal:
-        """Do nothing."""
+        """Halt."""
         return Halt()
 
     def ended(self, result: Result) -> Status:
-        """What the hand holds is known by now."""
+        """Note that it is known now what the hand holds."""
         self.situation.agenda.unsettled = False
         super().ended(result)
         return Status.FAILURE

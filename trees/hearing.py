@@ -1,8 +1,8 @@
-"""Who says where it may be: what each source knows becomes a part of one belief.
+"""The sources of one belief about where the thing may be: memory, ontology, model, person, others.
 
-How far each is to be believed is estimated, not measured, but for the list of a language model: the
-lists of the paper had the right place in two thirds of the missions without default locations, and
-in nine tenths with them.
+The trust in each is estimated. Only that in a list of a language model was measured: in the paper,
+the lists had the right place in two thirds of the missions without default locations, and in nine
+tenths with them.
 """
 
 from functools import partial
@@ -23,20 +23,20 @@ from trees.recall import Memory, is_here
 
 MEMORY_TRUST = 0.9
 SOURCE_TRUST = 0.9
-"""Of a source of somebody's own."""
+"""The trust in a source that a user has added."""
 ONTOLOGY_TRUST = 0.95
-"""That a thing is at one of its default locations."""
+"""How likely a thing is at one of its default locations."""
 PERSON_TRUST = 0.95
 LIST_TRUST = 0.75
-"""That a thing is at one of the places of a list that a language model wrote."""
+"""How likely a thing is at one of the places of a list that a language model wrote."""
 DENIED = 0.001
-"""What is left of a place where the person says that it is not: all others are looked at first."""
+"""The factor for a place where the thing is not, as the person says: all others come first."""
 CLEAR = 0.5
-"""Where a place is as likely as this, nobody else is asked before it was looked at."""
+"""If a place is at least this likely, the robot looks there before it asks the model."""
 
 
 def what_is_known(context: MissionContext) -> Behaviour:
-    """All who answer at once are heard -> `situation.search.whereabouts.statements`."""
+    """Hear all sources that answer at once; writes search.whereabouts."""
     return sequence(
         "what is known",
         BeginSearch("begin", context),
@@ -47,9 +47,9 @@ def what_is_known(context: MissionContext) -> Behaviour:
 
 
 def consult(context: MissionContext) -> Behaviour:
-    """The language model is asked, once a search, when nobody else knows enough.
+    """Ask the language model, once a search, if nobody else knows enough.
 
-    It always succeeds in the end: whatever comes of it, the search goes on.
+    It always succeeds: the search goes on, whether the model helps or not.
     """
     asked = (
         (RankAll("llm ranks places", context),)
@@ -80,10 +80,10 @@ def wants_advice(context: MissionContext) -> bool:
 
 
 def believed(context: MissionContext) -> Belief:
-    """Where the thing may be, by all that was said and seen so far."""
+    """The belief about where the thing may be, from all that was said and seen so far."""
     search, home = context.situation.search, context.knowledge.places()
     looks, named = search.looks, search.whereabouts.named
-    denied = context.facts.places_denied(context.situation.request.object or "")
+    denied = context.facts.places_denied(context.situation.request.thing)
     left = dict.fromkeys(denied, DENIED)
     left |= {
         place: 1 - looks.share_seen(place) * (1 - MISSED)
@@ -94,7 +94,7 @@ def believed(context: MissionContext) -> Belief:
 
 
 def is_clear(context: MissionContext) -> bool:
-    """Whether one place, still to be looked at, is likely enough to go there first."""
+    """Whether one place where the robot may still look is likely enough to go there first."""
     search = context.situation.search
     return any(
         likely.probability >= CLEAR and search.whereabouts.may_look_at(likely.place, search.looks)
@@ -103,10 +103,13 @@ def is_clear(context: MissionContext) -> bool:
 
 
 class BeginSearch(Step):
-    """Forgets what was said in a search before."""
+    """Forgets what was said in an earlier search.
+
+    Writes search.whereabouts, search.default_locations and search.looks.
+    """
 
     def update(self) -> Status:
-        """Begin with nothing; where it was looked at stays known."""
+        """Forget the statements; where the robot has looked stays known."""
         self.situation.search.whereabouts.begin()
         self.situation.search.default_locations = ()
         self.situation.search.looks.missed = ""
@@ -114,7 +117,10 @@ class BeginSearch(Step):
 
 
 class Hear(Step):
-    """Takes in the places of this home that a source names; always succeeds."""
+    """Takes in the places of this home that a source names; always succeeds.
+
+    Reads request.object; writes search.whereabouts.
+    """
 
     trust = SOURCE_TRUST
 
@@ -125,7 +131,7 @@ class Hear(Step):
         self.source = source.name
 
     def update(self) -> Status:
-        """Hear it."""
+        """Ask the source, and add its statement."""
         assert self.situation.request.object
         named = self.knows.places_of(self.situation.request.object)
         places = tuple(p for p in dict.fromkeys(named) if is_here(self.context, p))
@@ -138,26 +144,26 @@ class Hear(Step):
         return self.succeed(", ".join(places))
 
     def heard(self, places: tuple[str, ...]) -> None:
-        """What else follows from it: nothing."""
+        """Do what else follows from the places that were named; here nothing."""
 
 
 class HearMemory(Hear):
-    """The robot's own memory, which forgets by itself where the thing was looked for in vain.
+    """Takes in what the robot remembers; its memory leaves out places where it looked in vain.
 
-    If it has learned from what it saw, it tells how much its memory is worth, and where people may
-    have taken the thing since.
+    If the robot has learned from earlier sightings, it knows how far to trust its memory, and where
+    people may have taken the thing since.
     """
 
     trust = MEMORY_TRUST
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Ask the facts."""
+        """Ask the memory of this context."""
         super().__init__(name, context, Memory(context.facts))
 
     def update(self) -> Status:
-        """Hear what was learned; without that, what is remembered.
+        """Add what was learned; if nothing is learned here, what is remembered.
 
-        Of places that this home has not, or no more, nothing is said: that is left to others.
+        Places that this home does not have (any more) are left out.
         """
         name, experience = self.situation.request.object, self.context.experience
         assert name
@@ -176,19 +182,23 @@ class HearMemory(Hear):
         return self.succeed(", ".join(heard) or "knows no place")
 
     def heard(self, places: tuple[str, ...]) -> None:
-        """It was seen or said there since the last look there."""
+        """Count these places as worth a look: there is news of them since the last look."""
         self.situation.search.whereabouts.named.update(places)
 
 
 class HearOntology(Step):
-    """Takes in the default locations of the thing; always succeeds."""
+    """Takes in the default locations of the thing; always succeeds.
+
+    Reads request.object; writes search.whereabouts and search.default_locations.
+    """
 
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Which of several is likeliest, the language model may say; it may write of these only.
+        """Add the ontology's statement.
 
-        The ontology is believed as far as this home has what it speaks of.
+        It is trusted as far as this home has the places that it names. If it names several, the
+        language model may say which of them is likeliest, and may name no others.
         """
         name, knowledge = self.situation.request.object, self.context.knowledge
         assert name
@@ -204,34 +214,37 @@ class HearOntology(Step):
 
 
 class Consulted(Step):
-    """Notes that the language model is asked."""
+    """Notes that the language model is asked. Writes search.whereabouts."""
 
     def update(self) -> Status:
-        """Once a search is enough."""
+        """Note it, so that the model is asked only once a search."""
         self.situation.search.whereabouts.consulted = True
         self.situation.search.whereabouts.thinks = True
         return Status.SUCCESS
 
 
 class HasThought(Step):
-    """Notes that the language model thinks no more, whatever came of it."""
+    """Notes that no answer of the language model is to come any more. Writes search.whereabouts."""
 
     def update(self) -> Status:
-        """Nothing is to come any more."""
+        """Note it, whether the model has helped or not."""
         self.situation.search.whereabouts.thinks = False
         return Status.SUCCESS
 
 
 class RankAll(RankPlaces):
-    """Has every place of the home scored, and takes all of it in."""
+    """Has every place of the home scored, and takes all scores in.
+
+    Reads request.object; writes search.whereabouts.
+    """
 
     @property
     def among(self) -> tuple[str, ...]:
-        """All are allowed."""
+        """All places may be scored."""
         return ()
 
     def ended(self, result: Result) -> Status:
-        """Keep how likely each place is."""
+        """Add the model's statement: how likely each place is."""
         if not isinstance(result, Scored):
             return self.failed(result)
         ranked = self.advice.ranker.ranked(result)
@@ -241,12 +254,15 @@ class RankAll(RankPlaces):
 
 
 class HearList(Step):
-    """Takes in the list that the language model wrote, as far as its places exist."""
+    """Takes in the list that the language model wrote, as far as its places exist.
+
+    Reads search.candidates; writes search.whereabouts.
+    """
 
     source = Source.LLM
 
     def update(self) -> Status:
-        """The first of a list is the likeliest."""
+        """Add the model's statement; the first place of the list is the likeliest."""
         places = [candidate.place for candidate in self.situation.search.candidates]
         said = Statement(Source.LLM, in_order(places, factor=0.8), LIST_TRUST)
         self.situation.search.whereabouts.hear(said)

@@ -1,7 +1,7 @@
-"""Choices of a place that an experimenter may hold: they let them go, or choose another place.
+"""Choices of a place that an experimenter may hold, and then release or replace.
 
-Nobody is told; what is done by it stands in the log. A choice that waits is called off like all
-that the robot does: by a stop, or by what the person says meanwhile.
+The person is not told; the log has what the experimenter did. Like all actions of the robot, a
+held choice is cancelled by a stop, or by what the person says meanwhile.
 """
 
 from abc import abstractmethod
@@ -19,38 +19,38 @@ from trees.nodes import Action
 from trees.recall import is_here
 
 HELD_S = 600.0
-"""A choice that waits for longer (mission time, s) is let go: nobody seems to be there."""
+"""A choice that is held for longer (mission time, s) is released: nobody seems to be there."""
 
 
 class HoldChoice(Action):
-    """Waits while what was chosen is held; succeeds unless something else is to be done by then.
+    """Waits while a choice is held; succeeds when it is released or replaced.
 
-    Only a place that this home has, and that would do, can take its place. Reads and writes
-    steering.
+    The experimenter can replace it only by a place of this home that is possible here. Reads and
+    writes steering.
     """
 
     activity = Activity.THINKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Wait no longer than somebody may be away."""
+        """Wait for at most `HELD_S`."""
         super().__init__(name, context, HELD_S)
         self.steering = context.situation.steering
 
     @abstractmethod
     def choice(self) -> Choice:
-        """What was chosen."""
+        """The choice of the robot."""
 
     @abstractmethod
     def adopt(self, place: str) -> None:
-        """Choose this place instead."""
+        """Take this place instead."""
 
     def is_free(self) -> bool:
-        """Whether anything else could have been chosen."""
+        """Whether the robot had more than one possibility."""
         return True
 
     @property
     def is_sent_elsewhere(self) -> bool:
-        """Whether the experimenter has named another place than the one that was chosen."""
+        """Whether the experimenter has named another place than the robot."""
         choice, place = self.steering.choice, self.steering.instead
         return choice is not None and place not in ("", choice.place)
 
@@ -61,12 +61,12 @@ class HoldChoice(Action):
             super().initialise()
 
     def start(self) -> int:
-        """Show what was chosen."""
+        """Show the choice to the experimenter."""
         self.steering.wait(self.choice())
         return self.context.standby.start()
 
     def update(self) -> Status:
-        """Go on when it is let go, or replaced."""
+        """Succeed when the choice is released or replaced."""
         if not self.is_under_way:
             return Status.SUCCESS
         choice, place = self.steering.choice, self.steering.instead
@@ -79,33 +79,32 @@ class HoldChoice(Action):
         return super().update() if self.steering.holds else self.succeed(choice.place)
 
     def ended(self, result: Result) -> Status:
-        """Nothing ends it but what the experimenter does."""
+        """Never called: no result ends a choice, only the experimenter does."""
         return self.out_of_time()
 
     def out_of_time(self) -> Status:
-        """Go on as it was chosen."""
+        """Succeed with the robot's choice."""
         return self.succeed(f"nobody has let it go for {HELD_S:g} s")
 
     def cancel(self, request: int) -> None:
-        """Nothing waits any more."""
+        """Show no choice any more."""
         self.context.standby.cancel(request)
         self.steering.wait(None)
 
     def doing(self) -> str:
-        """Nobody is told that it is held."""
+        """It seems to think: the person is not told that the choice is held."""
         return "think about where to go"
 
 
 class HoldWhereToLook(HoldChoice):
-    """Where the robot is to look next may be anywhere.
+    """Holds where to look next; it may be replaced by any place of the home.
 
     Reads and writes search.candidate and search.candidates.
     """
 
     def choice(self) -> Choice:
-        """The candidate at hand."""
-        assert self.situation.search.candidate
-        return Choice(For.LOOK, self.situation.search.candidate.place)
+        """The current candidate."""
+        return Choice(For.LOOK, self.situation.search.place)
 
     def adopt(self, place: str) -> None:
         """Look there first."""
@@ -113,21 +112,21 @@ class HoldWhereToLook(HoldChoice):
 
 
 class HoldGoal(HoldChoice):
-    """Where a thing is to go has to be where the person said: of a room, any furniture will do.
+    """Holds where a thing goes; it may be replaced only by another goal that the person named.
 
     Reads and writes request.goal.
     """
 
     def is_free(self) -> bool:
-        """One place is no choice."""
+        """Whether more than one goal is left."""
         return len(self._left()) > 1
 
     def choice(self) -> Choice:
-        """Among those of them that were not tried in vain."""
+        """The goal, among those that were not tried in vain."""
         return Choice(For.PUT, self.situation.request.goal, self._left())
 
     def adopt(self, place: str) -> None:
-        """Take it there."""
+        """Take the thing there."""
         self.situation.request.goal = place
 
     def _left(self) -> tuple[str, ...]:
@@ -136,13 +135,13 @@ class HoldGoal(HoldChoice):
 
 
 class HoldSurface(HoldChoice):
-    """Where the robot gets rid of a thing may be any furniture, if it was its own choice.
+    """Holds where the robot gets rid of a thing; it may be replaced by any furniture.
 
     Reads and writes hand.surface.
     """
 
     def choice(self) -> Choice:
-        """The surface at hand."""
+        """The chosen furniture."""
         return Choice(For.PUT, self.situation.hand.surface)
 
     def adopt(self, place: str) -> None:
@@ -151,7 +150,10 @@ class HoldSurface(HoldChoice):
 
 
 def each_untried(places: Sequence[str], taken: Callable[[], str]) -> Iterator[str]:
-    """One place after the other; which one was taken in its place, may be known afterwards."""
+    """Each place that was not tried yet.
+
+    After each, `taken` returns the place that was tried in fact: an experimenter may replace it.
+    """
     tried: set[str] = set()
     while left := [place for place in places if place not in tried]:
         yield left[0]

@@ -1,7 +1,7 @@
-"""Where may it be? The ontology's one place, else the language model, else ask.
+"""Where may it be? The ontology may know one place, or the language model several; else ask.
 
-The flow of the paper's section "Integrated use of ontological knowledge base and LLM", with its
-consistency verification spelled out as behaviours, so that every step is seen in the log.
+This is the flow of the paper's section "Integrated use of ontological knowledge base and LLM". Its
+consistency verification is made of behaviours, so that the log shows every step.
 """
 
 from py_trees.behaviour import Behaviour
@@ -17,7 +17,7 @@ from trees.person import AskWhere
 
 
 def resolve_location(context: MissionContext) -> Behaviour:
-    """An object -> `situation.search.candidates`, likeliest first, with who said so."""
+    """Find places where the object may be; writes search.candidates, the likeliest first."""
     sources: list[Behaviour] = [OntologyKnowsPlace("ontology knows one place", context)]
     if context.model is not None:
         elicit = rank_places if context.parameters.elicit == "rank" else generate_places
@@ -26,12 +26,12 @@ def resolve_location(context: MissionContext) -> Behaviour:
 
 
 def rank_places(context: MissionContext) -> Behaviour:
-    """The model scores the known places: it cannot invent any."""
+    """The model scores the known places, and so cannot invent any."""
     return RankPlaces("llm ranks places", context)
 
 
 def generate_places(context: MissionContext) -> Behaviour:
-    """The model writes a list, of which only real places are kept (the paper's way)."""
+    """The model writes a list, and only its real places are kept (the paper's way)."""
     begin = BeginConsultation("begin", context)
     return sequence(
         "llm lists places",
@@ -58,20 +58,20 @@ def generate_places(context: MissionContext) -> Behaviour:
 
 def existence_check(context: MissionContext) -> Behaviour:
     """Keep what exists, expand rooms into their furniture; fail if nothing is left."""
-    thought = context.situation
+    situation = context.situation
 
     def choose(room: str) -> None:
-        thought.search.consultation.room = room
+        situation.search.consultation.room = room
 
     return sequence(
         "existence check",
         VerifyNames("names exist", context),
         EachOf(
             "each room",
-            lambda: tuple(thought.search.consultation.rooms),
+            lambda: tuple(situation.search.consultation.rooms),
             Optionally(
                 "if it helps",
-                thought,
+                situation,
                 sequence(
                     "expand room",
                     AskFurniture("furniture", context),
@@ -81,17 +81,20 @@ def existence_check(context: MissionContext) -> Behaviour:
             ),
             choose=choose,
         ),
-        Check("something is left", context, lambda: bool(thought.search.consultation.furniture)),
+        Check("something is left", context, lambda: bool(situation.search.consultation.furniture)),
     )
 
 
 class OntologyKnowsPlace(Step):
-    """Succeeds if the ontology has exactly one default location for the object, still unvisited."""
+    """Succeeds if the ontology has just one place for the object, and the robot was not there yet.
+
+    Reads request.object and search.looks; writes search.candidates, or search.default_locations.
+    """
 
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Look it up; several are kept to narrow down what the model may say."""
+        """Look the object up; of several places, the model may say which is likeliest."""
         assert self.situation.request.object
         usual = self.context.knowledge.usual_places(self.situation.request.object)
         if len(usual) == 1 and usual[0] in self.situation.search.looks.visited:
@@ -106,19 +109,22 @@ class OntologyKnowsPlace(Step):
 
 
 class BeginConsultation(Step):
-    """Forgets what earlier exchanges left."""
+    """Forgets earlier exchanges with the model. Writes search.consultation."""
 
     def update(self) -> Status:
-        """Begin with nothing."""
+        """Begin an empty consultation."""
         self.situation.search.consultation = Consultation()
         return Status.SUCCESS
 
 
 class ReadReply(Step):
-    """Preprocessing: the names in the reply, if it keeps to the output format."""
+    """Preprocessing: takes the names from a reply that is in the output format.
+
+    Reads and writes search.consultation.
+    """
 
     def update(self) -> Status:
-        """Read it."""
+        """Read the names."""
         assert self.context.advice
         names = self.context.advice.lister.read(self.situation.search.consultation.reply)
         if names is None:
@@ -128,7 +134,10 @@ class ReadReply(Step):
 
 
 class VerifyNames(Step):
-    """Existence check: unknown names are dropped, rooms are set aside to be expanded."""
+    """Existence check: drops unknown names, and sets rooms aside to be expanded.
+
+    Reads and writes search.consultation.
+    """
 
     takes_rooms = True
 
@@ -159,7 +168,10 @@ class VerifyFurniture(VerifyNames):
 
 
 class AdoptFurniture(Step):
-    """What passed, and was not looked at yet, becomes the list of candidates."""
+    """Makes candidates of the places that passed, and where the robot has not looked yet.
+
+    Reads search.consultation; writes search.candidates.
+    """
 
     source = Source.LLM
 

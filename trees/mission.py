@@ -10,7 +10,7 @@ confirmed     named places    memory, ontology, LLM     if gone, search    or pu
   ├─> several things, one of several, on a condition: in parts, each a task of its own
   └─> put down what is held, go somewhere, clear furniture, or answer by looking around
 
-Of several tasks each goes through all of it (`trees/tasks.py`): none is lost by another.
+Each of several tasks goes through all of it (`trees/tasks.py`), and none is lost if another fails.
 """
 
 from py_trees.behaviour import Behaviour
@@ -34,9 +34,9 @@ from trees.understand import understand
 
 
 def mission(context: MissionContext) -> Behaviour:
-    """The whole tree, gone through for each task.
+    """The whole tree, which runs once for each task.
 
-    It always ends in success; how the mission ended is in the situation.
+    It always succeeds; how the mission ended is in the situation.
     """
     return EachTask(
         "mission",
@@ -62,14 +62,15 @@ def mission(context: MissionContext) -> Behaviour:
 
 
 def is_about_one(context: MissionContext) -> bool:
-    """Whether there is one thing to look for."""
+    """Whether the task is to look for one thing."""
     return meaning(context.situation).searches and not is_in_parts(context)
 
 
 def come_back(context: MissionContext) -> Behaviour:
-    """Return to the person, if the robot left, and has nothing else to do.
+    """Return to the person, if the robot is away and has no other task.
 
-    Not if just that has failed: of a robot that came back, it would be told that it could not.
+    Not if the way to the person is what has just failed: if a second try succeeded, the apology
+    would say that the robot could not come although it stands there.
     """
     dialogue, agenda = context.situation.dialogue, context.situation.agenda
 

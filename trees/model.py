@@ -33,16 +33,16 @@ class ModelAction(Action):
         self._began: float | None = None
 
     def doing(self) -> str:
-        """It thinks."""
+        """It waits for the model."""
         return "ask the language model"
 
     def initialise(self) -> None:
-        """Mark the time, and start."""
+        """Note the time, and start."""
         self._began = self.context.clock.now()
         super().initialise()
 
     def terminate(self, new_status: Status) -> None:
-        """Count the time spent thinking."""
+        """Add up the time spent thinking."""
         if self._began is not None:
             self.situation.model.thinking_time_s += self.context.clock.now() - self._began
             self._began = None
@@ -53,29 +53,32 @@ class ModelAction(Action):
         self.model.cancel(request)
 
     def failed(self, result: Result) -> Status:
-        """Warn the person that the model is of no help, and why; then go on without."""
+        """Tell the person that the model does not help, and why; then fail."""
         why = why_of(result)
         self._warn(why)
         return self.fail(why)
 
     def out_of_time(self) -> Status:
-        """Say that the model did not answer."""
+        """Fail because the model did not answer in time."""
         self._warn(f"nothing came within {self._patience_s:g} s")
         return self.fail(f"the language model did not answer within {self._patience_s:g} s")
 
     def _warn(self, why: str) -> None:
-        """Once a mission."""
+        """Tell the person, once a mission."""
         if not self.situation.model.failure:
             self.situation.model.failure = why
             tell(self.context, sentence(f"My language model does not answer: {why}"))
 
 
 class RankPlaces(ModelAction):
-    """Has every allowed place scored, and keeps the likeliest."""
+    """Has every allowed place scored, and keeps the likeliest.
+
+    Reads request.object and search.default_locations; writes search.candidates.
+    """
 
     @property
     def among(self) -> tuple[str, ...]:
-        """The places that are allowed; all are, if there are none."""
+        """The places that may be scored; empty for all places of the home."""
         return self.situation.search.default_locations
 
     def start(self) -> int:
@@ -85,7 +88,7 @@ class RankPlaces(ModelAction):
         return self.model.rank(ranking)
 
     def ended(self, result: Result) -> Status:
-        """Keep as many as are worth a visit; all of them if the ontology named them."""
+        """Keep the places worth a visit: all of those that the ontology named, else the top k."""
         if not isinstance(result, Scored):
             return self.failed(result)
         ranked = self.situation.search.not_visited(self.advice.ranker.ranked(result))
@@ -98,18 +101,18 @@ class RankPlaces(ModelAction):
 
 
 class Chat(ModelAction):
-    """Asks the model to write, and keeps the reply."""
+    """Has the model write a reply, and keeps it in search.consultation."""
 
     @abstractmethod
     def request(self) -> ChatRequest:
-        """What to ask."""
+        """The prompt."""
 
     def start(self) -> int:
-        """Ask."""
+        """Send the prompt."""
         return self.model.chat(self.request())
 
     def ended(self, result: Result) -> Status:
-        """Keep the reply, and remember the exchange."""
+        """Keep the reply, and the exchange for later prompts."""
         if not isinstance(result, Replied):
             return self.failed(result)
         self.advice.lister.remember(result.request, result.text)
@@ -124,7 +127,7 @@ class Chat(ModelAction):
 
 
 class Inquire(Chat):
-    """`general_pos` where the ontology knows no place, `multiple_pos` where it knows several."""
+    """The prompt `general_pos`; or `multiple_pos` if the ontology knows several places."""
 
     def request(self) -> ChatRequest:
         """Ask for the likely places."""
@@ -132,26 +135,26 @@ class Inquire(Chat):
 
 
 class Summarize(Chat):
-    """`summarize`: put the last reply into the output format."""
+    """The prompt `summarize`: the last reply in the output format."""
 
     def request(self) -> ChatRequest:
-        """Ask for the same in the right form."""
+        """Ask for the same places in the right format."""
         return self.advice.lister.summarize(self.thing, self.situation.search.consultation.reply)
 
 
 class Again(Chat):
-    """`again`: no place of the last reply exists."""
+    """The prompt `again`: no place of the last reply exists."""
 
     def request(self) -> ChatRequest:
-        """Ask for places from the list."""
+        """Ask for places that exist."""
         return self.advice.lister.again(self.thing, self.situation.search.default_locations)
 
 
 class AskFurniture(Chat):
-    """`furniture`: a room was named; which furniture in it?"""
+    """The prompt `furniture`: which furniture of a room that the model named?"""
 
     def request(self) -> ChatRequest:
-        """Ask for the room at hand."""
+        """Ask for the furniture of the current room."""
         room = self.situation.search.consultation.room
         return self.advice.lister.furniture(
             self.thing, room, self.situation.search.default_locations
@@ -159,14 +162,17 @@ class AskFurniture(Chat):
 
 
 class RankKinds(ModelAction):
-    """Has the kinds of command scored; what to do it with, and where, is what the words name."""
+    """Has the kinds of command scored; the words themselves name the thing and the places.
+
+    Reads request.words and request.guess; writes request.command.
+    """
 
     def start(self) -> int:
         """Ask for the scores."""
         return self.model.rank(self.advice.reader.ranking(self.situation.request.words))
 
     def ended(self, result: Result) -> Status:
-        """Keep the likeliest."""
+        """Make a command of the likeliest kind."""
         if not isinstance(result, Scored):
             return self.failed(result)
         kind, words = self.advice.reader.ranked(result), self.situation.request.words
@@ -180,17 +186,18 @@ class RankKinds(ModelAction):
 
 
 class WriteCommand(ModelAction):
-    """Has the model write what is to be done, with things and places that exist.
+    """Has the model write the command in plain words, with things and places that exist.
 
-    The grammar reads that, so that it means the same as if the person had said it so.
+    The grammar reads these words, so that they mean the same as if the person had said them.
+    Reads request.words; writes request.command and agenda.tasks.
     """
 
     def start(self) -> int:
-        """Ask."""
+        """Ask for the plain words."""
         return self.model.chat(self.advice.reader.inquiry(self.situation.request.words))
 
     def ended(self, result: Result) -> Status:
-        """Read and verify the reply."""
+        """Read the reply; fail unless it is a command about what exists."""
         if not isinstance(result, Replied):
             return self.failed(result)
         plain = self.advice.reader.read(result.text)

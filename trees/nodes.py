@@ -1,7 +1,7 @@
-"""The kinds of behaviour that the subtrees are made of, beyond py_trees' own.
+"""The kinds of behaviour that the subtrees are made of, in addition to those of py_trees.
 
-Rule of the house: a behaviour is RUNNING only while something that it started is under way, because
-the tree is ticked by events. A loop therefore goes on within one tick, and waiting has a deadline.
+The tree is ticked by events. So a behaviour may be RUNNING only while something that it started is
+under way: a loop goes on to its next item within the same tick, and whatever waits has a deadline.
 """
 
 from abc import abstractmethod
@@ -20,18 +20,18 @@ from executive.types.results import Failed, Result
 from trees.context import MissionContext
 
 LONGEST = 400
-"""Of a reason that an adapter gives (characters): it is to be a clause of a sentence."""
+"""Most characters of a reason that an adapter gives: it becomes a clause of a sentence."""
 UNSAID = "it did not work, and nothing said why"
-"""The reason of what fails without one."""
+"""The reason when none was given."""
 
 
 class Selector(composites.Selector):
-    """A fallback that keeps why the child that it tried last failed, for those it tries then."""
+    """A fallback that keeps why its last child failed, so that the next ones can tell it."""
 
     reason = ""
 
     def tick(self) -> Iterator[Behaviour]:
-        """Tick the children as ever."""
+        """Tick the children as py_trees does, and note the reason of each that fails."""
         if self.status != Status.RUNNING:
             self.reason = ""
         for node in super().tick():
@@ -41,7 +41,7 @@ class Selector(composites.Selector):
 
 
 def sequence(name: str, *children: Behaviour, activity: str = "") -> Sequence:
-    """All children in order, until one fails; `activity` is what the robot does meanwhile."""
+    """A sequence with memory; `activity` is what the robot does meanwhile, for the log."""
     node = Sequence(name, memory=True, children=list(children))
     vars(node)["activity"] = activity
     return node
@@ -55,41 +55,41 @@ def stages(name: str, *children: Behaviour) -> Sequence:
 
 
 def as_long_as(name: str, *children: Behaviour) -> Sequence:
-    """A sequence that begins anew at each tick: the last child goes on while those before hold."""
+    """A sequence without memory: at each tick the conditions before the last child must hold."""
     return Sequence(name, memory=False, children=list(children))
 
 
 def beside(name: str, aside: Behaviour, main: Behaviour) -> Parallel:
-    """Both at once: it ends as `main` does, whatever becomes of `aside`, which never fails."""
+    """Both in parallel: it ends when `main` does, and as `main` does. `aside` must never fail."""
     policy = ParallelPolicy.SuccessOnSelected([main], synchronise=True)
     return Parallel(name, policy, children=[aside, main])
 
 
 def fallback(name: str, *children: Behaviour) -> Selector:
-    """The first child that succeeds."""
+    """A fallback with memory: the first child that succeeds."""
     return Selector(name, memory=True, children=list(children))
 
 
 class Step(Behaviour):
-    """Decides at once, from what is known: a condition, or a change of the situation.
+    """A behaviour that decides at once: a condition, or a change of the situation.
 
-    What it means for whoever reads the log is declared here, by a class or by one of its instances,
-    and never guessed from a name: see `executive.records.NodeShape`.
+    Classes, or single instances, declare `source` and `activity` for those who read the log; nobody
+    guesses them from a name. See `executive.records.NodeShape`.
     """
 
     source: str = ""
     activity: str = ""
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Keep the context at hand."""
+        """Work with this context."""
         super().__init__(name)
         self.context = context
         self.situation = context.situation
         self.reason = ""
-        """Why it failed, as a clause; empty if it did not, or fails without a word."""
+        """Why it failed, as a clause; empty if it did not fail, or gave no reason."""
 
     def initialise(self) -> None:
-        """Begin: what it failed for before, counts no more."""
+        """Begin anew: forget why it failed before."""
         self.reason = ""
 
     @abstractmethod
@@ -97,18 +97,18 @@ class Step(Behaviour):
         """Decide."""
 
     def succeed(self, message: str = "") -> Status:
-        """Succeed, and say in the log what with."""
+        """Succeed, with a message for the log."""
         self.feedback_message = message
         return Status.SUCCESS
 
     def fail(self, reason: str) -> Status:
-        """Fail, and keep why, for the log and for the person: on one line, and never empty."""
+        """Fail, and keep the reason for the log and the person: one line, never empty."""
         self.reason = self.feedback_message = printable(reason).strip() or UNSAID
         self.situation.ending.last_word = self.reason
         return Status.FAILURE
 
     def why_before(self) -> str:
-        """Why that failed which was tried before this, in the innermost fallback that knows."""
+        """Why the alternative before this one failed, from the innermost fallback that knows."""
         node = self.parent
         while node and not (isinstance(node, Selector) and node.reason):
             node = node.parent
@@ -116,7 +116,7 @@ class Step(Behaviour):
 
 
 def reason_of(node: Behaviour) -> str:
-    """Why a behaviour failed: what the last said that failed within it; empty if none said why."""
+    """Why a behaviour failed: its own reason, or its failed child's; empty if there is none."""
     if isinstance(node, Step | Selector | _Loop):
         return node.reason
     failed = (child for child in node.children if child.status == Status.FAILURE)
@@ -127,20 +127,20 @@ class Check(Step):
     """A condition that a function of the situation decides."""
 
     def __init__(self, name: str, context: MissionContext, holds: Callable[[], bool]) -> None:
-        """Name the condition as it reads when true."""
+        """`name` says what is true when the condition holds."""
         super().__init__(name, context)
         self._holds = holds
 
     def update(self) -> Status:
-        """Succeed if it holds."""
+        """Succeed if the condition holds."""
         return Status.SUCCESS if self._holds() else Status.FAILURE
 
 
 class Action(Step):
-    """Starts something slow, waits for its end, and cancels it when pre-empted or out of time.
+    """Starts something slow, waits for its result, and cancels it when pre-empted or out of time.
 
-    `start` returns the request's number; `ended` turns the result into a status, and may start
-    anew by returning `self.start_again()`. After `patience_s` (mission time) the action fails.
+    `start` returns the number of the request. `ended` turns the result into a status; to try once
+    more it returns `self.start_again()`. After `patience_s` (mission time), `out_of_time` decides.
     """
 
     def __init__(self, name: str, context: MissionContext, patience_s: float) -> None:
@@ -152,36 +152,36 @@ class Action(Step):
 
     @abstractmethod
     def start(self) -> int:
-        """Start it; return the number of the request."""
+        """Start what takes time, and return the number of the request."""
 
     @abstractmethod
     def ended(self, result: Result) -> Status:
-        """Take in its end."""
+        """Decide what the result means."""
 
     @abstractmethod
     def cancel(self, request: int) -> None:
-        """Call it off."""
+        """Cancel the request, so that no result comes."""
 
     @abstractmethod
     def out_of_time(self) -> Status:
-        """Say that it took too long."""
+        """Decide what it means that no result came in time; the request is already cancelled."""
 
     @property
     def is_under_way(self) -> bool:
-        """Whether what it started was neither ended nor cancelled, whatever its status says."""
+        """Whether its request is open: neither ended nor cancelled, whatever the status says."""
         return self._request is not None
 
     def doing(self) -> str:
-        """What the robot does while it is under way, behind "I"; empty if there is no word."""
+        """What the robot is doing meanwhile, to follow "I"; empty if there is nothing to say."""
         return ""
 
     def initialise(self) -> None:
-        """Start."""
+        """Send the first request."""
         super().initialise()
         self.start_again()
 
     def start_again(self) -> Status:
-        """Start, once more."""
+        """Send a request, with a deadline of its own."""
         self.feedback_message = ""
         self._request = self.start()
         self._deadline = self.context.clock.now() + self._patience_s
@@ -189,7 +189,7 @@ class Action(Step):
         return Status.RUNNING
 
     def update(self) -> Status:
-        """Look whether it ended."""
+        """Check whether the request has ended, or its time is over."""
         request = self._request
         assert request is not None
         result = self.context.pending.take_end(request)
@@ -203,7 +203,7 @@ class Action(Step):
         return self.out_of_time()
 
     def terminate(self, new_status: Status) -> None:
-        """Cancel what is still under way."""
+        """Cancel the request if it is still open."""
         if (request := self._request) is not None:
             self._wait_no_more(request)
             self.cancel(request)
@@ -213,12 +213,12 @@ class Action(Step):
         self.context.pending.wait_no_more(request)
 
     def failed(self, result: Result) -> Status:
-        """Fail for the reason in a result that is no success."""
+        """Fail with the reason of a result that is not a success."""
         return self.fail(why_of(result))
 
 
 def why_of(result: Result) -> str:
-    """The reason in a result that is no success, as an adapter gave it; short, and never empty."""
+    """The reason of a result that is not a success, as an adapter gave it; short, never empty."""
     if not isinstance(result, Failed):
         return f"it ended with {type(result).__name__}, which makes no sense here"
     why = printable(result.reason[:LONGEST]).strip() or UNSAID
@@ -226,32 +226,32 @@ def why_of(result: Result) -> str:
 
 
 class Optionally(FailureIsSuccess):
-    """Does what may fail: then all goes on, and for the log the last word is that of before."""
+    """Ignores the failure of its child, which then leaves no last word behind either."""
 
     def __init__(self, name: str, situation: Situation, child: Behaviour) -> None:
-        """Keep the situation at hand."""
+        """Guard the last word of this situation."""
         super().__init__(name, child)
         self._situation = situation
         self._last_word = ""
 
     def initialise(self) -> None:
-        """Remember the last word."""
+        """Remember the last word of what came before."""
         self._last_word = self._situation.ending.last_word
 
     def update(self) -> Status:
-        """Succeed in either case."""
+        """Succeed in any case; after a failure, restore the last word."""
         if self.decorated.status == Status.FAILURE:
             self._situation.ending.last_word = self._last_word
         return super().update()
 
 
 class _Loop(Decorator):
-    """Runs its child for one item after another, going on to the next within the same tick."""
+    """Runs its child for one item after another; goes on to the next within the same tick."""
 
     ends_on: Status
-    """The child's status that ends the loop, with the same status."""
+    """The loop ends with this status as soon as the child has it."""
     exhausted: Status
-    """The status when all items were gone through."""
+    """The status of the loop when there are no more items."""
 
     def __init__(
         self,
@@ -261,19 +261,20 @@ class _Loop(Decorator):
         *,
         choose: Callable[[Any], None] | None = None,
     ) -> None:
-        """`items` is called once at the start, and each is taken when the one before is done.
+        """`items` is called once, at the start; each item is taken when the one before is done.
 
-        `choose` puts each into the situation, if the child is to know which it is.
+        `choose` is called with each item before the child is ticked for it: it puts the item where
+        the child can read it.
         """
         super().__init__(name, child)
         self._items = items
         self._choose = choose
         self._rest: Iterator[Any] = iter(())
         self.reason = ""
-        """Why its child failed, the last time that it said why."""
+        """The last reason that the child failed with."""
 
     def tick(self) -> Iterator[Behaviour]:
-        """Tick the child for the item at hand, and for the next ones as long as it decides."""
+        """Tick the child for the current item; whenever it is done, go on to the next one."""
         if self.status != Status.RUNNING:
             self._rest, self.reason = iter(self._items()), ""
             if not self._next():
@@ -309,7 +310,7 @@ class _Loop(Decorator):
 class FirstOf(_Loop):
     """A fallback over data: succeeds with the first item for which the child succeeds.
 
-    Over one item or none, it is a condition: without an item, it fails.
+    With no item, it fails. So with a list of one item or none, it is a condition.
     """
 
     ends_on = Status.SUCCESS
@@ -319,7 +320,7 @@ class FirstOf(_Loop):
 class EachOf(_Loop):
     """A sequence over data: succeeds when the child succeeded for every item.
 
-    Over one item or none, it is an `if`: without an item, it succeeds, and nothing is done.
+    With no item, it succeeds without a tick. So with a list of one item or none, it is an `if`.
     """
 
     ends_on = Status.FAILURE

@@ -1,7 +1,7 @@
-"""Which thing is meant? The ontology says, or whose home it is, else the person is asked.
+"""Which thing is meant? The ontology may know, or the person's preferences; else the person does.
 
-The language model never is: which fruit someone likes is a matter of that person, not of general
-knowledge (paper, section "Integrated use of ontological knowledge base and LLM").
+The language model is never asked: which fruit someone likes is personal, and no general knowledge
+(paper, section "Integrated use of ontological knowledge base and LLM").
 """
 
 from py_trees.behaviour import Behaviour
@@ -18,7 +18,7 @@ from trees.telling import tell
 
 
 def resolve_object(context: MissionContext) -> Behaviour:
-    """Words for a thing -> `situation.request.object`."""
+    """Find the thing that the words mean; writes request.object."""
     return fallback(
         "which object",
         known_object(context),
@@ -38,15 +38,14 @@ def resolve_object(context: MissionContext) -> Behaviour:
 
 
 def see_which_is_there(context: MissionContext) -> Behaviour:
-    """Of several things that may be meant, one that is where the words say; nothing if no word is.
+    """Go and see which of several possible things is at the place in the words.
 
-    So "a ball from the desk" is a ball that is there.
+    So "a ball from the desk" means a ball that is there. Fails if the words name no place.
     """
     request = context.situation.request
 
     def there() -> list[str]:
-        assert request.command
-        return [request.command.source] if request.command.source and request.options else []
+        return [request.asked_for.source] if request.asked_for.source and request.options else []
 
     return FirstOf(
         "see which is there",
@@ -56,7 +55,7 @@ def see_which_is_there(context: MissionContext) -> Behaviour:
 
 
 def known_object(context: MissionContext) -> Behaviour:
-    """What can be told without a question."""
+    """Find the thing without a question to the person."""
     request = context.situation.request
 
     def held() -> list[str]:
@@ -71,24 +70,23 @@ def known_object(context: MissionContext) -> Behaviour:
 
 
 class TakeOneThatIsThere(Step):
-    """Succeeds if one of the things is there; of several, any will do, or a certain one is meant.
+    """Succeeds if one of the things is there; or several, if the person wants just any one.
 
-    Reads survey.seen; writes request.object, or request.options; search.looks forgets that place,
-    so that it is looked at again.
+    Reads survey.seen; writes request.object, or request.options. In search.looks, the place does
+    not count as visited any more: the robot looks there again to take the thing.
     """
 
     source = "eyes"
 
     def update(self) -> Status:
-        """Say it if there is none: then the person is asked."""
+        """Take the first one that was seen; if there is none, tell the person."""
         request, search = self.situation.request, self.situation.search
-        assert request.command
         found = self.situation.survey.found
         if not found:
             why = nothing_there(self.context)
             tell(self.context, f"{why}.")
             return self.fail(why)
-        if len(found) > 1 and request.command.number != 1:
+        if len(found) > 1 and request.asked_for.number != 1:
             request.options = tuple(found)
             return self.fail(f"there are {found_where(found, self.context.say)}")
         request.object, place = next(iter(found.items()))
@@ -97,13 +95,13 @@ class TakeOneThatIsThere(Step):
 
 
 class HeldIsMeant(Step):
-    """Succeeds if something is in the hand, of which nobody has to say the name.
+    """Succeeds if something is in the hand: "it" is that.
 
     Reads hand.in_hand; writes request.object.
     """
 
     def update(self) -> Status:
-        """It is that."""
+        """Take what is in the hand."""
         held = self.situation.hand.in_hand
         if held is None:
             return self.fail("my hand is empty")
@@ -120,9 +118,8 @@ class OntologyKnowsObject(Step):
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Look the words up."""
-        command = self.situation.request.command
-        assert command
+        """Look the target up in the ontology."""
+        command = self.situation.request.asked_for
         knowledge = self.context.knowledge
         named = without_exceptions(knowledge, command, meant(knowledge, command))
         if len(named) == 1:
@@ -141,7 +138,7 @@ class PersonPrefersOne(Step):
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Look for a favourite."""
+        """Take the one favourite among the options."""
         favourites = self.context.knowledge.preferred(self.situation.request.options)
         if len(favourites) != 1:
             return self.fail(f"{len(favourites) or 'none'} of them is a favourite")
@@ -150,16 +147,15 @@ class PersonPrefersOne(Step):
 
 
 class GuessName(Step):
-    """Succeeds if one known name is in the words, or is so near that they may be a slip of it.
+    """Succeeds if the words contain one known name, or are like one, as after a typing error.
 
-    If several are, the person has to choose: the robot does one thing at a time.
+    If they contain several, the person must choose: the robot does one thing at a time.
     Reads request.command; writes request.guess, or request.options and request.several.
     """
 
     def update(self) -> Status:
         """Look for known names."""
-        assert self.situation.request.command
-        target = self.situation.request.command.target
+        target = self.situation.request.asked_for.target
         if self.situation.request.options:
             return self.fail(f"'{target}' is known")
         knowledge = self.context.knowledge

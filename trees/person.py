@@ -1,4 +1,4 @@
-"""Leaves that tell the person how it goes, and ask them for places."""
+"""Leaves that tell the person what happens, and ask them for places."""
 
 from py_trees.common import Status
 
@@ -20,20 +20,20 @@ class AskForPlace(Ask):
     """Asks for a place of the home."""
 
     def once_more(self, text: str) -> str:
-        """The question again, for who named none: with the furniture that there is."""
+        """The question again, with all furniture of the home."""
         places = (self.context.say.the(place.name) for place in self.context.knowledge.places())
         no_place = "" if self._attended else "I know no such place. "
         return f"{no_place}{text} I know: {', '.join(places)}."
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Say so, if nothing can be put there."""
+        """Tell it if nothing can be put where the answer says."""
         if not (goal := self._not_to_be_put(words)):
             return super()._attend_to(said, words)
         tell(self.context, f"{only_on_furniture(as_said(words, goal))}.")
         return True
 
     def _not_to_be_put(self, answer: str) -> str:
-        """Where it would have the thing put, if nothing can be put so; empty if it can."""
+        """The words for the goal, if nothing can be put there; empty if it can."""
         puts = self.question().kind == QuestionKind.WHERE_TO_PUT
         return not_to_be_put(self.context, answer) if puts else ""
 
@@ -45,8 +45,8 @@ class AskWhere(AskForPlace):
     """
 
     def question(self) -> Question:
-        """Say where it was looked for, if anywhere."""
-        name, say = self.situation.request.object or "", self.context.say
+        """Say first where the robot has looked for it."""
+        name, say = self.situation.request.thing, self.context.say
         text = f"Where {say.is_(name)} {say.the(name)}?"
         if so_far := self.situation.search.so_far(name, say):
             text = f"{so_far}. {text}"
@@ -55,7 +55,7 @@ class AskWhere(AskForPlace):
         return Question(QuestionKind.WHERE_IS, name, text)
 
     def understood(self, answer: str) -> bool:
-        """Any places that exist become the candidates."""
+        """Take the places that exist as candidates, and remember them."""
         places = places_in(self.context, answer)
         if places:
             assert self.situation.request.object
@@ -64,19 +64,19 @@ class AskWhere(AskForPlace):
         return bool(places)
 
     def unresolved(self) -> str:
-        """Say what was tried."""
-        name, say = self.situation.request.object or "", self.context.say
+        """The robot has looked in vain, or does not know where to look."""
+        name, say = self.situation.request.thing, self.context.say
         return self.situation.search.so_far(name, say) or f"I do not know where {say.are(name)}"
 
 
 class AskWhereToPut(AskForPlace):
-    """Asks where what is in the hand may be put down, when it found no room for it.
+    """Asks where to put down what is in the hand, because the robot has found no room.
 
     Reads hand.unplaced; writes hand.surfaces.
     """
 
     def question(self) -> Question:
-        """Say where there was none."""
+        """Say first where there was no room."""
         held = self.situation.hand.in_hand or ""
         text = f"Where shall I put {self.context.say.the(held)}?"
         first = f"{beginning(self.unresolved())}. {text}"
@@ -84,13 +84,13 @@ class AskWhereToPut(AskForPlace):
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
 
     def understood(self, answer: str) -> bool:
-        """Any furniture that exists will do."""
+        """Take any furniture that exists."""
         unfit = self._not_to_be_put(answer)
         self.situation.hand.surfaces = () if unfit else places_in(self.context, answer)
         return bool(self.situation.hand.surfaces)
 
     def unresolved(self) -> str:
-        """Say where it was tried."""
+        """The thing was not put down where the robot has tried."""
         return self.situation.hand.not_put_down(self.context.say)
 
 
@@ -101,9 +101,9 @@ class Announce(Step):
     """
 
     def update(self) -> Status:
-        """Say it."""
+        """Tell it."""
         candidates = self.situation.search.candidates
-        name, say = self.situation.request.object or "", self.context.say
+        name, say = self.situation.request.thing, self.context.say
         places = ", then ".join(say.at_each(candidate.place for candidate in candidates))
         why = who_says(self.context, candidates[0].source)
         tell(self.context, f"I look for {say.the(name)} {places}: {why}.")
@@ -117,18 +117,18 @@ class Report(Step):
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {the_object}, {is_}, {it}, {at}, {place}, {put} and {goal}.
+        """`text` may use {the_object}, {The_object}, {is_}, {it}, {at}, {place}, {put} and {goal}.
 
-        As in "{The_object} {is_} {at}": the mug is on the desk in the bedroom; {place} is the same
-        without "on", {put} is where it was put down.
+        "{The_object} {is_} {at}" becomes "The mug is on the desk in the bedroom". {place} is the
+        place without a preposition, {put} where the thing was put down, {goal} where it is to go.
         """
         super().__init__(name, context)
         self._text = text
 
     def update(self) -> Status:
-        """Say it, and keep it as the mission's reason."""
+        """Tell it, and keep it as the outcome's reason."""
         found, hand, say = self.situation.search.found, self.situation.hand, self.context.say
-        name = self.situation.request.object or ""
+        name = self.situation.request.thing
         the = say.the(name) if name else ""
         said = printable(
             self._text.format(
@@ -148,13 +148,13 @@ class Report(Step):
 
 
 class Apologise(Step):
-    """Tells why it was not done.
+    """Tells why the task was not done.
 
     Writes ending.reason.
     """
 
     def update(self) -> Status:
-        """Say why the last thing failed that was tried."""
+        """Tell why the last alternative failed, or what was wrong with the words."""
         self.situation.ending.tell(self.why_before())
         why = self.situation.request.remark or f"Sorry: {self.situation.ending.why}"
         tell(self.context, sentence(why))
@@ -162,8 +162,11 @@ class Apologise(Step):
 
 
 def who_says(context: MissionContext, source: str, **others: tuple[str, str]) -> str:
-    """Who says where the thing is, as a clause; `others` say it of one thing, and of several."""
-    name, say = context.situation.request.object or "", context.say
+    """Who says where the thing is, as a clause.
+
+    `others` are clauses for further sources: one for a single thing, one for several.
+    """
+    name, say = context.situation.request.thing, context.say
     says = {
         **(SAYS_OF_SEVERAL if say.agree(name, "", "are") else SAYS),
         **{who: say.agree(name, *clauses) for who, clauses in others.items()},

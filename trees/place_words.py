@@ -37,8 +37,7 @@ def is_place(context: MissionContext, words: str) -> bool:
 
 def goal_words(context: MissionContext) -> str:
     """The words for where to; who only goes has them in the place of a thing, too."""
-    command = context.situation.request.command
-    assert command
+    command = context.situation.request.asked_for
     alone = command.target if command.kind == CommandKind.GO else ""
     return command.goal or alone
 
@@ -143,7 +142,7 @@ def unknown_goal(context: MissionContext) -> str:
         return "I put nothing on the floor"
     if goal:
         return f"I do not know where '{context.as_said(goal)}' is"
-    put = f"put {context.say.the(request.object or '')}"
+    put = f"put {context.say.the(request.thing)}"
     return "I do not know where to " + ("go" if goes else put)
 
 

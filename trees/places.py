@@ -1,4 +1,4 @@
-"""Which places do the words name? Where the thing is, and where it, or the robot, is to go."""
+"""The places in the words: where the thing is, and where it, or the robot, is to go."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -36,16 +36,14 @@ from trees.telling import TO_THE_PERSON, tell
 
 
 def named_places(context: MissionContext) -> Behaviour:
-    """Words for places -> `request.from_places` and `request.goals`; none if there are none."""
+    """Find the places that the words name; writes request.from_places and request.goals."""
     request = context.situation.request
 
     def source() -> Sequence[str]:
-        assert request.command
-        return [request.command.source] if request.command.source else []
+        return [request.asked_for.source] if request.asked_for.source else []
 
     def goes() -> Sequence[str]:
-        assert request.command
-        return [request.command.kind] if request.command.kind.means.at_goal else []
+        return [request.asked_for.kind] if request.asked_for.kind.means.at_goal else []
 
     return sequence(
         "named places",
@@ -55,7 +53,7 @@ def named_places(context: MissionContext) -> Behaviour:
 
 
 def starting_place(context: MissionContext) -> Behaviour:
-    """Where the words say that the thing is; nobody has to know that place."""
+    """Where the words say that the thing is; if nobody knows that place, the search goes on."""
     return fallback(
         "from where",
         SourceIsKnown("the place is known", context),
@@ -65,11 +63,11 @@ def starting_place(context: MissionContext) -> Behaviour:
 
 
 def destination(context: MissionContext) -> Behaviour:
-    """Where it is to go -> `request.goals`, the best first; asked if it is not known."""
+    """Where the thing, or the robot, is to go; asks if it is not known. Writes request.goals."""
     request = context.situation.request
 
     def back() -> list[str]:
-        return [request.object or ""] if goes_back(request.command) else []
+        return [request.thing] if goes_back(request.command) else []
 
     return fallback(
         "to where",
@@ -88,7 +86,7 @@ def destination(context: MissionContext) -> Behaviour:
 
 
 def destination_of_all(context: MissionContext) -> Behaviour:
-    """The same for several things, if it was said: asked once, and each of them goes there."""
+    """The same for several things that go to one place: the robot asks once for all of them."""
     request = context.situation.request
 
     def goal() -> list[str]:
@@ -110,7 +108,7 @@ def destination_of_all(context: MissionContext) -> Behaviour:
 
 
 class SourceIsKnown(Step):
-    """Succeeds if the home has the place that the words name.
+    """Succeeds if the words name a place of the home.
 
     Reads request.command; writes request.from_places.
     """
@@ -118,13 +116,12 @@ class SourceIsKnown(Step):
     source = "person"
 
     def update(self) -> Status:
-        """Of a room, look first where the thing was seen, then where things like it are."""
+        """Keep the places, in a room first those where the thing was seen or belongs."""
         request = self.situation.request
-        assert request.command
         assert request.object
-        named = places_in(self.context, request.command.source)
-        if not named or not is_place(self.context, request.command.source):
-            return self.fail(unknown_place(self.context, request.command.source))
+        named = places_in(self.context, request.asked_for.source)
+        if not named or not is_place(self.context, request.asked_for.source):
+            return self.fail(unknown_place(self.context, request.asked_for.source))
         likely = (
             *self.context.facts.places_of(request.object),
             *usual_places(self.context),
@@ -140,40 +137,38 @@ class AskFromWhere(AskWhere):
     """
 
     def question(self) -> Question:
-        """Say what is not known."""
+        """Say first which place is not known."""
         asked = super().question()
         text = f"{self.unresolved()}. {asked.text}" if self._tries == 0 else asked.text
         return Question(asked.kind, asked.about, text)
 
     def understood(self, answer: str) -> bool:
-        """Look there first."""
+        """Take the places of the answer instead of those in the words."""
         if not super().understood(answer):
             return False
         self.situation.request.from_places = places_in(self.context, answer)
         return True
 
     def unresolved(self) -> str:
-        """The place is unknown."""
-        assert self.situation.request.command
-        return unknown_place(self.context, self.situation.request.command.source)
+        """The place in the words is not known."""
+        return unknown_place(self.context, self.situation.request.asked_for.source)
 
 
 class SearchAnyway(Step):
-    """Says that a place is unknown, and that the search goes on without it."""
+    """Tells that a place is not known, and that the robot searches nevertheless; succeeds."""
 
     def update(self) -> Status:
-        """Nothing that was said is passed over in silence."""
+        """Tell it: the robot ignores no part of a command in silence."""
         request = self.situation.request
-        assert request.command
-        said = unknown_place(self.context, request.command.source)
-        say, name = self.context.say, request.object or ""
+        said = unknown_place(self.context, request.asked_for.source)
+        say, name = self.context.say, request.thing
         where = f"where {say.agree(name, 'it', 'they')} may be"
         tell(self.context, f"{said}; I look for {say.the(name)} {where}.")
         return self.succeed(said)
 
 
 class GoalIsKnown(Step):
-    """Succeeds if the words name one place, or one room, whose furniture will all do.
+    """Succeeds if the words name one place; or one room, where any furniture will do.
 
     Reads request.command; writes request.goals.
     """
@@ -181,7 +176,7 @@ class GoalIsKnown(Step):
     source = "person"
 
     def update(self) -> Status:
-        """Look the words up."""
+        """Find the goal that the words name."""
         goal = goal_words(self.context)
         if not goal:
             return self.fail("you named no place")
@@ -200,7 +195,7 @@ class GoalIsKnown(Step):
         return self.succeed(", ".join(self.situation.request.goals))
 
     def _beside(self, things: Sequence[str]) -> Status:
-        """Beside a thing is on the furniture where that was last; say which that is."""
+        """Take the furniture where one of these things was last, and tell which that is."""
         say = self.context.say
         for thing in things:
             for place in known_at(self.context, thing):
@@ -211,19 +206,19 @@ class GoalIsKnown(Step):
 
 
 class TakenFrom(Step):
-    """Succeeds if the robot knows where it has taken the thing.
+    """Succeeds if the robot remembers where it took the thing from.
 
-    Writes request.goals.
+    Reads request.object; writes request.goals.
     """
 
     source = Source.MEMORY
 
     def update(self) -> Status:
-        """What was taken from the delivery table had been brought there before."""
+        """Take the place where it was last taken from."""
         request = self.situation.request
         known = taken_from(self.context, request.object)
         if not known:
-            what = self.context.say.the(request.object or "")
+            what = self.context.say.the(request.thing)
             return self.fail(f"I do not know where I took {what}")
         request.goals = (known[0],)
         return self.succeed(known[0])
@@ -232,15 +227,15 @@ class TakenFrom(Step):
 class UsualPlace(Step):
     """Succeeds if the ontology knows where the thing belongs.
 
-    Writes request.goals.
+    Reads request.object; writes request.goals.
     """
 
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Say so: it is not where it was."""
+        """Take the usual places, and tell it: the thing may have come from elsewhere."""
         request = self.situation.request
-        usual, say, name = usual_places(self.context), self.context.say, request.object or ""
+        usual, say, name = usual_places(self.context), self.context.say, request.thing
         if not usual:
             belongs = say.agree(name, "belongs", "belong")
             return self.fail(f"I do not know where {say.the(name)} {belongs}")
@@ -258,10 +253,10 @@ class AskWhereTo(AskForPlace):
     """
 
     def question(self) -> Question:
-        """Say what is not known, or offer what is."""
+        """Offer the places that the words may mean; else say what is not known."""
         goes = self.situation.request.asks_to(CommandKind.GO)
         kind = QuestionKind.WHERE_TO_GO if goes else QuestionKind.WHERE_TO_PUT
-        about = self.situation.request.object or ""
+        about = self.situation.request.thing
         goal, options = goal_words(self.context), options_in(self.context)
         say = self.context.say
         if options:
@@ -276,7 +271,7 @@ class AskWhereTo(AskForPlace):
         return Question(kind, about, text)
 
     def understood(self, answer: str) -> bool:
-        """One place, or one room; of those that were offered, if any were."""
+        """Take one place or one room; if some were offered, one of those or another place."""
         if self._not_to_be_put(answer):
             return False
         if options := options_in(self.context):
@@ -289,7 +284,7 @@ class AskWhereTo(AskForPlace):
         return bool(named)
 
     def _another(self, answer: str) -> tuple[str, ...]:
-        """None of the places that were offered, but one that was not: "on the sofa, please"."""
+        """A place that was not offered, if the answer names one: "on the sofa, please"."""
         match self.context.interpreter.read(answer):
             case Answer(where=[place]):
                 answer = in_words(place)
@@ -297,7 +292,7 @@ class AskWhereTo(AskForPlace):
         return named if len(named) == 1 else ()
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """What else is to be done with the same thing, is to be done instead: "give it to me"."""
+        """Take another request about the same thing as a correction: "give it to me"."""
         if not isinstance(said, Request) or not is_about_the_same(self.context, said, words):
             return super()._attend_to(said, words)
         now = f"I {self.doing()}."
@@ -305,38 +300,37 @@ class AskWhereTo(AskForPlace):
         return True
 
     def unresolved(self) -> str:
-        """What is not known."""
+        """The goal is not known, or may be one of several."""
         if options := options_in(self.context):
             return may_be(self.context, goal_words(self.context), options)
         return unknown_goal(self.context)
 
 
 class EachGoesThere(Step):
-    """What was answered takes the place of the words that nobody knows.
+    """Puts the answer into the command, as the goal of each of the things.
 
     Reads request.goals; writes request.command.
     """
 
     def update(self) -> Status:
-        """So nobody is asked for each thing anew."""
+        """Replace the words for the goal, so that nobody is asked again for each thing."""
         request = self.situation.request
-        assert request.command
-        request.command = replace(request.command, goal=" or ".join(request.goals))
-        return self.succeed(request.command.goal)
+        request.command = replace(request.asked_for, goal=" or ".join(request.goals))
+        return self.succeed(request.asked_for.goal)
 
 
 def taken_from(context: MissionContext, name: str | None) -> tuple[str, ...]:
-    """The furniture that the robot took a thing from, the last time first."""
+    """The furniture that the robot took a thing from, the latest first."""
     taken = context.facts.origins().get(name or "", ())
     return tuple(place for place in taken if context.knowledge.has_place(place))
 
 
 def usual_places(context: MissionContext) -> tuple[str, ...]:
-    """Where the thing belongs; nobody knows of what is in the hand without a name."""
+    """Where the thing belongs; no places if the ontology does not know the thing."""
     name = context.situation.request.object
     return () if name in (None, SOMETHING) else context.knowledge.usual_places(name)
 
 
 def goes_back(command: Command | None) -> bool:
-    """Whether the thing is to go back, and nobody said where that is."""
+    """Whether a command says to put the thing back, and not where."""
     return command is not None and command.kind == CommandKind.PUT_BACK and not command.goal

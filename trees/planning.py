@@ -1,4 +1,4 @@
-"""Look on, or ask? Where to look next: the plan that costs least, made anew at every step."""
+"""Look on, or ask? At every step the robot makes the plan that costs least, and does its start."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -23,55 +23,55 @@ from trees.telling import sentence, tell
 from trees.ways import Ways
 
 MOST_RECORDED = 60
-"""The belief is recorded of so many places, the likeliest."""
+"""A record of a plan has this many places of the belief, the likeliest."""
 WORTH_TELLING = 0.01
-"""What is less likely is no candidate, unless it is next."""
+"""A less likely place is no candidate, unless it is the next."""
 MOST_TOLD = 3
-"""So many places the person is told of at once."""
+"""The person is told of this many places at once."""
 NOBODY_SAYS = "it may be anywhere", "they may be anywhere"
 USUALLY = "it is usually there", "they are usually there"
 """Where the ontology has several default locations."""
 
 
 class PlanNext(Step):
-    """Plans; succeeds if the next thing to do is a look, and chooses the place for it.
+    """Makes a plan; succeeds if its next step is a look, and chooses the place.
 
-    What was planned on the way is taken up as it is. Writes search.whereabouts, search.candidates
-    and search.candidate.
+    A plan that was just made on the way (`PlanStands`) is used, and no other made. Writes
+    search.whereabouts, search.candidates and search.candidate.
     """
 
     source = PLAN
 
     def __init__(self, name: str, context: MissionContext, ways: Ways) -> None:
-        """Plan with these ways."""
+        """Plan with the durations of these ways."""
         super().__init__(name, context)
         self._ways = ways
 
     def update(self) -> Status:
-        """Decide by what is known now."""
+        """Plan, unless there is a fresh plan, and follow it."""
         whereabouts = self.situation.search.whereabouts
         if not whereabouts.is_fresh:
             self.plan()
         whereabouts.is_fresh = whereabouts.is_told = False
-        return self.take_up()
+        return self.follow()
 
     def plan(self) -> Plan:
-        """Make the plan that is best by what is known now."""
+        """Make the best plan for what is believed now, and keep both."""
         whereabouts = self.situation.search.whereabouts
         whereabouts.belief = believed(self.context)
         whereabouts.plan = plan = self._plan(whereabouts.belief)
         whereabouts.news = False
         return plan
 
-    def take_up(self) -> Status:
-        """Go by the plan, and say why."""
+    def follow(self) -> Status:
+        """Record the plan and choose its first place; fail if it says to ask or to give up."""
         search = self.situation.search
         whereabouts = search.whereabouts
         belief, plan = whereabouts.belief, whereabouts.plan
         assert plan
         whereabouts.is_over = plan.is_over
         said = decision(plan, belief)
-        thing = self.situation.request.object or ""
+        thing = self.situation.request.thing
         self.context.recorder.record(planned(thing, plan, belief, whereabouts.away))
         if plan.is_over or plan.asks:
             return self.fail(said)
@@ -83,7 +83,11 @@ class PlanNext(Step):
         return self.succeed(str(first))
 
     def _plan(self, belief: Belief) -> Plan:
-        """With nobody to ask, that it is out of reach is no reason to look here first, or there."""
+        """The best plan for this belief.
+
+        If nobody can be asked, the probability of places that cannot be reached is spread over the
+        others: no plan can do anything about it.
+        """
         search, parameters = self.situation.search, self.context.parameters
         whereabouts, looks = search.whereabouts, search.looks
         worth = [o for o in belief.places if whereabouts.may_look_at(o.place, looks)]
@@ -111,42 +115,40 @@ class PlanNext(Step):
 
 
 class PlanStands(PlanNext):
-    """Fails if there is news, and by that another place is better, or to ask.
+    """Fails if there is news, and the plan with it begins with another place or a question.
 
-    Where an experimenter sends the robot, it goes, whatever is planned.
+    A place that an experimenter chose stands in any case.
     """
 
     def update(self) -> Status:
-        """Plan anew, if somebody has said something since."""
+        """Plan anew if there is news since the last plan."""
         search = self.situation.search
         assert search.candidate
         if not search.whereabouts.news or search.candidate.source == EXPERIMENTER:
             return self.succeed()
-        if not search.whereabouts.may_look_at(search.candidate.place, search.looks):
-            search.whereabouts.named.add(search.candidate.place)  # as it was when it was chosen
+        if not search.whereabouts.may_look_at(search.place, search.looks):
+            search.whereabouts.named.add(search.place)  # it was worth a look when chosen
         plan = self.plan()
-        if plan.order[:1] == (search.candidate.place,) and not plan.asks:
-            return self.take_up()
+        if plan.order[:1] == (search.place,) and not plan.asks:
+            return self.follow()
         search.whereabouts.is_fresh = True
-        return self.fail(
-            f"not on to {search.candidate.place}: {decision(plan, search.whereabouts.belief)}"
-        )
+        return self.fail(f"not on to {search.place}: {decision(plan, search.whereabouts.belief)}")
 
 
 class HoldAsPlanned(HoldWhereToLook):
-    """The same, while there may be news: fails if by that another place is better, or to ask.
+    """Waits for the experimenter as `HoldWhereToLook` does; fails if news changes the plan.
 
-    What the experimenter is shown is what the robot would do now. Reads and writes
+    So the experimenter always sees what the robot would do now. Reads and writes
     search.candidate, search.candidates and search.whereabouts.
     """
 
     def __init__(self, name: str, context: MissionContext, ways: Ways) -> None:
-        """Plan with these ways."""
+        """Plan with the durations of these ways."""
         super().__init__(name, context)
         self._stands = PlanStands(name, context, ways)
 
     def update(self) -> Status:
-        """Where the experimenter sends it, it goes, whatever is planned."""
+        """Check the plan while waiting, unless the experimenter has chosen another place."""
         waits = self.is_under_way and not self.is_sent_elsewhere
         if waits and self._stands.update() == Status.FAILURE:
             return self.fail(self._stands.feedback_message)
@@ -154,22 +156,21 @@ class HoldAsPlanned(HoldWhereToLook):
 
 
 class DriveAsPlanned(Visit):
-    """Goes to a place, and keeps where it is meanwhile.
+    """Drives to a place, and keeps how far it has come: plans on the way begin there.
 
     Reads search.candidate and search.looks; writes search.looks and search.whereabouts.
     """
 
     def start(self) -> int:
-        """Set out; from between two places it is not known how far it is."""
+        """Set out; if the robot stands between two places, the length of the way is unknown."""
         search = self.situation.search
-        assert search.candidate
         start, now = self.situation.dialogue.at, self.context.clock.now()
         broken_off = search.whereabouts.leg is not None
-        search.whereabouts.leg = None if broken_off else Leg(start, search.candidate.place, now)
+        search.whereabouts.leg = None if broken_off else Leg(start, search.place, now)
         return super().start()
 
     def terminate(self, new_status: Status) -> None:
-        """Be there; or, if it was broken off, where it has come to."""
+        """Note the arrival; or if the drive was interrupted, how long it has driven."""
         whereabouts, now = self.situation.search.whereabouts, self.context.clock.now()
         if whereabouts.leg and new_status == Status.INVALID:
             whereabouts.leg = replace(whereabouts.leg, driven_s=now - whereabouts.leg.since_s)
@@ -179,7 +180,7 @@ class DriveAsPlanned(Visit):
 
 
 def decision(plan: Plan, belief: Belief) -> str:
-    """What is decided and why, as a clause."""
+    """What the plan says to do next, and why, as a clause."""
     asking, looking = (f"{e.cost:.0f} s" if e else "" for e in (plan.asking, plan.looking))
     if plan.is_over:
         return "nothing is left that is worth a look"
@@ -194,7 +195,7 @@ def decision(plan: Plan, belief: Belief) -> str:
 
 
 def planned(thing: str, plan: Plan, belief: Belief, away: Mapping[str, float]) -> Planned:
-    """The record of a decision."""
+    """The record of a plan."""
     expected, asking, looking = plan.expected, plan.asking, plan.looking
     likely: tuple[Likely, ...] = belief.places[:MOST_RECORDED]
     seconds = (away.get(one.place, inf) for one in likely)
@@ -222,13 +223,14 @@ def planned(thing: str, plan: Plan, belief: Belief, away: Mapping[str, float]) -
 
 
 class HearOut(Step):
-    """Waits for what the language model has to say.
+    """Waits for the answer of the language model.
 
-    It is RUNNING though it has started nothing: the model, which is at it, will wake the tree.
+    It is RUNNING although it has started nothing: the model's answer, which another behaviour has
+    asked for, will wake the tree.
     """
 
     def update(self) -> Status:
-        """Wait as long as it thinks."""
+        """Wait as long as the model thinks."""
         thinks = self.situation.search.whereabouts.thinks
         return Status.RUNNING if thinks else Status.SUCCESS
 
@@ -240,12 +242,12 @@ class AskWhereItIs(AskWhere):
     """
 
     def start(self) -> int:
-        """Ask; where it was looked for in vain, the question says."""
+        """Ask; the question itself says where the robot has looked in vain."""
         self.situation.search.looks.missed = ""
         return super().start()
 
     def understood(self, answer: str) -> bool:
-        """The places that are named are worth a look, even if they had one."""
+        """The named places are worth a look, even if the robot has already looked there."""
         before = self.situation.search.candidates
         if not super().understood(answer):
             return False
@@ -260,14 +262,14 @@ class AskWhereItIs(AskWhere):
 
 
 class TellWhere(Step):
-    """Tells where the robot is going to look, and who says so, unless that was told before.
+    """Tells where the robot is going to look, and who says so, unless that was already told.
 
-    Of a ranking nobody has to wait long: it tells when that is there. Reads search.candidates;
-    writes search.whereabouts and search.looks.
+    While the model still ranks the places, nothing is told yet: that takes little time. Reads
+    search.candidates; writes search.whereabouts and search.looks.
     """
 
     def update(self) -> Status:
-        """Say it, once."""
+        """Tell it once; several places at once if the same source names them."""
         whereabouts = self.situation.search.whereabouts
         first, *_ = candidates = self.situation.search.candidates
         ranks = self.context.parameters.elicit == "rank"
@@ -285,14 +287,14 @@ class TellWhere(Step):
         return self.succeed(first.place)
 
     def _tell_missed(self) -> None:
-        looks, name = self.situation.search.looks, self.situation.request.object or ""
+        looks, name = self.situation.search.looks, self.situation.request.thing
         if looks.missed:
             why_not = looks.why_not(name, looks.missed, self.context.say)
             tell(self.context, sentence(beginning(why_not)))
         looks.missed = ""
 
     def _tell(self, places: tuple[str, ...], source: str) -> None:
-        name, say = self.situation.request.object or "", self.context.say
+        name, say = self.situation.request.thing, self.context.say
         the, where = say.the(name), ", then ".join(say.at_each(places))
         if self.situation.search.whereabouts.thinks:
             may_be = f"where {say.agree(name, 'it', 'they')} may be"

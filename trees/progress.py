@@ -9,9 +9,8 @@ from trees.context import MissionContext
 def on_to_the_next(context: MissionContext) -> str:
     """That the thing was not at the last place, or why that is not known; empty at the first."""
     search, say = context.situation.search, context.say
-    assert search.candidate
     places = [candidate.place for candidate in search.candidates]
-    at = places.index(search.candidate.place) if search.candidate.place in places else 0
+    at = places.index(search.place) if search.place in places else 0
     if at == 0:
         return ""
     there, before = say.the(places[at]), places[at - 1]
@@ -20,7 +19,7 @@ def on_to_the_next(context: MissionContext) -> str:
         return f"On to {there}."
     if search.looks.all_without(before) and before not in search.looks.unreached:
         return f"Not here; on to {there}."
-    name = context.situation.request.object or ""
+    name = context.situation.request.thing
     why = search.looks.why_not(name, before, say)
     return f"{beginning(why)}; on to {there}."
 
@@ -38,5 +37,5 @@ def on_the_way(context: MissionContext, place: str) -> str:
     if situation.dialogue.away and situation.dialogue.heads_for == PERSON:
         return "I try to come back once more."
     if situation.request.asks_to(CommandKind.FIND) and situation.search.found:
-        return f"I have seen {say.it(situation.request.object or '')}, and come back."
+        return f"I have seen {say.it(situation.request.thing)}, and come back."
     return "I come back." if situation.dialogue.away else "I come to you."

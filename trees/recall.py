@@ -1,4 +1,4 @@
-"""Who knows where it is without looking: the robot's memory, and the sources that a person adds."""
+"""Sources that know places without a look: the robot's memory, and those that a user adds."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,10 @@ from trees.nodes import Step
 
 
 class Recall(Step):
-    """Succeeds if a knowledge source names a place of this home that was not looked at yet."""
+    """Succeeds if a source names a place of this home where the robot has not looked yet.
+
+    Reads request.object and search.looks; writes search.candidates.
+    """
 
     def __init__(self, name: str, context: MissionContext, source: PlaceSource) -> None:
         """Ask this source."""
@@ -23,7 +26,7 @@ class Recall(Step):
         self.source = source.name
 
     def update(self) -> Status:
-        """Recall it."""
+        """Ask the source for places."""
         assert self.situation.request.object
         places = dict.fromkeys(self.knows.places_of(self.situation.request.object))
         here = (place for place in places if is_here(self.context, place))
@@ -34,16 +37,16 @@ class Recall(Step):
         return self.succeed(", ".join(candidate.place for candidate in new))
 
     def worth_a_visit(self, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-        """Those where it was not looked for."""
+        """The candidates where the robot has not looked yet."""
         return self.situation.search.not_visited(candidates)
 
     def unknown(self, thing: str) -> str:
-        """That the source does not help, as a clause."""
+        """A clause that says that the source does not help."""
         return f"the {self.knows.name} names no place to look for {thing}"
 
 
 def is_here(context: MissionContext, place: str) -> bool:
-    """Whether this home has the place; the table by the person is in no home file."""
+    """Whether this home has the place; each has the delivery table, which no home file lists."""
     return place == DELIVERY or context.knowledge.has_place(place)
 
 
@@ -56,7 +59,7 @@ class Memory:
     says = SAYS[Source.MEMORY]
 
     def places_of(self, name: str) -> tuple[str, ...]:
-        """Where it was last, as far as it is known."""
+        """Where the object may be; see `Facts.places_of`."""
         return self.facts.places_of(name)
 
 
@@ -68,9 +71,9 @@ class MemoryKnowsPlaces(Recall):
         super().__init__(name, context, Memory(context.facts))
 
     def worth_a_visit(self, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-        """All: it forgets by itself where the thing was looked for in vain."""
+        """All candidates: the memory itself forgets where the robot has looked in vain."""
         return candidates
 
     def unknown(self, thing: str) -> str:
-        """It was not seen."""
+        """The robot has not seen the thing."""
         return f"I have not seen {thing}"

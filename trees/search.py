@@ -1,4 +1,4 @@
-"""Go and look, until the thing is seen: where the words say, where it was, where it may be, ask."""
+"""The search by stages: where the words say, where it was, where it may be; else ask the person."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -19,9 +19,9 @@ from trees.telling import tell
 
 
 def search_by_stages(context: MissionContext) -> Behaviour:
-    """The paper's way: one source after the other, each with its list of places, then the person.
+    """The paper's flow: one source after the other, each with its list of places, then the person.
 
-    An object -> `situation.search.detection` and `situation.search.found`.
+    Reads request.object; the thing that is seen is search.detection, its place search.found.
     """
     situation = context.situation
 
@@ -50,12 +50,12 @@ def search_by_stages(context: MissionContext) -> Behaviour:
 
 
 def look_where_the_words_say(context: MissionContext) -> Behaviour:
-    """Where the thing is as it was asked for: "the mug from the desk"; nothing if nobody said."""
+    """Look at the place in the words, as in "the mug from the desk"; fails if there is none."""
     situation = context.situation
 
     def who() -> Source:
-        """Of what is done in parts, the robot may have seen itself where each thing is."""
-        known = set(context.facts.places_of(situation.request.object or ""))
+        """The person; but the memory, if the robot itself saw the thing there for a larger task."""
+        known = set(context.facts.places_of(situation.request.thing))
         seen = situation.agenda.wholes and known & set(situation.request.from_places)
         return Source.MEMORY if seen else Source.USER
 
@@ -80,19 +80,19 @@ def look_where_the_words_say(context: MissionContext) -> Behaviour:
 
 
 def may_be_elsewhere(context: MissionContext) -> Check:
-    """Whether to look where the words do not say: not for what was seen at a place, and is gone."""
+    """Whether to look elsewhere, too: not if the thing is meant because the robot saw it there."""
     return Check("it is meant wherever it is", context, lambda: not is_meant_there(context))
 
 
 def is_meant_there(context: MissionContext) -> bool:
-    """Whether the thing is one of those that the robot has seen at the place that was named."""
+    """Whether the thing is one part of a larger task, one that the robot saw at the named place."""
     wholes = context.situation.agenda.wholes
     whole = wholes[-1].command if wholes else None
     return whole is not None and bool(whole.source) and not (whole.among or whole.conditional)
 
 
 def eyes_for_it(context: MissionContext) -> tuple[Behaviour, ...]:
-    """What stops a search that would be in vain; nothing if perception recognises everything."""
+    """A check that stops a hopeless search; none if perception recognises everything."""
     return (Recognises("would recognise it", context),) if context.blind_to else ()
 
 
@@ -117,11 +117,10 @@ def visit_candidates(context: MissionContext) -> Behaviour:
 
 
 def look_over(context: MissionContext) -> Behaviour:
-    """Look at every part of the place until the thing is seen; remember if it is not there."""
+    """Look at every view of the place until the thing is seen; remember if it is not there."""
 
     def views() -> range:
-        assert context.situation.search.candidate
-        place = context.situation.search.candidate.place
+        place = context.situation.search.place
         parts = context.robot.views(place)
         context.situation.search.looks.begin(place, parts)
         return range(parts)
@@ -142,7 +141,7 @@ def look_over(context: MissionContext) -> Behaviour:
 
 
 def see(context: MissionContext) -> Behaviour:
-    """Look for the thing; what is not sure, or not wholly in the picture, is looked at closer."""
+    """Look for the thing; look closer if it is in doubt, or not wholly in the picture."""
     return fallback(
         "look hard",
         SeeTarget("see", context),
@@ -156,10 +155,10 @@ def see(context: MissionContext) -> Behaviour:
 
 
 class Recognises(Step):
-    """Fails if the thing would not be recognised if it were in view."""
+    """Fails if the thing would not be recognised even in full view."""
 
     def update(self) -> Status:
-        """What is in the hand need not be."""
+        """Succeed if the thing is in the hand: it need not be recognised."""
         name = self.situation.request.object
         if name in self.context.blind_to and name != self.situation.hand.in_hand:
             say = self.context.say
@@ -169,17 +168,16 @@ class Recognises(Step):
 
 
 class NotHere(Step):
-    """Remembers that the thing is not here, if every part of the place was seen; always fails.
+    """Remembers that the thing is not here, if every view of the place was seen; always fails.
 
     Reads search.candidate, search.looks and search.detection; writes search.gone.
     """
 
     def update(self) -> Status:
-        """Only what was looked at can be known."""
+        """Conclude only from views that were seen; else say why one was not."""
         name, search, say = self.situation.request.object, self.situation.search, self.context.say
         assert name
-        assert search.candidate
-        place = search.candidate.place
+        place = search.place
         if not search.looks.all_without(place):
             return self.fail(search.looks.why_not(name, place, say))
         self.context.facts.missed(name, place)
@@ -188,14 +186,14 @@ class NotHere(Step):
 
 
 class SayNotThere(Step):
-    """Tells that the thing is not where the words say, if it is looked for elsewhere; fails.
+    """Tells that the thing is not where the words say; always fails.
 
     Reads request.from_places, search.looks and agenda.wholes.
     """
 
     def update(self) -> Status:
-        """Say it of what was seen; of what was not, say why."""
-        name, search = self.situation.request.object or "", self.situation.search
+        """Tell it if the search goes on; of places that were not seen, say why."""
+        name, search = self.situation.request.thing, self.situation.search
         say, places = self.context.say, [c.place for c in search.candidates]
         said = f"{say.are(name)} not {either(say.at_each(places))}"
         if not all(map(search.looks.all_without, places)):
@@ -212,8 +210,8 @@ class GiveUpSearch(Step):
     """
 
     def update(self) -> Status:
-        """Sum up the search, and why the person could not help if they were asked."""
-        name, silence = self.situation.request.object or "", self.situation.dialogue.no_help
+        """Sum up the search; if the person was asked, say why they could not help."""
+        name, silence = self.situation.request.thing, self.situation.dialogue.no_help
         say = self.context.say
         so_far = self.situation.search.so_far(name, say) or f"I do not know where {say.are(name)}"
         return self.fail(f"{so_far}, and {silence}" if silence else so_far)

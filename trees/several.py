@@ -1,4 +1,4 @@
-"""Several things in one task, one of several, or a deed on a condition: done part by part."""
+"""Tasks that are done part by part: with several things, or on a condition."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,10 +18,10 @@ from trees.wholes import without_condition
 
 
 def several(context: MissionContext) -> Behaviour:
-    """A task with more than one thing -> the parts of it, on the agenda.
+    """Split a task into its parts, and put these on the agenda.
 
-    Where they are to go has to be known before anything is done. Where a place is named that they
-    are at, the robot goes there to see which things there are.
+    The goal must be known before anything is done. If the words name the place of the things, the
+    robot goes there to see which things there are.
     """
     request = context.situation.request
 
@@ -46,23 +46,22 @@ def several(context: MissionContext) -> Behaviour:
 
 
 def is_in_parts(context: MissionContext) -> bool:
-    """Whether the task at hand has to be done in parts."""
+    """Whether the current task has to be done in parts."""
     command = context.situation.request.command
     return command is not None and (command.is_plural or bool(not_seen_yet(context)))
 
 
 class OnACondition(Step):
-    """Succeeds if it is a deed on a condition; that is looked into first.
+    """Succeeds if the task has a condition; checking it becomes the first part.
 
-    So it is with a thing beside which another one is to be put: it has to be found first.
+    If a thing is to be put beside another one, finding that is such a condition.
 
     Reads request.command; writes agenda.wholes and agenda.tasks.
     """
 
     def update(self) -> Status:
-        """Without a place where to look first, trying to do it shows whether there is one."""
-        command = self.situation.request.command
-        assert command
+        """Begin with the condition; if it names no place, begin with the deed, which shows it."""
+        command = self.situation.request.asked_for
         if not command.conditional and (beside := not_seen_yet(self.context)):
             either = tuple(beside.split(" or "))
             among = either if len(either) > 1 else ()
@@ -77,15 +76,14 @@ class OnACondition(Step):
 
 
 class EachThing(Step):
-    """Succeeds if there are such things; as many of them as are wanted become tasks.
+    """Succeeds if there are such things; as many as the person wants become tasks.
 
     Reads request.command and survey.seen; writes agenda.wholes and agenda.tasks.
     """
 
     def update(self) -> Status:
-        """Of names that were given, each; of a class, each of its things, or those seen."""
-        command, found = self.situation.request.command, self.situation.survey.found
-        assert command
+        """Take the things that were seen, or those that were named, or all of the class."""
+        command, found = self.situation.request.asked_for, self.situation.survey.found
         why = not_seen(self.context) if self.situation.survey.seen else ""
         if self.situation.survey.seen:
             if not found:
@@ -104,10 +102,10 @@ class EachThing(Step):
         return self.succeed(", ".join(part.target for part in parts))
 
     def _meant(self, command: Command) -> Sequence[str]:
-        """All that the words mean.
+        """All things that the words mean.
 
-        Of what is to be put back, what was taken, if any of it was; of "the fruits", those that
-        were just seen, if any were.
+        If they are to be put back, only those that the robot has taken, if it took any. Of a plural
+        like "the fruits", only those that were just seen, if any were.
         """
         names, nearer = things_meant(self.context, command), list[str]()
         if command.kind == CommandKind.PUT_BACK:

@@ -1,4 +1,4 @@
-"""Look around at places: what is there? For questions, and for tasks with what is somewhere."""
+"""Look around at places to see what is there: for questions, and to clear furniture."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -28,9 +28,9 @@ from trees.unknown import nearest, unresolved
 
 
 def survey(context: MissionContext, enough: Callable[[], bool] = lambda: False) -> Behaviour:
-    """Words for things and places -> `situation.survey`, until it is `enough` or all was seen.
+    """Look at the places in the words until it is `enough`, or all were seen; writes survey.
 
-    A place that cannot be reached is left out; it fails if none could be looked at.
+    Places that cannot be reached are left out. It fails if none could be looked at.
     """
     situation = context.situation
 
@@ -56,12 +56,11 @@ def survey(context: MissionContext, enough: Callable[[], bool] = lambda: False) 
 
 
 def look_at_all(context: MissionContext) -> Behaviour:
-    """Go to the place at hand and see all that is there, if that can be."""
+    """Go to the current place and look at every view of it, if possible."""
     situation = context.situation
 
     def views() -> range:
-        assert situation.search.candidate
-        place = situation.search.candidate.place
+        place = situation.search.place
         parts = context.robot.views(place)
         situation.search.looks.begin(place, parts)
         situation.survey.look_at(place)
@@ -89,15 +88,14 @@ def look_at_all(context: MissionContext) -> Behaviour:
 
 
 class SeeAll(SeeTarget):
-    """Takes a picture and keeps all that is surely in it.
+    """Takes a picture and keeps all things that are recognised with enough confidence.
 
     Reads search.candidate and search.view; writes survey.seen and search.looks.
     """
 
     def ended(self, result: Result) -> Status:
-        """What is on furniture behind this place counts as there."""
+        """Keep the things, each at the furniture below it."""
         search, survey = self.situation.search, self.situation.survey
-        assert search.candidate
         if not isinstance(result, Saw):
             return self.failed(result)
         self._remember(result.detections)
@@ -106,21 +104,20 @@ class SeeAll(SeeTarget):
                 survey.see(self._where(seen).place, seen.label)
                 lengths = lengths_of(seen)
                 survey.lengths[seen.label] = max(lengths, survey.lengths.get(seen.label, ()))
-        search.looks.without(search.candidate.place, search.view)
-        return self.succeed(", ".join(survey.seen[search.candidate.place]))
+        search.looks.without(search.place, search.view)
+        return self.succeed(", ".join(survey.seen[search.place]))
 
 
 class RememberWhatIsGone(Step):
-    """What was believed to be here and was not seen is here no more; all of it was looked at.
+    """Remembers which things are not here any more, if every view of the place was seen.
 
     Reads search.candidate, search.looks and survey.seen.
     """
 
     def update(self) -> Status:
-        """Only what was looked at can be known."""
+        """Note each thing that was believed to be here, and was not seen."""
         search, seen = self.situation.search, self.situation.survey.seen
-        assert search.candidate
-        place, facts = search.candidate.place, self.context.facts
+        place, facts = search.place, self.context.facts
         if search.looks.all_without(place):
             believed = [name for name, places in facts.beliefs().items() if place in places]
             for name in believed:
@@ -131,15 +128,14 @@ class RememberWhatIsGone(Step):
 
 
 class KnowsWhatToLookFor(Step):
-    """Succeeds if the words name known things; with none named, it is about everything.
+    """Succeeds if the words name known things, or no things at all: then it is about everything.
 
     Reads request.command; writes survey.about.
     """
 
     def update(self) -> Status:
         """Look the words up."""
-        command = self.situation.request.command
-        assert command
+        command = self.situation.request.asked_for
         if not command.target:
             return self.succeed("everything")
         about = things_meant(self.context, command)
@@ -151,9 +147,9 @@ class KnowsWhatToLookFor(Step):
 
 
 class KnowsWhereToLook(Step):
-    """Succeeds if the home has the places that the words name; with none named, it is everywhere.
+    """Succeeds if the words name places of the home, or none: then it is about all places.
 
-    The table by the person is a part of that.
+    These include the delivery table.
 
     Reads request.command and survey.about; writes search.candidates.
     """
@@ -161,9 +157,8 @@ class KnowsWhereToLook(Step):
     source = Source.USER
 
     def update(self) -> Status:
-        """In the order in which what is asked about is seen soonest."""
-        context, command = self.context, self.situation.request.command
-        assert command
+        """Put the places in the order in which the things will probably be seen soonest."""
+        context, command = self.context, self.situation.request.asked_for
         places = places_in(context, command.source) if command.source else ()
         if command.source and not (places and is_place(context, command.source)):
             return self.fail(unknown_place(context, command.source))
@@ -190,7 +185,7 @@ class SawSomething(Step):
 
 
 def not_seen(context: MissionContext) -> str:
-    """Which places, or parts of them, were not seen, and why, as a clause; empty if all was."""
+    """Which places, or parts of them, were not seen, and why, as a clause; empty if all were."""
     looks, say = context.situation.search.looks, context.say
     seen = (p for p in context.situation.survey.seen if p not in looks.unreached)
     in_part = {p: looks.unseen.get(p, "") for p in seen if not looks.all_without(p)}
@@ -216,9 +211,8 @@ def found_where(found: Mapping[str, str], say: Wording) -> str:
 
 
 def nothing_there(context: MissionContext) -> str:
-    """That none of what was asked for is where the robot has looked, as a clause."""
-    command = context.situation.request.command
-    assert command
+    """A clause that says that nothing of what was asked for is where the robot has looked."""
+    command = context.situation.request.asked_for
     is_about_all = command.target in ("", THING)
     what = "nothing" if is_about_all else f"no {context.say.words(command.target)}"
     places = tuple(context.situation.survey.seen)
@@ -227,9 +221,10 @@ def nothing_there(context: MissionContext) -> str:
 
 
 def lengths_of(seen: Detection) -> tuple[float, ...]:
-    """How long a thing is along its own axes, by its visible surface (m); empty if not located.
+    """The lengths of a thing along its principal axes, from its visible points (m), longest first.
 
-    A length is that of a bar whose points are spread as far: a square's is the same by any axes.
+    A length is that of a straight bar whose points have the same variance. It is empty for fewer
+    than three points.
     """
     count = len(seen.points)
     if count < 3:

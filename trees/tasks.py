@@ -1,4 +1,4 @@
-"""The tasks of a mission, one after the other: each has its own end; none is lost by another."""
+"""The tasks of a mission, one after another; each has an outcome of its own."""
 
 from collections.abc import Iterator
 
@@ -18,23 +18,22 @@ from trees.telling import sentence, tell
 
 
 class EachTask(Selector):
-    """A fallback that is gone through once for each task, going on within the same tick.
+    """A fallback that runs once for each task; it goes on to the next task within the same tick.
 
-    At each tick it is heard first what the person says. Then its children find out what there is to
-    do, if nothing is at hand. What is on the agenda when a task has ended is done next, whoever put
-    it there meanwhile; what is to be done `instead` of the task at hand, or what is taken back,
-    interrupts it, so that whatever it started is cancelled. A robot that cannot be reached any more
-    ends them all: neither other places nor other tasks are tried.
+    Each tick begins with what the person has said. When a task has ended, the next one on the
+    agenda begins, also if it was put there meanwhile. A task that is replaced or taken back is
+    interrupted, which cancels all that it started. If the robot cannot be reached any more, that
+    ends all tasks: no other place and no other task is tried.
     """
 
     def __init__(self, name: str, context: MissionContext, *ways: Behaviour) -> None:
-        """`ways` are what is tried for each task, until one succeeds; the last one always does."""
+        """`ways` are tried for each task until one succeeds; the last one must always succeed."""
         self._attend = hear_first(context)
         super().__init__(name, memory=True, children=[self._attend, stand_still(context), *ways])
         self._context = context
 
     def tick(self) -> Iterator[Behaviour]:
-        """Tick the task at hand, and the next ones as long as they are decided."""
+        """Tick the current task; whenever it is done, go on to the next one."""
         agenda = self._context.situation.agenda
         if self.status == Status.RUNNING:
             yield from self._attend.tick()
@@ -43,12 +42,12 @@ class EachTask(Selector):
                 self._end_for_good()
                 yield self
                 return
-            if agenda.interrupts and not self._goes_on():
+            if agenda.interrupts and not self._give_up_task():
                 self.status = Status.SUCCESS
                 yield self
                 return
             yield from super().tick()
-            if agenda.interrupts:  # by an answer
+            if agenda.interrupts:  # by an answer to a question of the task
                 continue
             if self.status == Status.RUNNING:
                 return
@@ -58,7 +57,7 @@ class EachTask(Selector):
                 return
 
     def _end_for_good(self) -> None:
-        """Say why nothing more can be done, once; what was under way has failed for that."""
+        """End all tasks because the robot cannot be reached, and tell the person why."""
         situation = self._context.situation
         for node in self.iterate():
             if isinstance(node, BodyAction) and node.is_under_way:
@@ -70,8 +69,8 @@ class EachTask(Selector):
         tell(self._context, sentence(f"Sorry: {situation.ending.why}"))
         situation.end_task()
 
-    def _goes_on(self) -> bool:
-        """Give up the task at hand; whether there is another."""
+    def _give_up_task(self) -> bool:
+        """Interrupt the current task, and begin the next; return whether there is one."""
         situation = self._context.situation
         agenda = situation.agenda
         agenda.unsettled |= any(map(_handles, self.iterate()))
@@ -91,7 +90,7 @@ class EachTask(Selector):
 
 
 def stand_still(context: MissionContext) -> Behaviour:
-    """Of what was given up in the middle of a grasp, the fingers know more at rest."""
+    """Halt if a task was given up during a grasp, so that the fingers tell what they hold."""
     agenda = context.situation.agenda
     return sequence(
         "stand still",

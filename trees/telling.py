@@ -1,4 +1,4 @@
-"""How the person is told things: on one line, and in words."""
+"""What the robot says to the person: each utterance on one line; commands in words."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -13,11 +13,11 @@ from executive.types.home import PERSON
 from trees.context import MissionContext
 
 TO_THE_PERSON = frozenset(("me", "us", "here", PERSON))
-"""Words for the goal that is the person who speaks."""
+"""Words for a goal that is the speaker."""
 NEXT_TO = "next to "
-"""Before the thing beside which something is to be."""
+"""A goal that begins so names a thing."""
 BETWEEN = "between "
-"""Before two pieces of furniture."""
+"""A goal that begins so names two pieces of furniture."""
 NUMBERS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
@@ -29,7 +29,7 @@ def tell(context: MissionContext, text: str) -> None:
 
 
 def sentence(text: str) -> str:
-    """The text with a full stop, unless it has an end."""
+    """The text with a full stop, unless it ends with a mark already."""
     return text if text.endswith((".", "!", "?", "…")) else f"{text}."
 
 
@@ -47,7 +47,7 @@ def in_one_breath(context: MissionContext, commands: Iterable[Command]) -> str:
 
 
 def _condition(context: MissionContext, command: Command) -> str:
-    """On what it depends, as in " if the mug is on the desk"; a check says that itself."""
+    """The condition, as in " if the mug is on the desk"; empty if it has none, or is a check."""
     if not command.conditional or command.kind == CommandKind.CHECK:
         return ""
     if command.sought is None:
@@ -57,7 +57,7 @@ def _condition(context: MissionContext, command: Command) -> str:
 
 
 def _deed(context: MissionContext, command: Command) -> str:
-    """The same less what it depends on."""
+    """The command without its condition."""
     what, goal = _things(context, command), to_where(context, command)
     there = _where(context, command, command.source) if command.source else ""
     source = f"from {_place(context, command, command.source)}" if command.source else ""
@@ -87,37 +87,50 @@ def _deed(context: MissionContext, command: Command) -> str:
 
 
 def _things(context: MissionContext, command: Command) -> str:
-    """What it is about, less what it is not."""
-    knowledge, target = context.knowledge, command.target
-    names = [name for name in target.split(" and ") if knowledge.called(name)]
-    find = knowledge.objects_named
-    named = find(target)
-    if target == HELD:
-        what = target
-    elif target == THING and command.kind == CommandKind.CHECK:
-        what = "anything"
-    elif target == THING:
-        what = (
-            "something" if command.kind.means.searches and command.number != ALL else "everything"
-        )
-    elif named and {*named} <= {n for but in command.exceptions for n in find(but)}:
-        return f"another {as_said(command.words, target)}"
-    elif command.number > 1 and not command.among:
-        what = f"{number(command.number)} {as_said(command.words, target)}"
-    elif names and " and ".join(names) == target:
-        what = " and ".join(map(context.say.the, names))
-    elif len(named) == 1:
-        what = context.say.the(named[0])
-    elif knowledge.is_place(target):
-        what = _place(context, command, target)
-    else:
-        what = as_said(command.words, target)
+    """What a command is about, as in "three fruits but not the pear"."""
+    if _is_another(context, command):
+        return f"another {as_said(command.words, command.target)}"
     left_out = either([_one_thing(context, but) for but in command.exceptions])
-    return what + f" but not {left_out}" * bool(left_out)
+    return _target(context, command) + f" but not {left_out}" * bool(left_out)
+
+
+def _is_another(context: MissionContext, command: Command) -> bool:
+    """Whether all that the target can mean is left out: "another mug, not this one"."""
+    find = context.knowledge.objects_named
+    left_out = {name for but in command.exceptions for name in find(but)}
+    named = set() if command.target in (HELD, THING) else {*find(command.target)}
+    return bool(named) and named <= left_out
+
+
+def _target(context: MissionContext, command: Command) -> str:
+    """What a command is about, whatever it leaves out."""
+    knowledge, target = context.knowledge, command.target
+    if target == HELD:
+        return target
+    if target == THING:
+        return _anything(command)
+    if command.number > 1 and not command.among:
+        return f"{number(command.number)} {as_said(command.words, target)}"
+    names = [name for name in target.split(" and ") if knowledge.called(name)]
+    if names and " and ".join(names) == target:
+        return " and ".join(map(context.say.the, names))
+    named = knowledge.objects_named(target)
+    if len(named) == 1:
+        return context.say.the(named[0])
+    if knowledge.is_place(target):
+        return _place(context, command, target)
+    return as_said(command.words, target)
+
+
+def _anything(command: Command) -> str:
+    """The word for things of any kind."""
+    if command.kind == CommandKind.CHECK:
+        return "anything"
+    return "something" if command.kind.means.searches and command.number != ALL else "everything"
 
 
 def number(count: int) -> str:
-    """A small number in letters."""
+    """A number; a small one in letters."""
     return NUMBERS[count] if count < len(NUMBERS) else str(count)
 
 
@@ -127,7 +140,7 @@ def _one_thing(context: MissionContext, words: str) -> str:
 
 
 def _place(context: MissionContext, command: Command, words: str) -> str:
-    """A place that it names: furniture by its name, anything else as it was said."""
+    """A place in the command: furniture by its name, anything else as it was said."""
     named = context.knowledge.places_named(words)
     if len(named) == 1:
         return context.say.the(named[0])
@@ -136,14 +149,14 @@ def _place(context: MissionContext, command: Command, words: str) -> str:
 
 
 def to_where(context: MissionContext, command: Command) -> str:
-    """Where it is to go, with a preposition."""
+    """The goal of a command, with a preposition; empty if it has none."""
     if not command.goal or command.goal in TO_THE_PERSON:
         return "to you" if command.goal else ""
     return _where(context, command, command.goal, "to")
 
 
 def _where(context: MissionContext, command: Command, words: str, unknown: str = "at") -> str:
-    """A place that it names, with a preposition; that of what is no place is given."""
+    """A place in the command, with a preposition: `unknown` for words that name no place."""
     named = context.knowledge.places_named(words)
     if len(named) == 1 or words == " or ".join(named):
         return either(context.say.at_each(named))

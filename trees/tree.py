@@ -1,4 +1,4 @@
-"""A py_trees tree as the executive and the logs see it: paths, statuses, one tick at a time."""
+"""A py_trees tree as the executive and the logs see it: paths, statuses and single ticks."""
 
 from functools import cache
 
@@ -11,34 +11,34 @@ from executive.records import NodeShape, NodeState, TreeShape
 from trees.nodes import Action
 
 _INVALID = Status.INVALID
-"""At hand, because each tick asks many behaviours for their status."""
+"""A module constant is faster to look up, and each tick compares many statuses with it."""
 
 
 class MissionTree:
     """Implements `executive.interfaces.runtime.Tree`.
 
-    Nodes are named by their path, because py_trees' own ids are random: the names from the root,
-    joined by slashes; of siblings with one name the later ones get a number.
+    Nodes are identified by their path, because py_trees' own ids are random. A path is the names
+    from the root, joined by slashes; siblings of the same name are numbered from the second on.
     """
 
     def __init__(self, root: Behaviour) -> None:
         """Wrap a tree that was not ticked yet."""
         self._root = root
+        # lists with one entry for each behaviour, parents before children
         self._nodes: list[Behaviour] = []
-        """Parents before children, as all that follows."""
-        self._names: list[str] = []
+        self._paths: list[str] = []
         self._ends: list[int] = []
-        """Of each behaviour the index of the first one behind it that is not inside of it."""
+        """The index of the first later behaviour that is not a descendant of this one."""
         self._list(root, root.name)
-        self._paths = dict(zip(self._nodes, self._names, strict=True))
+        self._path_of = dict(zip(self._nodes, self._paths, strict=True))
         self._statuses = [_INVALID] * len(self._nodes)
-        self._states = [NodeState(path, _INVALID.name) for path in self._names]
-        """As `states` last found them: most are the same again, and then the same object."""
+        self._states = [NodeState(path, _INVALID.name) for path in self._paths]
+        """What `states` returned last; an unchanged state is the same object again."""
 
     def _list(self, node: Behaviour, path: str) -> None:
         index = len(self._nodes)
         self._nodes.append(node)
-        self._names.append(path)
+        self._paths.append(path)
         self._ends.append(0)
         named: dict[str, int] = {}
         for child in node.children:
@@ -48,10 +48,10 @@ class MissionTree:
         self._ends[index] = len(self._nodes)
 
     def __del__(self) -> None:
-        """Take the behaviours apart, so that they are gone at once.
+        """Break the reference cycles of the behaviours, so that they are freed at once.
 
-        Each knows its parent and its own next tick: without this they would wait for Python's
-        search for garbage, which takes as long with them as it took to build them.
+        Each refers to its parent and to its own tick generator. Python's garbage collector would
+        free them, too, but takes as long for that as building the tree took.
         """
         for node in self._nodes:
             node.parent = None
@@ -63,7 +63,7 @@ class MissionTree:
             tuple(
                 NodeShape(
                     path=path,
-                    parent=self._paths[node.parent] if node.parent else "",
+                    parent=self._path_of[node.parent] if node.parent else "",
                     name=node.name,
                     kind=_kind(type(node)),
                     class_name=type(node).__name__,
@@ -71,12 +71,12 @@ class MissionTree:
                     activity=getattr(node, "activity", ""),
                     stage=node.blackbox_level == BlackBoxLevel.BIG_PICTURE,
                 )
-                for path, node in zip(self._names, self._nodes, strict=True)
+                for path, node in zip(self._paths, self._nodes, strict=True)
             )
         )
 
     def tick(self) -> None:
-        """Let the tree decide once; no visitor of py_trees looks on, which would be a walk."""
+        """Tick once, without py_trees' visitors, which would walk through the whole tree."""
         self._root.tick_once()
 
     @property
@@ -88,12 +88,13 @@ class MissionTree:
     def tip(self) -> str:
         """Path of the behaviour that decided the last tick; empty before the first."""
         tip = self._root.tip()
-        return self._paths[tip] if tip else ""
+        return self._path_of[tip] if tip else ""
 
     def states(self) -> tuple[NodeState, ...]:
-        """Every behaviour as the last tick left it; its message only where it was active.
+        """Every behaviour after the last tick; with its message, if it was active.
 
-        Of what was not active and is not, nothing inside can be: so most of the tree is not asked.
+        If a behaviour is INVALID and was so before, so are all its descendants. They are skipped,
+        and that is most of the tree.
         """
         nodes, states, statuses, ends = self._nodes, self._states, self._statuses, self._ends
         index = 0
@@ -107,7 +108,7 @@ class MissionTree:
                 continue
             if status is not statuses[index] or message != states[index].message:
                 statuses[index] = status
-                states[index] = NodeState(self._names[index], status.name, message)
+                states[index] = NodeState(self._paths[index], status.name, message)
             index += 1
         return tuple(states)
 
@@ -115,7 +116,7 @@ class MissionTree:
         """Interrupt what is running: every behaviour that started something cancels it.
 
         Raises:
-            Exception: the first that a behaviour raised; the others were interrupted all the same.
+            Exception: the first that a behaviour raised; all others were interrupted nevertheless.
         """
         raised: list[Exception] = []
         for node in reversed(self._nodes):  # children before parents

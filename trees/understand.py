@@ -1,4 +1,4 @@
-"""What is asked for? The grammar of commands says, else the language model and the person do."""
+"""What does the person ask for? The grammar reads it; or the model, and the person confirms."""
 
 from dataclasses import replace
 from itertools import chain
@@ -26,17 +26,17 @@ from trees.telling import in_one_sentence, tell
 
 
 def understand(context: MissionContext) -> Behaviour:
-    """Words -> `situation.request.command`, and `situation.agenda` if there is more to do.
+    """Read the words; writes request.command, and further tasks to the agenda.
 
-    The next tasks need no reading: they come from the agenda.
+    Tasks that come from the agenda were read before.
     """
     request = context.situation.request
 
-    def at_hand() -> list[Command]:
+    def from_agenda() -> list[Command]:
         return [request.command] if request.command else []
 
     readers: list[Behaviour] = [
-        FirstOf("on the agenda", at_hand, TakeUp("take it up", context)),
+        FirstOf("on the agenda", from_agenda, TakeUp("take it up", context)),
         ReadCommand("grammar reads it", context),
         sequence(
             "a slip",
@@ -50,7 +50,7 @@ def understand(context: MissionContext) -> Behaviour:
 
 
 def let_the_model_read(context: MissionContext) -> Behaviour:
-    """The model chooses what may be meant, among what exists; the person has the last word."""
+    """The model chooses a command about what exists, and the person confirms it."""
     read: type[ModelAction] = RankKinds if context.parameters.elicit == "rank" else WriteCommand
     return sequence(
         "llm reads it",
@@ -61,7 +61,7 @@ def let_the_model_read(context: MissionContext) -> Behaviour:
 
 
 class TakeUp(Step):
-    """The task at hand is understood: it was on the agenda.
+    """Succeeds: the current task comes from the agenda, and was understood before.
 
     Reads request.command.
     """
@@ -69,13 +69,12 @@ class TakeUp(Step):
     source = "person"
 
     def update(self) -> Status:
-        """Name it."""
-        assert self.situation.request.command
-        return self.succeed(named(self.situation.request.command))
+        """Name the task in the log."""
+        return self.succeed(named(self.situation.request.asked_for))
 
 
 class ReadCommand(Step):
-    """Words -> commands, by the grammar of commands.
+    """Reads the words with the grammar of commands.
 
     Reads request.words; writes request.command and agenda.tasks, else request.remark.
     """
@@ -83,7 +82,7 @@ class ReadCommand(Step):
     source = "person"
 
     def update(self) -> Status:
-        """Read the words."""
+        """Read the words, put all tasks on the agenda, and begin the first."""
         words, spoken = self.situation.request.words, self.situation.dialogue.spoken
         self.context.recorder.record(Utterance("person", words))
         holds = self.situation.hand.in_hand is not None
@@ -100,12 +99,15 @@ class ReadCommand(Step):
 
 
 class ReadPastSlips(Step):
-    """Words with a slip of the finger in them -> command, if it is about a known thing."""
+    """Reads words with typing errors, if they are then a command about known things.
+
+    Reads request.words; writes request.command and agenda.tasks.
+    """
 
     source = "person"
 
     def update(self) -> Status:
-        """The word for the deed has to be like one, and so has the name."""
+        """Read words that are like a verb of ours, and like the name of a known thing."""
         words = self.situation.request.words
         if self.situation.request.remark:
             return self.fail("it was read")
@@ -128,7 +130,7 @@ class ReadPastSlips(Step):
         return self.succeed("; ".join(f"{c.kind} {c.target}" for c in chain.from_iterable(known)))
 
     def _known(self, target: str) -> str | None:
-        """The target if it is known, else the name that it is a slip of, if it is one."""
+        """The target if it is known, else the known name that it is like; None if there is none."""
         knowledge = self.context.knowledge
         if target == HELD or knowledge.objects_named(target):
             return target
@@ -136,14 +138,17 @@ class ReadPastSlips(Step):
 
 
 class HasKnownName(Step):
-    """Succeeds if a known thing is named, so that there is something to do it with.
+    """Succeeds if the words name a known thing, so that the model has something to choose.
 
-    What the grammar did read is not the model's to read otherwise: it may say what not to do. A
-    model that writes and cannot score, behind a server, may know other words for the things.
+    Fails if the grammar did read the words: the model must not read them in another way, because
+    they may say what not to do. A model that only writes, behind a server, is asked without a known
+    name, too: it may know other words for the things.
+
+    Reads request.words and request.remark; writes request.guess.
     """
 
     def update(self) -> Status:
-        """Look for the names; a model that writes may still choose another."""
+        """Look for known names in the words."""
         if self.situation.request.remark:
             return self.fail("it was read")
         names = self.context.knowledge.names_in(self.situation.request.words)
@@ -155,12 +160,14 @@ class HasKnownName(Step):
 
 
 class ConfirmCommand(AskYesNo):
-    """Asks whether this is what was asked for: a model's reading is never simply done."""
+    """Asks whether a guess is right: what a model has read is never done without asking.
+
+    Reads request.command and agenda.tasks.
+    """
 
     def question(self) -> Question:
-        """Say what would be done, all of it."""
-        assert self.situation.request.command
-        first, knowledge = self.situation.request.command, self.context.knowledge
+        """Say all that would be done, and which words were left out."""
+        first, knowledge = self.situation.request.asked_for, self.context.knowledge
         names = knowledge.names_in(first.target)
         objects = tuple(one for name in names for one in knowledge.objects_named(name))
         commands = (first, *(task.command for task in self.situation.agenda.tasks))
@@ -171,20 +178,20 @@ class ConfirmCommand(AskYesNo):
         return Question(QuestionKind.CONFIRM, first.target, text, objects)
 
     def agreed(self) -> None:
-        """The command stands."""
+        """Do nothing: the command stands as it is."""
 
     def understood(self, answer: str) -> bool:
-        """A yes or no with a wish behind it is more than that: "yes, to the desk"."""
+        """Take yes or no, or the same request again; not with another request behind it."""
         said = self.context.interpreter.read(answer)
         if self._wish(said, answer):
             return False
         if isinstance(said, Request) and not said.later:
-            self._agrees = True  # "bring it", where that was asked about
+            self._agrees = True  # "bring it", if just that was the question
             return True
         return super().understood(answer)
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Do what is wished in place of what was asked about, or beside it."""
+        """Change the command as the answer asks for: "yes, to the desk"."""
         if isinstance(said, Answer | Correction) and self.context.interpreter.only(words):
             tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
             return True
@@ -194,7 +201,7 @@ class ConfirmCommand(AskYesNo):
         return True
 
     def _wish(self, said: Said, words: str) -> Correction | None:
-        """What is wished beside a yes or no; None if nothing is, or what was asked about."""
+        """What the answer asks for beyond yes or no; None if nothing new."""
         if isinstance(said, Unread):
             said = self.context.interpreter.after_yes(words)
         if isinstance(said, Request):
@@ -202,7 +209,7 @@ class ConfirmCommand(AskYesNo):
         return said if isinstance(said, Correction) else None
 
     def unresolved(self) -> str:
-        """It is not known what was asked for."""
+        """It is not known what the words ask for."""
         return f"I am not sure what '{self.situation.request.words}' asks for"
 
 
@@ -215,10 +222,13 @@ def named(command: Command) -> str:
 
 
 class NotUnderstood(Step):
-    """What nobody can read is the person's to say again; always fails."""
+    """Gives up on words that nobody can read; always fails.
+
+    Reads request.remark; writes ending.status, unless the words were read and cannot be done.
+    """
 
     def update(self) -> Status:
-        """Say what can be said; what was read, and is not to be or cannot be done, has a reason."""
+        """Say why the words cannot be done; else give examples of what can be said."""
         self.situation.request.command = None
         self.situation.agenda.tasks.clear()
         if remark := self.situation.request.remark:

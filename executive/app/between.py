@@ -1,4 +1,4 @@
-"""What is heard between missions: the next command, and what came too late for the last mission."""
+"""What the person says between missions: the next command, or something for the last mission."""
 
 from collections import deque
 
@@ -9,22 +9,22 @@ from executive.user import Console
 
 
 class Between:
-    """Hears the person while no mission runs.
+    """Listens to the person while no mission runs.
 
     Attributes:
-        heard: what they have said and nobody has done so far, oldest first.
-        listened: what ears have understood since the last mission, for the recording of the next.
+        heard: what they have said and no mission has dealt with yet, the oldest first.
+        listened: what a microphone has heard since the last mission, for the next recording.
     """
 
     def __init__(self, inbox: Inbox, clock: Clock) -> None:
-        """Nothing has been heard."""
+        """Begin with nothing heard."""
         self._inbox = inbox
         self._clock = clock
         self.heard: deque[str] = deque()
         self.listened: list[Listened] = []
 
     def next_command(self, console: Console, prompt: str) -> str | None:
-        """Prompt, and wait for the person to type a command; None if the input or session ends.
+        """Prompt the person and wait for a command; None if the input or the session has ended.
 
         Raises:
             KeyboardInterrupt: if a signal says stop.
@@ -40,7 +40,7 @@ class Between:
                     case StopRequested() as stop if stop.ends_session:
                         raise KeyboardInterrupt
                     case StopRequested():
-                        command = None  # it was taken back at once
+                        command = None  # the person has taken it back at once
                         self.heard.clear()
                     case Heard(words):
                         self.heard.append(words)

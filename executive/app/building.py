@@ -1,6 +1,7 @@
-"""Builds the parts that the settings name, and the body with them.
+"""Builds the parts that the settings name, the body among them.
 
-What takes long to import is imported where it is needed: the model prepares meanwhile.
+Modules that take long to import are imported where they are needed: many missions do without, and
+for others the model gets ready meanwhile.
 """
 
 import logging
@@ -42,7 +43,7 @@ from sim.home.validation import with_placement
 log = logging.getLogger(__name__)
 
 ANYTHING = "thing"
-"""What the model prepares to be asked for."""
+"""The object in the question that the model prepares for."""
 
 
 def build_parts(
@@ -56,9 +57,9 @@ def build_parts(
     out: TextIO,
     gui: bool,
 ) -> tuple[Embodiment, Parts]:
-    """The parts; `user` and `model` replace what the settings name.
+    """Build the parts; `user` and `model` replace those that the settings name.
 
-    What is opened for them goes to `opened`, which closes it.
+    Whatever has to be closed is registered with `opened`.
 
     Raises:
         ExecutiveError: if a setting, the home, the ontology or the model file is wrong.
@@ -71,7 +72,7 @@ def build_parts(
     facts = FactStore(settings.memory, learns=settings.learn, now=living.now)
     opened.callback(facts.close)
     advice = None
-    if model:  # which prepares while the body is built
+    if model:  # it gets ready while the body is built
         advice = prepared(settings, knowledge, GuardedModel(model, inbox, recorder), prompts, facts)
     setup = Setup(settings, home, inbox, recorder, knowledge, gui, living.left)
     embodiment = inhabited(setup, living, opened)
@@ -104,14 +105,14 @@ def build_parts(
 def prepared(
     settings: Settings, knowledge: Ontology, model: GuardedModel, prompts: Prompts, facts: FactStore
 ) -> Advice:
-    """Our adviser, for whose first question the model gets ready from now on."""
+    """Our adviser; the model begins to get ready for its first question."""
     advice = build_advice(settings, knowledge, model, prompts, facts)
     model.prepare(anything(settings, advice))
     return advice
 
 
 def inhabited(setup: Setup, living: LivingHome, opened: ExitStack) -> Embodiment:
-    """The body, in a home that goes on living; what it would not recognise is told."""
+    """The body, in a home where life goes on; a warning names what it would not recognise."""
     embodiment = embody(setup)
     opened.callback(close_safely, embodiment)
     embodiment = living.move_in(embodiment)
@@ -121,10 +122,10 @@ def inhabited(setup: Setup, living: LivingHome, opened: ExitStack) -> Embodiment
 
 
 def try_files(settings: Settings) -> None:
-    """Read the files that settings name as a session would, and open neither model nor body.
+    """Read the files that the settings name, as a session would, without a model or a body.
 
     Raises:
-        InputError: if one is not there, or something in it is wrong.
+        InputError: if a file is missing, or something in it is wrong.
     """
     home = living_home(settings).home
     Prompts.load(settings.prompts)
@@ -149,7 +150,7 @@ def try_files(settings: Settings) -> None:
 
 
 def living_home(settings: Settings) -> LivingHome:
-    """The home that the settings name, with things where they say or were left."""
+    """The home that the settings name, with things where the settings say, or were left."""
     return LivingHome(settings, with_placement(load_home(settings.home), settings.place))
 
 
@@ -163,7 +164,7 @@ def _try_model(file: Path) -> None:
 def learning(
     settings: Settings, facts: FactStore, knowledge: Ontology, now: Callable[[], float]
 ) -> Experience | None:
-    """Who learns from a file of facts; None without one: a session is too short for it."""
+    """What learns from the file of facts; None without a file: a session is too short for it."""
     if settings.memory is None:
         return None
     from kb.experience import Experience as Learned  # most missions do without
@@ -172,7 +173,7 @@ def learning(
 
 
 def read_ontology(settings: Settings, home: Home) -> Ontology:
-    """What is known of the home; what is odd about that goes to the log."""
+    """The ontology of the home; its warnings go to the log."""
     knowledge = _ontology(
         home.places(),
         home.things(),
@@ -195,25 +196,25 @@ def _ontology(
     person: str | None,
     home: str,
 ) -> Ontology:
-    """What is known of homes that differ in nothing of this: it only ever answers."""
+    """The ontology of a home; it never changes, so that homes with the same contents share it."""
     return Ontology(places, things=things, defaults=defaults, files=files, person=person, home=home)
 
 
 def blindness(names: Sequence[str]) -> str:
-    """What it means not to recognise these, and what would be right."""
+    """A warning that the detector does not know these objects, and what to use instead."""
     right = "use --detector simulated, or a FILE.onnx with the name in its class list"
     return f"the detector does not know {', '.join(names)}, and would not see it: {right}"
 
 
 def anything(settings: Settings, advice: Advice) -> ChatRequest | RankRequest:
-    """What the model prepares for: a question about any thing."""
+    """A question about some thing, for which the model gets ready."""
     if settings.elicitation == "rank":
         return advice.ranker.ranking(ANYTHING, ())
     return advice.lister.inquiry(ANYTHING, ())
 
 
 def close_safely(embodiment: Embodiment) -> None:
-    """Let go of the body; that it raises is no reason to end otherwise than in order."""
+    """Close the body; if that raises, warn, so that the session ends in order."""
     try:
         embodiment.close()
     except Exception as error:
@@ -224,7 +225,7 @@ def build_user(settings: Settings, inbox: Inbox, truth: SimulatedHome | None, ou
     """The person that the settings name.
 
     Raises:
-        InputError: if it is one who knows the truth, and there is none to know.
+        InputError: if it is the oracle, and the world is not simulated: it knows no truth then.
     """
     match settings.user:
         case "console":

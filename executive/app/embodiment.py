@@ -1,4 +1,4 @@
-"""What a mission has for a body: ours in simulation, or a robot of one's own.
+"""The body of a mission: ours in simulation, or a robot of one's own.
 
 `--world package.module:function` names a function that is given a `Setup` and returns an
 `Embodiment`; docs/own-robot.md shows one.
@@ -22,37 +22,37 @@ from sim.home.home import Home
 
 
 class Furnished(Protocol):
-    """A simulated world whose things may be kept where they are, and moved by others."""
+    """A simulated world whose things can be saved where they are, and moved by people."""
 
     def left(self) -> Mapping[str, Spot]:
-        """Where each thing is that is on furniture."""
+        """Where the things are that are on furniture."""
         ...
 
     def put(self, name: str, furniture: str) -> bool:
-        """Have somebody put a thing on other furniture; whether that could be done."""
+        """Put a thing on other furniture, as a person would; whether that was possible."""
         ...
 
 
 def nothing() -> None:
-    """What most bodies do when a mission begins, or the session ends."""
+    """Do nothing, as most bodies do when a mission begins or the session ends."""
 
 
 def no_pause(seconds: float) -> None:
-    """Where nobody lives, nothing comes of waiting."""
+    """Do not wait: nothing changes in a home where nobody lives."""
 
 
 @dataclass(frozen=True)
 class Setup:
-    """What an embodiment is built with.
+    """What an embodiment is built from.
 
     Attributes:
-        settings: `detector`, `fault` and others are for it to heed.
+        settings: `detector`, `fault` and others are for the embodiment to apply.
         home: places and their poses in `map`; for a simulation also where things are.
-        inbox: where the ends of what is started go.
+        inbox: where the results of requests go.
         recorder: where pictures and movements go.
-        knowledge: which labels a detector may use.
-        gui: whether a simulator's own window is wanted.
-        left: things that are just where they were left, which no seed moves.
+        knowledge: the names of objects, for the labels of a detector.
+        gui: whether to show the simulator's own window.
+        left: things that are exactly where they were left; the seed does not move them.
     """
 
     settings: Settings
@@ -67,7 +67,7 @@ class Setup:
         """The detector that the settings name, for pictures of any camera.
 
         Raises:
-            InputError: if its file is wrong, or they name the one that only a simulation has.
+            InputError: if its file is wrong, or if it is the one that only a simulation has.
         """
         name = self.settings.detector
         if name == "simulated":
@@ -83,22 +83,23 @@ class Setup:
 
 @dataclass(frozen=True)
 class Embodiment:
-    """A robot with its senses and its time.
+    """A robot with its perception and its clock.
 
     Attributes:
-        robot: what pursues goals.
-        perception: what it sees with; `CameraPerception` joins a camera and a detector.
+        robot: pursues goals.
+        perception: recognises things; `CameraPerception` makes one from a camera and a detector.
         clock: mission time.
-        in_map: whether perception tells where in `map` things are; the home's plan then says on
-            which furniture.
-        truth: the simulated world, if it is one.
+        in_map: whether detections have a position in `map`, from which the home's plan tells the
+            furniture.
+        truth: the simulated world; None if the world is real.
         blind_to: objects of the home that perception would not recognise.
-        has_arm: whether it can take things; one without finds them, and declines the rest in words.
-        jumps: whether the robot is where it drives to without having been in between.
-        keeps: the simulated world, if its things can be kept where they are (`--home-state`).
-        begin: called when a mission begins, to record what is to be seen of the world.
+        has_arm: whether the robot can take things; if not, it finds them, and says that it cannot
+            do the rest.
+        jumps: whether the robot reaches its goal without passing the points in between.
+        keeps: the simulated world, if its things can be saved where they are (`--home-state`).
+        begin: called when a mission begins, to record the scene.
         end: called when a mission has ended.
-        pause: called to let so many seconds pass where people live, before the next mission.
+        pause: called before the next mission, with the seconds to wait in a home where people live.
         close: called once, at the end of the session.
     """
 

@@ -1,4 +1,7 @@
-"""What missions are made of, and how one is made of it: for all who run, replay or draw them."""
+"""The composition: the parts of missions, and how a mission is built from them.
+
+Session, replay, the drawing of trees and the tests' bench all build missions here.
+"""
 
 import math
 from collections.abc import Callable
@@ -37,24 +40,26 @@ from trees.mission import mission
 from trees.tree import MissionTree
 
 OURS = "ours"
-"""The policy of those who did not choose another."""
+"""The name of the default policy."""
 
 
 @dataclass(frozen=True)
 class Parts:
-    """Every collaborator of missions; they outlive one, and serve the next.
+    """The collaborators of all missions of a session.
 
-    To put in another one, `replace(parts, robot=mine)`. What may be anybody's code comes under
-    guard when a mission is made.
+    To use another one, `replace(parts, robot=mine)`. Parts that may be code of others are wrapped
+    in a guard (`executive.guards`) when a mission is built.
 
     Attributes:
-        settings: what all else was built by.
-        home: the robot's map, with everything where it was at the start.
-        knowledge: the ontology; the adviser looks deeper into it than the tree does.
-        prompts: the texts that the adviser writes with.
-        in_map: whether perception tells where in `map` things are, so that the home's plan says
-            on which furniture.
-        parameters: what the behaviours keep to.
+        settings: what all other parts were built from.
+        home: the robot's map, and where everything was at the start.
+        knowledge: the ontology; the adviser uses more of it than the protocol `Knowledge` has.
+        prompts: the texts of the adviser's prompts.
+        in_map: whether detections have a position in `map`, from which the home's plan tells the
+            furniture.
+        blind_to: objects of the home that perception would not recognise.
+        has_arm: whether the robot can take things.
+        parameters: timeouts, limits and costs for the behaviours.
     """
 
     settings: Settings
@@ -75,17 +80,15 @@ class Parts:
     interpreter: Interpreter = field(default_factory=EnglishInterpreter)
     in_map: bool = False
     blind_to: tuple[str, ...] = ()
-    """Objects of the home that perception would not recognise."""
     has_arm: bool = True
-    """Whether the robot can take things."""
     parameters: Parameters = Parameters()
 
 
 HANDY_M = (0.6, 1.1)
-"""Heights of a surface that are most easily reached from above (metres), as tables have them."""
+"""Lowest and highest surface that is easily reached from above (metres): heights of tables."""
 
 Change = Callable[[Parts], Parts]
-"""Puts other parts in, as a policy does."""
+"""Replaces parts, as a policy does."""
 
 
 def as_they_are(parts: Parts) -> Parts:
@@ -94,7 +97,7 @@ def as_they_are(parts: Parts) -> Parts:
 
 
 def advised(parts: Parts) -> Parts:
-    """With our adviser, who puts questions to the model; with none if there is no model."""
+    """The same parts with our adviser for their model; without one if there is no model."""
     if parts.model is None:
         return replace(parts, advice=None)
     model = guarded_model(parts, parts.model)
@@ -109,7 +112,7 @@ def build_advice(
     prompts: Prompts | None,
     facts: Facts,
 ) -> Advice:
-    """Our adviser, as the settings have it."""
+    """Our adviser, which puts questions to the model as the settings say."""
     return advise(
         knowledge,
         model,
@@ -121,7 +124,7 @@ def build_advice(
 
 
 def guarded_model(parts: Parts, model: LanguageModel) -> LanguageModel:
-    """A model under guard."""
+    """The model, wrapped in a guard."""
     return GuardedModel(model, parts.inbox, parts.recorder)
 
 
@@ -129,16 +132,16 @@ def guarded_model(parts: Parts, model: LanguageModel) -> LanguageModel:
 
 
 Build = Callable[[MissionContext], Tree]
-"""Makes the tree of a mission."""
+"""Makes the tree of one mission."""
 
 
 def mission_tree(context: MissionContext) -> Tree:
-    """The tree that missions are run with."""
+    """The usual tree of a mission."""
     return MissionTree(mission(context))
 
 
 def build_mission(parts: Parts, situation: Situation, build: Build = mission_tree) -> Executive:
-    """One mission of these parts, ready to run; `build` makes the tree."""
+    """One mission with these parts, ready to run; `build` makes its tree."""
     context = build_context(parts, situation)
     return Executive(
         build(context),
@@ -152,7 +155,7 @@ def build_mission(parts: Parts, situation: Situation, build: Build = mission_tre
 
 
 def build_context(parts: Parts, situation: Situation) -> MissionContext:
-    """Whom the behaviours of one mission work with: the parts, under guard."""
+    """The context of one mission's behaviours: the parts, those of others under guard."""
     inbox, recorder = parts.inbox, parts.recorder
     return MissionContext(
         situation=situation,
@@ -179,7 +182,7 @@ def build_context(parts: Parts, situation: Situation) -> MissionContext:
 
 
 def parameters_of(settings: Settings) -> Parameters:
-    """What the behaviours keep to."""
+    """The settings that the behaviours need."""
     return Parameters(
         elicit=settings.elicitation,
         top_k=settings.top,
@@ -193,20 +196,20 @@ def parameters_of(settings: Settings) -> Parameters:
 
 
 def place_at(parts: Parts) -> Callable[[Vector3], str | None]:
-    """Where things are by the robot's map, if perception tells their positions in it."""
+    """A function from points of `map` to furniture; it finds none if points are not in `map`."""
     if not parts.in_map:
         return lambda point: None
     return lambda point: furniture_at(parts.home, point)
 
 
 def furniture_at(home: Home, point: Vector3) -> str | None:
-    """The furniture that has this point of `map` (metres) above its outline; None if none has."""
+    """The furniture whose outline is below this point of `map` (metres); None if there is none."""
     pieces = (*home.furniture, home.delivery)
     return next((piece.name for piece in pieces if piece.is_below(point)), None)
 
 
 def near_person(home: Home) -> tuple[str, ...]:
-    """The furniture by the delivery table: that of its room, then the other, the nearest first."""
+    """All furniture: first that of the delivery table's room, each group the nearest first."""
     here = home.stand(DELIVERY)[:2]
 
     def far(piece: Furniture) -> tuple[bool, float]:
@@ -216,7 +219,7 @@ def near_person(home: Home) -> tuple[str, ...]:
 
 
 def handiest(home: Home) -> tuple[str, ...]:
-    """The furniture by how easily things are put down there: open, at hand's height, and large."""
+    """All furniture, first where things are put down most easily: open above, at hand, large."""
 
     def hard(piece: Furniture) -> tuple[bool, bool, float]:
         surface = piece.surfaces()[0]

@@ -1,4 +1,4 @@
-"""Runs missions, one at a time, with parts that outlive them."""
+"""A session: runs missions one after another, with parts that outlive them."""
 
 import logging
 import sys
@@ -48,22 +48,21 @@ log = logging.getLogger(__name__)
 class Session:
     """Runs missions with parts that outlive them: the body, knowledge, model and person.
 
-    To be used in a `with` block, at whose end it closes what it has opened.
+    Use it in a `with` block, at the end of which it closes what it has opened.
 
     Attributes:
-        parts: whom missions are run with: as the settings name them, but for what `change` puts in
-            their place.
-        doubt: takes in what ears hear; None if there is no person to be heard.
-        heard: what the person has said too late for the mission in which it was said, oldest
+        parts: the collaborators of all missions: those that the settings name, after `change`.
+        doubt: takes in what a microphone hears; None if there is no person to listen to.
+        heard: what the person said too late for the mission in which they said it, the oldest
             first.
-        standing: tells what each mission begins with, beside its words: what an experimenter has
-            ordered before it.
-        folder: where the last mission left its recording.
-        is_recorded: whether that recording has all of the mission; else warnings have told what
-            it lacks.
+        standing: returns the events that each mission begins with in addition to its words: what
+            an experimenter has ordered in advance.
+        folder: the run folder of the last mission; None if it has none.
+        is_recorded: whether the recording of the last mission is complete; if not, warnings have
+            said what it lacks.
         ticks: how often the tree of the last mission was ticked.
-        stopped_by: who ended the session, too, in the last mission or just after it; empty if
-            nobody did, as where the person or an experimenter said stop.
+        stopped_by: who ended the whole session, in the last mission or just after it. It is empty
+            if nobody did; a stop by the person or an experimenter ends only the mission.
     """
 
     def __init__(
@@ -83,16 +82,26 @@ class Session:
         change: Change = as_they_are,
         build: Build = mission_tree,
     ) -> None:
-        """Build everything; `user` and `model` replace what the settings name.
+        """Build all parts.
 
-        The robot's words go to `out` (default: standard error). Missions that are not `recorded`
-        leave no folder; `sinks` are told everything in either case, and closed after each mission.
-        `sources` know where things are, and are asked in this order, after the robot's own memory.
-        `change` puts in other parts; recordings call it by the name of the `policy`. `build` makes
-        the tree of each mission. A replay of what such a session recorded is given both, too.
+        Args:
+            settings: which parts to build, and how missions are run.
+            inbox: where events come in; by default a new one.
+            user: the person, instead of the one that the settings name.
+            model: the language model, instead of the one that the settings name.
+            view: whether to start the rerun viewer and show missions live.
+            gui: whether to show the simulator's own window.
+            out: where the robot's words go; by default standard error.
+            recorded: whether each mission leaves a run folder.
+            sinks: get every record, recorded or not, and are closed after each mission.
+            sources: know where things are; asked in this order, after the robot's own memory.
+            policy: the name of `change` in recordings.
+            change: replaces parts; a replay of the recordings must be given the same.
+            build: makes the tree of each mission; a replay must be given the same, too.
 
         Raises:
-            ExecutiveError: if a setting, a source, home, ontology or the model file is wrong.
+            ExecutiveError: if a setting, a source, the home, the ontology or the model file is
+                wrong.
         """
         self.settings = settings
         self.inbox = inbox or Inbox()
@@ -124,7 +133,7 @@ class Session:
         self.heard = self._between.heard
         self.standing: Callable[[], Iterable[Event]] = tuple
         self._before = FIRST
-        """What the missions so far have left for the next."""
+        """What earlier missions hand on to the next."""
         self._closed = False
         # of the last mission
         self.folder: Path | None = None
@@ -139,11 +148,11 @@ class Session:
 
     @property
     def world(self) -> SimulatedHome | None:
-        """The simulated world and its truth, unknown to the robot; None if the world is real."""
+        """The simulated world, with the truth that the robot does not know; None if it is real."""
         return self.embodiment.truth
 
     def __enter__(self) -> Self:
-        """Nothing more to open."""
+        """Everything is open already."""
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -151,7 +160,7 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Free what the session has opened: the body, the file of facts, the model.
+        """Close what the session has opened: the body, the file of facts, the model.
 
         No mission can be run afterwards.
         """
@@ -159,17 +168,18 @@ class Session:
         self._opened.close()
 
     def run(self, words: str) -> Outcome:
-        """One mission, from words to its outcome, with its own run folder if it is recorded.
+        """Run one mission, from words to its outcome, in a run folder of its own.
 
-        What needs no mission (`talk`) is answered, and leaves no folder. Words that are too long
-        are refused at once; words that say stop are a mission that is over. Whatever fails, there
-        is an outcome, and the robot is told to halt. What came in before the mission counts only
-        if it was a stop; what comes after it does not count for the next one.
+        Words that need no mission are answered (see `talk`), and words that are too long are
+        refused; neither leaves a folder. Words that say stop are a mission that ends at once.
+        Whatever fails, there is an outcome, and the robot is told to halt. Of the events that came
+        before the mission only a stop counts, and none of its own is left for the next mission.
 
         Raises:
             ExecutiveError: if the session is closed.
-            InputError: if the first run's folder cannot be made; later ones go on without.
-            KeyboardInterrupt: if someone says stop by signal a second time.
+            InputError: if the folder of the first mission cannot be made. If that of a later one
+                cannot, the mission runs without.
+            KeyboardInterrupt: if a signal says stop for the second time.
         """
         if self._closed:
             raise ExecutiveError(CLOSED)
@@ -196,7 +206,7 @@ class Session:
         return outcome
 
     def _new_folder(self, started: datetime, words: str) -> Path | None:
-        """Where to record; nowhere if that fails later than at first, when the robot is in use."""
+        """A new run folder; if none can be made, only the first mission is given up for that."""
         try:
             return new_folder(self.settings.runs, started, words)
         except InputError as error:
@@ -206,7 +216,7 @@ class Session:
             return None
 
     def _end(self, situation: Situation, began: float) -> Outcome:
-        """What came of the mission, recorded; and how things stand now, for the next one."""
+        """Record the outcome of the mission, and keep what the next one needs to know."""
         self._before = situation.at_end(self._before)
         self._leave()
         outcome = situation.outcome(
@@ -226,14 +236,14 @@ class Session:
         return outcome
 
     def _leave(self) -> None:
-        """The body hears that the mission has ended."""
+        """Tell the body that the mission has ended."""
         try:
             self.embodiment.end()
         except Exception as error:
             log.warning("the world cannot be left in order: %s", in_words(error))
 
     def _close_logs(self) -> None:
-        """Finish the recording; someone impatient ends the program, but not the recording."""
+        """Finish the recording; Ctrl-C meanwhile ends the program, but only after that."""
         try:
             self.recorder.close()
         except KeyboardInterrupt:
@@ -243,7 +253,7 @@ class Session:
             self.is_recorded = self.is_recorded and self.recorder.is_whole
 
     def _carry_out_safely(self, situation: Situation, started: datetime) -> None:
-        """What fails before the tree is there to hear of it ends the mission, too."""
+        """Run the mission; also what fails before its tree is built ends it in order."""
         try:
             self._begin(started)
             self._carry_out(situation)
@@ -254,7 +264,7 @@ class Session:
                 raise
 
     def _break_off(self, situation: Situation, error: BaseException) -> None:
-        """End a mission that had not begun; the robot is told to halt nevertheless."""
+        """End a mission that could not begin; the robot is told to halt nevertheless."""
         log.debug("the mission could not begin", exc_info=error)
         recorder = GuardedRecorder(self.recorder)
         broke = Broke(f"internal error: {in_words(error)}")
@@ -267,14 +277,14 @@ class Session:
         situation.ending.stay_restless()
 
     def _mission_time(self) -> float:
-        """The mission time (s); 0 if the clock cannot tell."""
+        """The mission time (s); 0 if the clock raises."""
         try:
             return self.parts.clock.now()
         except Exception:
             return 0.0
 
     def _begin(self, started: datetime) -> None:
-        """Open the logs, and tell them what is where."""
+        """Start the clock and the logs, and record the scene."""
         self.inbox.drop_all()
         self.parts.clock.restart()
         logs: list[Sink] = []
@@ -293,13 +303,13 @@ class Session:
             log.warning("the world cannot be drawn in the log: %s", in_words(error))
 
     def _carry_out(self, situation: Situation) -> None:
-        """Have the tree decide, from the words on."""
+        """Build the mission's tree and run it, beginning with the words."""
         executive = build_mission(self.parts, situation, self._build)
-        begun = Started(situation.request.words)
-        for event in (begun, *self._between.listened, *self.standing()):
+        started = Started(situation.request.words)
+        for event in (started, *self._between.listened, *self.standing()):
             self.inbox.post(event)
         self._between.listened.clear()
-        if control(situation.request.words):
+        if control(situation.request.words):  # "stop", and there is nothing to stop
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             user = GuardedUser(self.parts.user, self.inbox, self.recorder)
             user.tell(NOTHING_TO_STOP)
@@ -310,9 +320,9 @@ class Session:
             self.stopped_by = _for_good(executive.stops)
 
     def talk(self, words: str) -> str:
-        """Answer what needs no mission; empty if it does.
+        """Answer words that need no mission; return what was said, empty if they do need one.
 
-        That is small talk, a question to the robot about itself or about what it knows, and where
+        They are small talk, questions about the robot or what it knows, and statements about where
         something is, which it remembers.
         """
         said, self._before = answer(words, self.parts, self._before)
@@ -321,7 +331,7 @@ class Session:
         return said
 
     def next_command(self, console: Console, prompt: str = "") -> str | None:
-        """Prompt, and wait for the person to type a command; None if the input or session ends.
+        """Prompt the person and wait for a command; None if the input or the session has ended.
 
         Raises:
             KeyboardInterrupt: if a signal says stop.
@@ -330,11 +340,11 @@ class Session:
 
 
 def without_mission(status: MissionStatus, said: str) -> Outcome:
-    """The outcome of words for which no mission was run."""
+    """The outcome of words that needed no mission; `said` is what was answered."""
     situation = Situation(ending=Ending(status, said))
     return situation.outcome(mission_time_s=0.0, wall_time_s=0.0, run_dir=None)
 
 
 def _for_good(stops: Iterable[StopRequested]) -> str:
-    """The first who ends the session, too; empty if nobody does."""
+    """Who was the first to end the whole session; empty if nobody did."""
     return next((stop.by for stop in stops if stop.ends_session), "")

@@ -1,4 +1,4 @@
-"""What is asked for, as far as it is understood."""
+"""What the person asks for, as far as it is understood."""
 
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -8,7 +8,7 @@ from executive.types.commands import Command, CommandKind
 
 
 def command_as_logged(command: Command | None) -> dict[str, Any] | None:
-    """What was not said is left out, as in earlier recordings, whose commands had no places."""
+    """The command without what was not said: the commands of older recordings had no places."""
     if command is None:
         return None
     always = ("kind", "target", "words")
@@ -17,7 +17,7 @@ def command_as_logged(command: Command | None) -> dict[str, Any] | None:
 
 
 def _less_plural(fields: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Earlier recordings did not have it, and it is told by the number once that is known."""
+    """The fields without `plural`: older recordings do not have it, and the number tells it."""
     return {name: value for name, value in fields if name != "plural"}
 
 
@@ -28,20 +28,32 @@ class Request:
     words: str = ""
     command: Command | None = field(default=None, metadata=logged_as(plain=command_as_logged))
     remark: str = ""
-    """What to say of the words if they were read, and are no command to carry out."""
+    """What to answer if the words were read, but are not a command to carry out."""
     options: tuple[str, ...] = ()
     """Objects that the target may mean."""
     several: bool = False
     """Whether the target names several things at once."""
     guess: str = ""
-    """A known name that the target may be a slip of, or that is all of it that is known."""
+    """A known name that may be meant: the target is like it, or has it in it."""
     object: str | None = None
+    """Name of the thing that is meant; None while that is not known."""
     from_places: tuple[str, ...] = ()
-    """The furniture where the thing is by the words, the likeliest first."""
+    """The furniture where the thing is, as the words say, the likeliest first."""
     goals: tuple[str, ...] = ()
-    """The furniture that will do as the place where it, or the robot, is to go, the best first."""
+    """The furniture where the thing, or the robot, may go, the best first."""
     goal: str = ""
-    """That of them which the robot has chosen."""
+    """The one of `goals` that the robot has chosen."""
+
+    @property
+    def asked_for(self) -> Command:
+        """The command; only for those who come after the words were understood."""
+        assert self.command is not None
+        return self.command
+
+    @property
+    def thing(self) -> str:
+        """Name of the thing that is meant; empty while that is not known."""
+        return self.object or ""
 
     def asks_to(self, kind: CommandKind) -> bool:
         """Whether this kind of deed was asked for."""

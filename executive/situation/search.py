@@ -1,4 +1,4 @@
-"""Where the thing may be, where it was looked for, and where it was seen."""
+"""The search: where the thing may be, where the robot has looked, and where it saw the thing."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -30,12 +30,12 @@ class Consultation:
 
 
 def _position(detection: Detection | None) -> list[float] | None:
-    """Where it is in `map` (metres); empty if that is not known, None if it was not seen."""
+    """The position in `map` (metres); empty if it is not known, None without a detection."""
     return list(detection.position or ()) if detection else None
 
 
 def _guess(detection: Detection | None) -> dict[str, Any] | None:
-    """What may have been seen, and how surely."""
+    """What may have been seen, and with which confidence."""
     if detection is None:
         return None
     return {"label": detection.label, "confidence": detection.confidence}
@@ -43,7 +43,7 @@ def _guess(detection: Detection | None) -> dict[str, Any] | None:
 
 @dataclass
 class Search:
-    """From places where the thing may be to the place where it is."""
+    """The way from places where a thing may be to the place where it is."""
 
     default_locations: tuple[str, ...] = field(default=(), metadata=logged_as("among"))
     """The ontology's default locations for the object."""
@@ -54,23 +54,29 @@ class Search:
     sent_to: str = ""
     """Where an experimenter wants the robot to look next; empty if nobody does."""
     view: int = 0
-    """The part of the place that it looks at."""
+    """The view of that place at which the robot looks."""
     looks: Looks = field(default_factory=Looks, metadata=PART)
     """Where the thing was looked for, and what came of it."""
     whereabouts: Whereabouts = field(default_factory=Whereabouts, metadata=PART)
     """Where it may be, if it is searched by a plan."""
     doubtful: Detection | None = field(default=None, metadata=logged_as(plain=_guess))
-    """What may be the thing, or a part of it, in the last picture; None if it was surely seen."""
+    """What may be the thing, or a part of it, in the last picture; None if there is no doubt."""
     detection: Detection | None = field(default=None, metadata=logged_as("sighting", _position))
     """The thing, as last seen."""
     found: Candidate | None = None
     """Where the thing was seen."""
     gone: bool = False
-    """Whether the thing was seen, and then was there no more."""
+    """Whether the thing was seen, and was not there any more at the next look."""
+
+    @property
+    def place(self) -> str:
+        """Where the robot is going or looking now; only for those who come after that choice."""
+        assert self.candidate is not None
+        return self.candidate.place
 
     @property
     def goes_on(self) -> bool:
-        """Whether the robot is on its way to look, or looks, and has not seen the thing."""
+        """Whether the robot is going or looking somewhere, and has not seen the thing yet."""
         return self.candidate is not None and self.found is None
 
     @property
@@ -79,12 +85,12 @@ class Search:
         return self.found is not None and self.found.place == DELIVERY
 
     def look_first(self, candidate: Candidate) -> None:
-        """Look there next, and then where it was to be looked anyway."""
+        """Put a candidate before all others."""
         others = (other for other in self.candidates if other.place != candidate.place)
         self.candidate, self.candidates = candidate, (candidate, *others)
 
     def not_visited(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
-        """The candidates less the places where the robot has looked already."""
+        """The candidates where the robot has not looked yet."""
         return tuple(c for c in candidates if c.place not in self.looks.visited)
 
     def so_far(self, thing: str | None, say: Wording) -> str:

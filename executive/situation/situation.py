@@ -1,4 +1,4 @@
-"""What this mission knows so far: the one place that behaviours read from and write to."""
+"""The situation: all that a mission knows, and the one place where behaviours read and write it."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, is_dataclass, replace
@@ -41,10 +41,10 @@ ONE_AT_A_TIME = "I took it, and put it away again: I hold one thing at a time"
 
 @dataclass
 class Situation:
-    """Facts of one mission, in parts.
+    """What one mission knows, in parts.
 
-    Events are folded in by the loop before each tick; everything else is set by behaviours. Of
-    several tasks, what is found out for one is forgotten when the next begins.
+    The loop folds events in before each tick; behaviours set everything else. When the next of
+    several tasks begins, what was found out for the one before is forgotten.
     """
 
     agenda: Agenda = field(default_factory=Agenda, metadata=PART)
@@ -59,7 +59,7 @@ class Situation:
 
     @classmethod
     def at_start(cls, words: str = "", before: Before = FIRST) -> Self:
-        """What is known before the first tick: the words, and how things stood before them."""
+        """The situation before the first tick: the words, and what earlier missions have left."""
         return cls(
             request=Request(words),
             hand=Hand(in_hand=before.in_hand),
@@ -68,7 +68,7 @@ class Situation:
         )
 
     def at_end(self, before: Before) -> Before:
-        """How the robot stands after the mission; `before` is how things stood at its start."""
+        """What the mission leaves to the next one; `before` is what it began with."""
         stands = self.dialogue.stands
         return replace(
             before,
@@ -79,7 +79,7 @@ class Situation:
         )
 
     def fold(self, event: Event) -> None:
-        """Take in what happened."""
+        """Take an event in."""
         match event:
             case Started(words):
                 self.request.words = words
@@ -107,7 +107,7 @@ class Situation:
                 pass
 
     def begin(self, command: Command) -> None:
-        """Turn to a task: what was found out for another one counts no more."""
+        """Begin a task: forget what was found out for another one."""
         hand = self.hand
         held = Hand(in_hand=hand.in_hand, felt=hand.felt, reached_for=hand.reached_for)
         _renew(self.request, Request(self.request.words, command))
@@ -118,12 +118,12 @@ class Situation:
         self.dialogue.no_help = ""
 
     def end_task(self) -> None:
-        """What came of the task at hand is settled, if there is one that is not done in parts."""
+        """Note the outcome of the current task, unless it is done in parts."""
         if self.request.command and not self._is_split:
             self.agenda.end(self._of_task(self.request.command))
 
     def conclude(self) -> None:
-        """Settle how the whole ended, if there was more than one task: done if all of them were."""
+        """Note how the whole mission ended: of several tasks, it is done if all of them are."""
         self.agenda.ended = ended = list(self._held_still(self.agenda.ended))
         if len(ended) > 1 or any(task.parts for task in ended):
             all_done = all(task.status == MissionStatus.DONE for task in ended)
@@ -131,19 +131,19 @@ class Situation:
             self.ending.reason = task_by_task(ended) if len(ended) > 1 else ended[0].reason
 
     def _held_still(self, ended: Sequence[TaskOutcome]) -> Iterator[TaskOutcome]:
-        """The same; what was taken, and put away again for another thing, is not held."""
+        """The same; but a thing that was taken, and put away for another one, was not taken."""
         for number, task in enumerate(ended, start=1):
             taken = task.kind == CommandKind.TAKE and task.status == MissionStatus.DONE
             if not taken or task.object == self.hand.in_hand:
                 yield task
             elif any(later.object == task.object for later in ended[number:]):
-                yield task  # it was to be put somewhere
+                yield task  # a later task has put it somewhere
             else:
                 yield replace(task, status=MissionStatus.NOT_DONE, reason=ONE_AT_A_TIME)
 
     @property
     def has_it(self) -> bool:
-        """Whether what was asked for is in the hand."""
+        """Whether the thing that is meant is in the hand."""
         return self.hand.in_hand is not None and self.hand.in_hand == self.request.object
 
     def saved(self) -> Self:
@@ -152,18 +152,20 @@ class Situation:
         return twin
 
     def restore(self, saved: Self) -> None:
-        """Know again what was known then, and nothing else; the parts are the same as before."""
+        """Return to a saved copy; the parts stay the same objects, because behaviours hold them."""
         for name, part in vars(self).items():
             vars(part).update(vars(getattr(saved, name)))
 
     def snapshot(self) -> dict[str, Any]:
-        """Everything that fits in a log line: plain values, no pictures."""
+        """Everything as plain values for the log, without pictures."""
         return snapshot(self)
 
     def outcome(self, *, mission_time_s: float, wall_time_s: float, run_dir: str | None) -> Outcome:
-        """The mission's result."""
+        """The outcome of the mission."""
         found = self.search.found
-        if self.ending.decided and self.agenda.ended:  # its last part is none of what was said
+        if (
+            self.ending.decided and self.agenda.ended
+        ):  # not a part of a task, which nobody asked for
             last: Command | TaskOutcome | None = self.agenda.ended[-1]
         else:
             last = self.request.command
@@ -190,12 +192,12 @@ class Situation:
         )
 
     def _visited(self) -> tuple[str, ...]:
-        """In all tasks: what the one at hand has visited is in those that ended when it has."""
+        """The places that all tasks have visited; the current one counts until it has ended."""
         at_hand = () if self.agenda.ended and not self._is_at_hand else self.search.looks.visited
         return (*self.agenda.visited(), *at_hand)
 
     def _unfinished(self) -> Iterator[TaskOutcome]:
-        """The task at hand, and those not begun, if the mission was cut short."""
+        """The current task and those not begun, if the mission was cut short."""
         command, wholes, tasks = self.request.command, self.agenda.wholes, self.agenda.tasks
         at_hand = [self._of_task(command)] if self._is_at_hand and command else []
         if wholes:
@@ -214,13 +216,13 @@ class Situation:
 
     @property
     def _is_split(self) -> bool:
-        """Whether the task at hand is done in parts, none of which was begun yet."""
+        """Whether the current task is done in parts, and none of them has begun yet."""
         wholes = self.agenda.wholes
         return bool(wholes) and wholes[-1].command is self.request.command
 
     @property
     def _is_at_hand(self) -> bool:
-        """Whether a task was begun that has not ended."""
+        """Whether a task has begun and not ended."""
         return self.request.command is not None and not self.ending.decided
 
     def _of_task(self, command: Command) -> TaskOutcome:
@@ -241,7 +243,7 @@ class Situation:
 
 
 def task_by_task(ended: Sequence[TaskOutcome]) -> str:
-    """What came of each of several tasks, numbered, a sentence each."""
+    """The outcomes of several tasks, numbered, one sentence each."""
     return " ".join(
         f"{number}. {'' if task.status == MissionStatus.DONE else 'Not done: '}{_ended(task)}"
         for number, task in enumerate(ended, start=1)
@@ -253,12 +255,12 @@ def _ended(task: TaskOutcome) -> str:
 
 
 def _renew(part: Any, fresh: Any) -> None:
-    """Make a part as a fresh one; it stays the same object, which behaviours hold."""
+    """Reset a part to a fresh one; it stays the same object, because behaviours hold it."""
     vars(part).update(vars(fresh))
 
 
 def _copied(value: Any) -> Any:
-    """A copy of what may be changed in place; the rest as it is."""
+    """A copy of a value that can be changed in place; any other value itself."""
     kind = value.__class__
     if kind is list or kind is set:
         return kind(map(_copied, value))
@@ -273,5 +275,5 @@ def _copied(value: Any) -> Any:
 
 @cache
 def _changes(kind: type) -> bool:
-    """Whether things of this type are dataclasses whose fields may be set."""
+    """Whether a type is a dataclass that is not frozen."""
     return is_dataclass(kind) and not kind.__dataclass_params__.frozen  # type: ignore[attr-defined]

@@ -1,4 +1,4 @@
-"""A language model in this process: a GGUF file run by llama.cpp in a thread of its own."""
+"""A language model in this process: llama.cpp runs a GGUF file in a thread of its own."""
 
 import importlib.util
 import logging
@@ -24,13 +24,13 @@ from kb.llm.scoring import Scorer
 from kb.llm.thinking import answer_of, used_up
 from kb.llm.threads import Worker
 
-if TYPE_CHECKING:  # llama.cpp is loaded with them, and often nothing is evaluated
+if TYPE_CHECKING:  # they import llama.cpp, which many missions do not need
     from kb.llm.gguf import Checkpoint, Tokens
     from kb.llm.loaded import Loaded
     from kb.llm.sampler import Sampler
 
 CLOSING_S = 2.0
-"""How long the model's thread may take to end what it is at."""
+"""How long `close` waits for the model's thread."""
 
 log = logging.getLogger(__name__)
 
@@ -56,11 +56,11 @@ def _is_packaged(path: Path) -> bool:
 
 
 class Cancelled(Exception):
-    """The request was called off."""
+    """The request was cancelled."""
 
 
 def until(stop: threading.Event) -> "Checkpoint":
-    """Make a checkpoint that lets pass until this happens, and then raises Cancelled."""
+    """A checkpoint that raises Cancelled once `stop` is set, and does nothing before."""
 
     def checkpoint() -> None:
         if stop.is_set():
@@ -70,12 +70,12 @@ def until(stop: threading.Event) -> "Checkpoint":
 
 
 class LlamaCpp:
-    """Implements `LanguageModel`. Requests are served one after the other, in their order.
+    """Implements `LanguageModel`. Requests are served one after another, in order.
 
-    The model is loaded in the background, when something has to be evaluated: a question that was
-    answered before, to this process or another, needs none. What a prompt shares with the one
-    before it is not evaluated again; writing and scoring have a KV cache each, made when it is
-    needed.
+    The model is loaded in the background, and only when something must be evaluated: results are
+    kept, also for other processes, and the same question again needs no model. The part of a prompt
+    that it shares with the one before is not evaluated again. Writing and scoring have a KV cache
+    each, which is made when it is needed.
     """
 
     def __init__(
@@ -87,18 +87,18 @@ class LlamaCpp:
         threads: int | None = None,
         gpu_layers: int = 0,
     ) -> None:
-        """See whether the file is a model.
+        """Check that the file is a model.
 
         Args:
             path: the GGUF file of an instruction-tuned model.
-            inbox: where requests end.
-            options: how the model is to write.
-            threads: None: half of the cores to write, all of them to read and to score.
+            inbox: where the results of requests go.
+            options: how the model writes.
+            threads: CPU threads; None: half of the cores to write, all of them to read and score.
             gpu_layers: layers that go to the GPU, if llama.cpp was built for one; -1: all.
 
         Raises:
-            ModelError: if the file cannot be read, or, as far as a trial told (`first_load`), not
-                be loaded, or its model does not chat.
+            ModelError: if the file cannot be read; or if a trial (`first_load`) has shown that it
+                cannot be loaded, or that the model does not chat.
             KeyboardInterrupt: if someone said stop meanwhile.
         """
         check_file(path)
@@ -111,7 +111,7 @@ class LlamaCpp:
         self._stops: dict[int, threading.Event] = {}
         self._prepared_enough = threading.Event()
         self._prepared = (0, 0.0)
-        """Tokens and seconds that preparation took since the last call."""
+        """Tokens and seconds of all preparation since the last request."""
         self._closing = threading.Event()
         self._worker = Worker("language model")
         self._loaded: Loaded | None = None
@@ -128,38 +128,38 @@ class LlamaCpp:
         return self._options.context_tokens
 
     def chat(self, request: ChatRequest) -> int:
-        """Write a reply; ends Replied, or Failed."""
+        """Write a reply; the request ends as Replied or Failed."""
         return self._start(lambda checkpoint: self._write(request, checkpoint))
 
     def rank(self, request: RankRequest) -> int:
-        """Score the options; ends Scored, or Failed."""
+        """Score the options; the request ends as Scored or Failed."""
         return self._start(lambda checkpoint: self._score(request, checkpoint))
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Read ahead what others share with this request; gives way to the next one at once."""
+        """Evaluate in advance what later prompts share with this one; a request interrupts it."""
         self._prepared_enough = threading.Event()
         enough = until(self._prepared_enough)
         self._worker.submit(lambda: self._read_ahead(request, enough))
 
     def cancel(self, request: int) -> None:
-        """Stop within one token, or one batch of the prompt; nothing is delivered."""
+        """Stop after the current token, or batch of the prompt; nothing is delivered."""
         if stop := self._stops.pop(request, None):
             stop.set()
         self._inbox.drop(request)
 
     def count_tokens(self, text: str) -> int:
-        """How many tokens the text takes; waits for the model to be loaded.
+        """Length of a text in tokens; waits until the model is loaded.
 
         Raises:
-            ModelError: if it could not be loaded.
+            ModelError: if the model cannot be loaded.
         """
         loaded = self._loaded or self._worker.submit(self._load).result()
         return len(loaded.model.tokenize(text))
 
     def close(self) -> None:
-        """Stop whatever is under way, end the thread and free the model.
+        """Cancel all requests, end the thread and free the model.
 
-        A thread that is stuck in llama.cpp keeps the model, and does not keep the program.
+        If the thread is stuck in llama.cpp, the model is not freed, but the program can end.
         """
         for stop in (*self._stops.values(), self._prepared_enough, self._closing):
             stop.set()
@@ -176,7 +176,7 @@ class LlamaCpp:
         self._worker.submit(lambda: self._serve(request, work, until(stop)))
         return request
 
-    # --- from here on in the model's thread ---
+    # --- from here on, all runs in the model's thread ---
 
     def _serve(
         self, request: int, work: "Callable[[Checkpoint], Result]", checkpoint: "Checkpoint"
@@ -186,13 +186,13 @@ class LlamaCpp:
             result = work(checkpoint)
         except Cancelled:
             return
-        except Exception as error:  # a request must never be left without an end
+        except Exception as error:  # no request may stay without a result
             result = Failed(str(error) or repr(error))
         self._stops.pop(request, None)
         self._inbox.end(request, result)
 
     def _read_ahead(self, request: ChatRequest | RankRequest, checkpoint: "Checkpoint") -> None:
-        """What fails here fails again, and is heard of, when it is asked for."""
+        """Evaluate what later prompts share; if that raises, the request itself will tell."""
         began, before = time.monotonic(), self._evaluated
         with suppress(Cancelled):
             checkpoint()
@@ -207,11 +207,11 @@ class LlamaCpp:
 
     @property
     def _evaluated(self) -> int:
-        """Tokens that were evaluated so far."""
+        """How many tokens were evaluated so far."""
         return self._loaded.evaluated if self._loaded else 0
 
     def _open(self) -> tuple[Kept, Scorer]:
-        """What was worked out before, and who scores by it."""
+        """The results that were kept, and a scorer that uses them."""
         kept = Kept(mark_of(self._path), *machine(), self._settings())
         return kept, Scorer(self._load, kept)
 
@@ -230,7 +230,7 @@ class LlamaCpp:
         return self._loaded
 
     def _settings(self) -> tuple[object, ...]:
-        """All that what the model makes of a text may depend on, beside file and processor."""
+        """The settings that results depend on, in addition to the file and the machine."""
         return self._options.context_tokens, self._threads or os.cpu_count(), self._gpu_layers
 
     def _write(self, request: ChatRequest, checkpoint: "Checkpoint") -> Result:
@@ -268,7 +268,7 @@ class LlamaCpp:
         return Scored(request, tuple(scores.tolist()), usage)
 
     def _prompt(self, request: ChatRequest) -> "tuple[Tokens, int]":
-        """The request's tokens, and how many of them the system turn makes, which others share."""
+        """The tokens of a prompt, and how many of them belong to the system turn."""
         system_only = (*request.messages[:1], Message("user", ""))
         return self._load().model.prompt(request.messages, system_only)
 

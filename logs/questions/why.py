@@ -1,7 +1,7 @@
-"""Why the robot did it: the chain from words to deed, read from the recorded ticks.
+"""Why the robot did it: the chain of decisions from words to deed, read from the recorded ticks.
 
-Every fallback of the tree is a decision. Its children are the alternatives: the one that succeeded
-was taken, those before it failed and said why, those after it were not needed.
+Every fallback of the tree is a decision, and its children are the alternatives: the one that
+succeeded was taken, those before it failed and gave a reason, those after it were not needed.
 """
 
 import re
@@ -40,38 +40,25 @@ from logs.questions.interventions import EXPERIMENTER, done
 from logs.recording.reader import At, Run
 
 LOOK_OR_ASK = "look or ask"
-"""What a plan settles."""
+"""The question that a plan answers."""
 MOST_TOLD, LEAST = 5, 0.005
-"""So many places that are less likely are told of, if they are as likely as this."""
+"""How many alternatives of a plan are told, and how likely a place must be for that."""
 SOMETHING = "something"
 _VERB = re.compile(r"\b(is|was|may)\b")
 
 
 def why(run: Run) -> list[Decision]:
-    """Every decision of a mission, in order, up to how it ended; and what went wrong by order."""
-    planned = (
-        Decision(at.time_s, LOOK_OR_ASK, at.value.text, "", "", tuple(_less_likely(at.value)))
-        for at in run.records(Planned)
-    )
-    ordered = (
-        Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
-        for at in run.mishaps()
-    )
+    """All decisions of a mission in order of time: with what was said, faults, and the outcome."""
     chain = merge(
         _asked(run),
-        ordered,
-        _stepped_in(run),
+        _faults(run),
+        _interventions(run),
         _heard(run),
         _Chain(run).decisions(),
-        planned,
-        key=lambda d: d.time_s,
+        _plans(run),
+        key=lambda decision: decision.time_s,
     )
-    decisions = list(chain)
-    outcome = run.outcome()
-    if outcome is not None:
-        ending = outcome.reason or outcome.status
-        decisions.append(Decision(outcome.mission_time_s, "outcome", ending, "", outcome.status))
-    return decisions
+    return [*chain, *_outcome(run)]
 
 
 def _asked(run: Run) -> Iterator[Decision]:
@@ -82,8 +69,14 @@ def _asked(run: Run) -> Iterator[Decision]:
                 yield Decision(at.time_s, "asked", f"'{words}'", PERSON, "")
 
 
-def _stepped_in(run: Run) -> Iterator[Decision]:
-    """What an experimenter did, in the person's stead or the robot's."""
+def _faults(run: Run) -> Iterator[Decision]:
+    """The faults that were ordered."""
+    for at in run.mishaps():
+        yield Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
+
+
+def _interventions(run: Run) -> Iterator[Decision]:
+    """What an experimenter did in place of the person or the robot."""
     for at in run.records(Intervention):
         who = at.value.by
         yield Decision(at.time_s, f"{who} stepped in", done(at.value), EXPERIMENTER, who)
@@ -101,12 +94,26 @@ def _heard(run: Run) -> Iterator[Decision]:
                 yield Decision(before.time_s, f"heard '{before.value.words}'", answer, PERSON, "")
 
 
+def _plans(run: Run) -> Iterator[Decision]:
+    """Where to look next, or to ask, by the plans."""
+    for at in run.records(Planned):
+        others = tuple(_less_likely(at.value))
+        yield Decision(at.time_s, LOOK_OR_ASK, at.value.text, "", "", others)
+
+
+def _outcome(run: Run) -> Iterator[Decision]:
+    """How the mission ended; nothing if the recording breaks off before."""
+    if (outcome := run.outcome()) is not None:
+        ending = outcome.reason or outcome.status
+        yield Decision(outcome.mission_time_s, "outcome", ending, "", outcome.status)
+
+
 class _Chain:
     """Follows the fallbacks of one mission from tick to tick."""
 
     def __init__(self, run: Run) -> None:
         self._run = run
-        self._family = _Family(run.tree())
+        self._branches = _Branches(run.tree())
         self._searches = {n.path for n in run.tree().nodes if n.activity == Activity.SEARCHING}
         self._reasons: dict[str, str] = {}
         self._thoughts: list[LlmCall | Verified] = []
@@ -122,7 +129,7 @@ class _Chain:
             yield from visits(before, at, self._searches)
             ended = [*parts_ended(before, at), *tasks_ended(before, at)]
             goes_on = bool(ended) and is_under_way(at)
-            if goes_on:  # what is settled in this tick is so for the next task
+            if goes_on:  # then what is settled in this tick belongs to the next task
                 yield from ended
                 self._reasons.clear()
                 self._thoughts.clear()
@@ -139,9 +146,9 @@ class _Chain:
     def _settled(
         self, at: At[Tick], states: dict[str, NodeState], before: At[Tick] | None
     ) -> Iterator[Decision]:
-        """What was settled in a tick: what was not so before."""
+        """The fallbacks that a tick has settled."""
         earlier = {node.path: node.status for node in before.value.nodes} if before else {}
-        for fallback in self._family.fallbacks:
+        for fallback in self._branches.fallbacks:
             status = states[fallback.path].status
             if status in ("SUCCESS", "FAILURE") and earlier.get(fallback.path) != status:
                 decision = self._decision(at, fallback, states)
@@ -153,7 +160,7 @@ class _Chain:
     ) -> Decision:
         alternatives: list[Alternative] = []
         taken: NodeShape | None = None
-        for child in self._family.children[fallback.path]:
+        for child in self._branches.children[fallback.path]:
             if taken is not None:
                 alternatives.append(Alternative(child.name, NOT_NEEDED))
             elif states[child.path].status == "SUCCESS":
@@ -175,7 +182,7 @@ class _Chain:
         )
 
     def _passed_over(self, at: At[Tick]) -> Iterator[Alternative]:
-        """What the model named or scored since the last such decision, and did not come through."""
+        """What the model has named or scored since the last decision of this kind, in vain."""
         situation = at.value.situation
         taken = {c["place"] for c in situation.get("candidates") or ()}
         taken.add((situation.get("command") or {}).get("kind"))
@@ -189,9 +196,9 @@ class _Chain:
         self._thoughts.clear()
 
     def _reason(self, child: NodeShape, states: dict[str, NodeState]) -> str:
-        """Why a child failed: the message of the last leaf in it that failed, now or before.
+        """Why a child failed: the message of its last leaf that failed, now or before.
 
-        Empty if none has: there was nothing to try.
+        Empty if no leaf has failed: there was nothing to try.
         """
         leaf = self._last(
             child, lambda leaf: states[leaf.path].status == "FAILURE" or leaf.path in self._reasons
@@ -203,7 +210,7 @@ class _Chain:
         return said or ("no" if leaf is child else denied(leaf.name))
 
     def _last(self, node: NodeShape, holds: Callable[[NodeShape], bool]) -> NodeShape | None:
-        return next(filter(holds, reversed(self._family.leaves[node.path])), None)
+        return next(filter(holds, reversed(self._branches.leaves[node.path])), None)
 
     def _remember(self, states: dict[str, NodeState]) -> None:
         for path, state in states.items():
@@ -213,8 +220,11 @@ class _Chain:
                 self._reasons.pop(path, None)
 
 
-class _Family:
-    """Who is whose child; fallbacks in the order in which they are settled: inner ones first."""
+class _Branches:
+    """The branches of a tree: children, leaves, and fallbacks, of which inner ones come first.
+
+    In this order the fallbacks are settled.
+    """
 
     def __init__(self, tree: TreeShape) -> None:
         self.children: dict[str, list[NodeShape]] = defaultdict(list)
@@ -222,7 +232,7 @@ class _Family:
             self.children[node.parent].append(node)
         nodes = {node.path: node for node in tree.nodes}
         self.leaves: dict[str, list[NodeShape]] = defaultdict(list)
-        """Of each behaviour the leaves in it, itself if it is one."""
+        """The leaves below each behaviour; a leaf has itself."""
         for leaf in (node for node in tree.nodes if node.path not in self.children):
             above: NodeShape | None = leaf
             while above is not None:
@@ -242,7 +252,10 @@ class _Family:
 
 
 def _outermost(settled: Iterable[Decision]) -> Iterator[Decision]:
-    """Of nested decisions that one behaviour settled the outer one, with what none of them took."""
+    """The decisions without those that an outer one of the same leaf repeats.
+
+    The outer one gets their alternatives, too.
+    """
     last: Decision | None = None
     for decision in settled:
         if last is not None and last.by and last.by == decision.by:
@@ -256,12 +269,12 @@ def _outermost(settled: Iterable[Decision]) -> Iterator[Decision]:
 
 
 def _failed(decision: Decision) -> bool:
-    """Whether anything else had been tried in vain."""
+    """Whether an alternative had failed."""
     return any(a.why_not != NOT_NEEDED for a in decision.alternatives)
 
 
 def _less_likely(planned: Planned) -> Iterator[Alternative]:
-    """The likeliest of the places that are not next, who says so of each, and how far it is."""
+    """The likeliest other places: how likely they are, who says so, and how far away they are."""
     away = dict(zip(planned.places, planned.away, strict=False))
     next_s = min((away.get(place, -1.0) for place in planned.order[:1]), default=-1.0)
     told = zip(planned.places, planned.probabilities, planned.says, strict=False)
@@ -274,7 +287,7 @@ def _less_likely(planned: Planned) -> Iterator[Alternative]:
 
 
 def _farther(seconds: float, next_s: float) -> str:
-    """How long going there and looking would take, beside the place that is next."""
+    """How long going there and looking would take, compared with the next place."""
     if seconds < 0:
         return ""
     return f", {seconds:.0f} s away" + (f" instead of {next_s:.0f}" if next_s >= 0 else "")
@@ -288,7 +301,7 @@ def _outranked(call: LlmCall) -> list[Alternative]:
 
 
 def denied(condition: str) -> str:
-    """The contrary of a condition, named as it reads when true: `in my hand`, `it was there`."""
+    """The opposite of a condition, whose name says what is true if it holds: `it was there`."""
     if condition.startswith(SOMETHING):
         return f"nothing{condition.removeprefix(SOMETHING)}"
     contrary, verbs = _VERB.subn(r"\1 not", condition, count=1)

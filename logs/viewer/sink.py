@@ -67,7 +67,7 @@ class RerunSink:
 
         Raises:
             ExecutiveError: if the viewer does not start.
-            OSError: if the file cannot be opened, or that does not end.
+            OSError: if the file cannot be opened, or not within `FLUSH_S`.
         """
         self._path = path
         self._viewer = program.start() if view else None
@@ -100,7 +100,10 @@ class RerunSink:
         self._unwritten = Unwritten(type(self).__name__)
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Log a record where the blueprint looks for it; what comes often, with the next flush."""
+        """Log a record to the view that the blueprint has for it.
+
+        Frames and pictures come often, and so are sent together at the next flush.
+        """
         moment = Moment(round(stamp.mission_s * 1e3) * 1_000_000, stamp.wall_ns, self._tick)
         if isinstance(record, Transforms):
             self._moved += [At(moment, transform) for transform in record.transforms]
@@ -144,21 +147,21 @@ class RerunSink:
                 assert_never(record)
 
     def flush(self) -> None:
-        """Bring everything to the file and the viewer."""
+        """Send everything to the file and the viewer."""
         self._send_kept()
         try:
             self._stream.flush(timeout_sec=FLUSH_S)
         except RuntimeError:
             if self._viewer is None:
                 raise
-            # The viewer was closed: no reason to end the file.
+            # the viewer was closed, and the file goes on
 
     def close(self) -> None:
         """Write the footer and close the file.
 
         Raises:
-            OSError: if that does not end, or the file is not whole then, of which rerun itself says
-                nothing to us.
+            OSError: if that takes longer than `FLUSH_S`, or the file is not complete then, which
+                rerun itself does not tell.
         """
         self._send_kept()
         _within(FLUSH_S, self._let_go, "rerun does not finish its file")
@@ -166,7 +169,7 @@ class RerunSink:
             raise OSError("rerun has not finished its file")
 
     def _let_go(self) -> None:
-        """Disconnect, and end the threads that rerun keeps for a stream until it is asked to."""
+        """Disconnect, and end the threads of the stream, which rerun keeps until it is asked."""
         self._stream.disconnect()
         self._tree = None
         del self._stream, self._candidates
@@ -210,7 +213,7 @@ class RerunSink:
         self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
 
     def _send_kept(self) -> None:
-        """Send frames and pictures together: many rows cost rerun hardly more than one."""
+        """Send the kept frames and pictures: many rows cost rerun hardly more than one."""
         moved, taken = self._moved, self._taken
         self._moved, self._taken = [], []
         try:
@@ -230,10 +233,10 @@ class RerunSink:
 
 
 def _within(seconds: float, do: Callable[[], None], fault: str) -> None:
-    """Do it, but wait no longer: rerun may wait for ever for a disk that is full.
+    """Call `do` in a thread, and wait for at most `seconds`: rerun waits for a full disk for ever.
 
     Raises:
-        OSError: if it does not end, or fails.
+        OSError: if it takes longer, or raises.
     """
     failed: list[Exception] = []
 

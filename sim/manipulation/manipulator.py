@@ -1,13 +1,12 @@
-"""Picking things up and putting them down: the recipes.
+"""Picking things up and putting them down, step by step.
 
 What the hand does follows from what the camera saw, the known shapes of things and the map of the
-home. What comes of it is up to physics.
+home. Whether a thing is then in the hand, or stands, is up to physics, and is checked.
 """
 
-from collections.abc import Callable, Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
-from functools import cache, partial
-from itertools import islice, product
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -21,55 +20,40 @@ from sim.body.base import CREEPING, drive
 from sim.body.hardware import FINGER_TRAVEL, FOLDED, Hardware
 from sim.body.head import look_at
 from sim.body.skill import CannotError, Skill, Thinker, attempt, pause, wait_until
-from sim.home.furniture import Furniture, Surface
+from sim.home.furniture import Furniture
 from sim.home.home import Home
+from sim.manipulation.choosing import DOWN, NO_POINTS, Chooser, Target, View
 from sim.manipulation.clutter import over
-from sim.manipulation.grasps import TILTS, WIDEST, Grasp, HandPose, find_grasps, grip_force, varied
+from sim.manipulation.grasps import Grasp, HandPose, grip_force
 from sim.manipulation.hand import CLOSING_S, SETTLING_S, Hand, Held, LostError
-from sim.manipulation.placing import free_spots, stands
+from sim.manipulation.placing import stands
 from sim.manipulation.planning import PlanningWorld
-from sim.manipulation.reaching import (
-    Approach,
-    Reach,
-    any_path,
-    choose_approach,
-    plan_reach,
-    plan_retreat,
-)
+from sim.manipulation.reaching import Approach, Reach, any_path, plan_reach, plan_retreat
 from sim.manipulation.registration import fit_fallen_pose
 from sim.manipulation.surroundings import Surroundings, support
 from sim.objects.objects import ObjectModel, why_not_taken
-from sim.objects.solids import sample_surface
 
-APPROACH_M = (0.12, 0.05, 0.025)
-"""Lengths of the last straight part of a reach, in order of preference."""
 RISES_M = (0.10, 0.05, 0.02)
 """How far the hand goes up before the robot backs off, in order of preference."""
 _RETREATS = 2
 """How often the robot backs off to fold its arm."""
 FEWEST_POINTS = 30
-"""A thing of which fewer points were seen is not well enough seen to be grasped."""
-_GOOD = 0.06
-"""Grasps that cost more are tried only if no better one can be reached."""
-_GRASPS_TRIED = 8
-"""So many, of as different kinds as there are, are looked at for a way to them."""
-_SPOTS_TRIED, _TIMES = 12, 4
-"""How many free spots are tried together, and how often, where none of them is in reach."""
+"""A thing is grasped only if the camera saw at least this many points of it."""
 _FOLDED_WITHIN = 0.05
-"""Farther than this from the folded pose (any joint but the last), the arm is out."""
+"""The arm is folded if all joints but the last are this near to the folded pose (m, radians)."""
 _ALIKE = np.radians(30.0)
-"""Grasps whose hands are turned by less are the same approach."""
-_UPRIGHT = 0.99
-"""Cosine of the tilt up to which a hand points down."""
-_DOWN = np.array([0.0, 0.0, -1.0])
-_NOTHING: Floats = np.empty((0, 3))
+"""Grasps are alike if the hand is turned by less than this between them."""
 T = TypeVar("T")
 _CARRY_TURNS = (FOLDED[7] + np.pi / 2, FOLDED[7] - np.pi / 2)
 """Values of the last joint that put the long side of a held thing across the robot (radians)."""
 
 
 class Manipulator:
-    """The arm's skills."""
+    """The skills of arm and hand: pick, put down and stow.
+
+    Attributes:
+        hand: what is in the hand.
+    """
 
     def __init__(
         self,
@@ -82,16 +66,18 @@ class Manipulator:
     ) -> None:
         """Use these parts; `scan` gives the points (n, 3) in `map` that the depth camera sees.
 
-        The planning world is used by what is computed, only: never by two threads at once.
+        Only what the `thinker` computes may use the planning world: so no two threads ever do.
         """
         self._hardware = hardware
         self._planning = planning
         self._home = home
         self._models = models
         self._around = Surroundings(hardware, planning, home, scan)
+        self._chooser = Chooser(planning, self._around)
         self._thinker = thinker
         self.hand = Hand(hardware)
         self._missed: list[tuple[str, Rotation]] = []
+        """Names of things that were missed since the last success, and how the hand was turned."""
 
     @property
     def handling(self) -> bool:
@@ -106,10 +92,10 @@ class Manipulator:
     def pick(self, detection: Detection) -> Skill:
         """Grasp the detected thing, lift it, and fold the arm.
 
-        If it is in the hand already, since the arm could not be folded with it, only that is left.
+        If it is already in the hand because the arm could not be folded, only fold the arm.
 
         Raises:
-            CannotError: if it is unknown, not well seen, out of reach, or slips.
+            CannotError: if the thing is unknown, not well seen or out of reach, or slips.
         """
         self.hand.settle()
         held = self.hand.held
@@ -127,7 +113,7 @@ class Manipulator:
         eye = np.asarray(self._hardware.link_pose("camera_link").position)
         lies = partial(fit_fallen_pose, model, points, eye, support(piece, points))
         model, pose = yield from self._thinker.compute(lies)
-        grasp, approach = yield from self._choose_grasp(model, pose, points, piece)
+        grasp, approach = yield from self._choose_grasp(Target(model, pose, points), piece)
         yield from self._creep(approach.stance)
         tare = yield from self.hand.weigh()
         failure = yield from attempt(self._grasp(model, pose, grasp, approach))
@@ -139,7 +125,7 @@ class Manipulator:
         self._missed.clear()
 
     def put_down(self, place: str) -> Skill:
-        """Put the held thing on a free spot of a piece of furniture, near the front if it can.
+        """Put the held thing on a free spot of a piece of furniture, near the front if possible.
 
         Raises:
             CannotError: if nothing is held, or there is no free spot within reach.
@@ -162,10 +148,10 @@ class Manipulator:
         yield from self._check_stands(held.model, target, piece)
 
     def stow(self) -> Skill:
-        """Bring the arm back over the base: rise, back off, fold.
+        """Bring the arm back over the base: raise the hand, back off, fold the arm.
 
         Raises:
-            CannotError: if the arm would touch something; it stays out.
+            CannotError: if the arm would touch something; it stays stretched out.
         """
         if self._is_folded:
             return
@@ -215,47 +201,13 @@ class Manipulator:
         yield from look_at(self._hardware, vector3(point))
 
     def _choose_grasp(
-        self, model: ObjectModel, pose: Pose, points: Floats, piece: Furniture | None
+        self, target: Target, piece: Furniture | None
     ) -> Generator[None, None, tuple[Grasp, Approach]]:
-        """A grasp, and how to get to it. Approaches that missed before come last."""
-        seen = self._around.scan() if piece else _NOTHING
-        here = self._hardware.base_pose
-        chosen = partial(self._best_grasp, model, pose, points, piece, seen, here)
-        return (yield from self._planned(chosen))
-
-    def _best_grasp(
-        self,
-        model: ObjectModel,
-        pose: Pose,
-        points: Floats,
-        piece: Furniture | None,
-        seen: Floats,
-        here: Floats,
-    ) -> tuple[Grasp, Approach]:
-        target = np.concatenate((points, _surface(model, pose)))
-        self._around.mind_clutter(piece, target, seen)
-        stances = list(self._around.stances(piece, np.asarray(pose.position), here))
-
-        @cache
-        def grasps(facing: float, tilt: float) -> list[Grasp]:
-            found = find_grasps(model, pose, facing, tilt)
-            new_first = sorted(found, key=lambda grasp: self._has_missed(model, grasp))
-            return varied(new_first, _GRASPS_TRIED)
-
-        def options(good: bool) -> Iterator[tuple[Grasp, Approach]]:
-            for tilt, stance in product(TILTS, stances):
-                some = [g for g in grasps(float(stance[-1][2]), tilt) if (g.cost < _GOOD) == good]
-                for grasp, length in product(some, APPROACH_M):
-                    yield grasp, Approach(stance, grasp.hands, length * grasp.hand.approach)
-
-        for good in (True, False):
-            chosen = choose_approach(self._planning, FOLDED, partial(options, good))
-            if chosen:
-                return chosen
-        if stances and not any(grasps(float(stances[0][-1][2]), tilt) for tilt in TILTS):
-            wide = ": it is wider than my hand opens" if min(model.size[:2]) > WIDEST else ""
-            raise CannotError(f"I cannot grasp the {model.name} as it lies{wide}")
-        raise CannotError(f"I cannot reach the {model.name}")
+        """Look around, then choose a grasp and an approach to it."""
+        view = View(self._around.scan() if piece else NO_POINTS, self._hardware.base_pose)
+        has_missed = partial(self._has_missed, target.model)
+        grasp = partial(self._chooser.grasp, target, piece, view, has_missed)
+        return (yield from self._planned(grasp))
 
     def _grasp(self, model: ObjectModel, pose: Pose, grasp: Grasp, approach: Approach) -> Skill:
         hardware, name = self._hardware, model.name
@@ -273,7 +225,7 @@ class Manipulator:
             raise CannotError(f"I could not get hold of the {name}")
 
     def _check_lifted(self, model: ObjectModel, tare: float) -> Skill:
-        """See whether the thing is in the hand: felt by the fingers, and by its weight."""
+        """Check that the thing is in the hand: by touch, and by its weight."""
         if self.hand.holding:
             weight = (yield from self.hand.weigh()) - tare
             if self.hand.is_lifted(model, weight):
@@ -288,51 +240,20 @@ class Manipulator:
     def _choose_spot(
         self, held: Held, piece: Furniture
     ) -> Generator[None, None, tuple[Pose, Approach]]:
-        """Look, then choose where to put the thing, and how to get there."""
-        carrying, any_free = self._hardware.arm_positions, False
+        """Look at each surface of the furniture until there is a spot, and an approach to it."""
+        arm, any_free = self._hardware.arm_positions, False
         for surface, middle in zip(
             piece.surfaces(), self._home.view_targets(piece.name), strict=True
         ):
             yield from look_at(self._hardware, middle)
-            seen, here = self._around.scan(), self._hardware.base_pose
-            found = partial(self._best_spot, held, piece, surface, carrying, seen, here)
-            chosen, is_free = yield from self._planned(found)
+            view = View(self._around.scan(), self._hardware.base_pose)
+            spot = partial(self._chooser.spot, held, piece, surface, view, arm)
+            chosen, is_free = yield from self._planned(spot)
             any_free = any_free or is_free
             if chosen:
                 return chosen
         clause = "I cannot reach a free spot on" if any_free else "I see no free spot on"
         raise CannotError(f"{clause} the {piece.name}")
-
-    def _best_spot(
-        self,
-        held: Held,
-        piece: Furniture,
-        surface: Surface,
-        carrying: Floats,
-        seen: Floats,
-        here: Floats,
-    ) -> tuple[tuple[Pose, Approach] | None, bool]:
-        """A spot on a surface and how to get there, if there is one; and whether any is free."""
-        self._around.mind_clutter(piece, _NOTHING, seen)
-        free = free_spots(piece, surface, held.model, seen, held.turn)
-        any_free = False
-        for _ in range(_TIMES):
-            spots = list(islice(free, _SPOTS_TRIED))
-            any_free = any_free or bool(spots)
-            ways = partial(self._ways_to_spots, held, piece, spots, here)
-            chosen = choose_approach(self._planning, carrying, ways)
-            if chosen or len(spots) < _SPOTS_TRIED:
-                return chosen, any_free
-        return None, any_free
-
-    def _ways_to_spots(
-        self, held: Held, piece: Furniture, spots: list[Pose], here: Floats
-    ) -> Iterator[tuple[Pose, Approach]]:
-        for spot in spots:
-            hand = held.hand_for(spot)
-            stances = self._around.stances(piece, np.asarray(spot.position), here)
-            for stance, way in product(stances, _ways_to_put(hand)):
-                yield spot, Approach(stance, (hand,), way)
 
     def _release(self, approach: Approach, gap: float) -> Skill:
         hardware = self._hardware
@@ -347,7 +268,7 @@ class Manipulator:
         yield from follow(hardware, reach.way_back, SLOW)
 
     def _check_stands(self, model: ObjectModel, spot: Pose, piece: Furniture) -> Skill:
-        """Look whether what was put down stands where it was put."""
+        """Look at the spot, and check that the thing stands there."""
         yield from look_at(self._hardware, spot.position)
         height = spot.position[2]
         board = min(piece.surfaces(), key=lambda surface: abs(surface.center[2] - height))
@@ -358,7 +279,7 @@ class Manipulator:
     # --- helpers ---
 
     def _planned(self, work: Callable[[], T]) -> Generator[None, None, T]:
-        """Have something planned, with what is in the hand."""
+        """Have the thinker plan something, with the held thing in the hand."""
         held = self.hand.held
 
         def plan() -> T:
@@ -371,17 +292,21 @@ class Manipulator:
         return (yield from self._thinker.compute(plan))
 
     def _way_up(self, base: Floats, arm: Floats) -> list[Floats] | None:
-        """Joints that raise the hand as far as there is room: what it reached for is in it now."""
-        self._planning.forget_target()
+        """Joints that raise the hand, as far as there is room; None if it cannot go up."""
+        self._planning.forget_target()  # which is in the hand now
         hand = self._planning.hand(base, arm)
         for rise in RISES_M:
-            up = self._planning.line(base, arm, hand.shifted(-rise * _DOWN))
+            up = self._planning.line(base, arm, hand.shifted(-rise * DOWN))
             if up and self._planning.is_last_part_free(base, up[1:]):
                 return up[1:]
         return None
 
     def _reach(self, approach: Approach, otherwise: str) -> Generator[None, None, Reach]:
-        """The motion by an approach from where the robot stands now."""
+        """Plan the reach of an approach, from where the robot stands now.
+
+        Raises:
+            CannotError: with the message `otherwise`, if there is no way.
+        """
         here = replace(approach, stance=[self._hardware.base_pose])
         plan = partial(plan_reach, self._planning, self._hardware.arm_positions, here)
         reach = yield from self._planned(plan)
@@ -395,21 +320,8 @@ class Manipulator:
             yield from drive(self._hardware, [(x, y)], yaw, CREEPING)
 
     def _has_missed(self, model: ObjectModel, grasp: Grasp) -> bool:
-        """Whether the thing was missed with the hand turned like this."""
+        """Whether a grasp like this one has missed the thing."""
         return any(
             name == model.name and (rotation.inv() * grasp.hand.rotation).magnitude() < _ALIKE
             for name, rotation in self._missed
         )
-
-
-def _surface(model: ObjectModel, pose: Pose) -> Floats:
-    """Points (n, 3) all over a thing at `pose` in `map`: more of it is there than was seen."""
-    points, _ = sample_surface(model.shapes)
-    surface: Floats = Rotation.from_quat(pose.orientation).apply(points[::5]) + pose.position
-    return surface
-
-
-def _ways_to_put(hand: HandPose) -> list[Floats]:
-    """Last straight ways of the hand with a thing: from above, or the way a tilted hand points."""
-    directions = [_DOWN] if hand.approach @ _DOWN > _UPRIGHT else [hand.approach, _DOWN]
-    return [length * direction for direction, length in product(directions, APPROACH_M)]

@@ -12,6 +12,8 @@ from sim.home.furniture import Furniture
 from sim.manipulation.grasps import HandPose
 from sim.manipulation.planning import CHECKED, PlanningWorld
 
+APPROACH_M = (0.12, 0.05, 0.025)
+"""Lengths of the last straight part of a reach, in order of preference."""
 NEAREST_M = 0.40
 """From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
 BACK_OFF_M = 0.24

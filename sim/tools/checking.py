@@ -15,9 +15,14 @@ from sim.home.home import Home
 from sim.home.home_file import inspect_home
 from sim.home.validation import Flaw
 from sim.manipulation.grasps import TILTS, Grasp, find_grasps
-from sim.manipulation.manipulator import APPROACH_M
 from sim.manipulation.planning import PlanningWorld
-from sim.manipulation.reaching import Approach, choose_approach, plan_stance, standing_poses
+from sim.manipulation.reaching import (
+    APPROACH_M,
+    Approach,
+    choose_approach,
+    plan_stance,
+    standing_poses,
+)
 from sim.navigation.grid import FOOTPRINT_M, OccupancyGrid, Unreachable, reachable
 from sim.objects.objects import ObjectModel, why_not_taken
 

@@ -111,7 +111,7 @@ def test_every_way_to_a_spot_brings_the_thing_there_as_it_shall_stand(kitchen: K
     spots = list(free_spots(piece, piece.surfaces()[0], held.model, np.empty((0, 3))))[:3]
     ends = [
         (spot, hand.position + hand.rotation.apply(held.position), hand.rotation * held.rotation)
-        for spot, approach in manipulator._ways_to_spots(held, piece, spots, here)
+        for spot, approach in manipulator._chooser.ways_to_spots(held, piece, spots, here)
         for hand in approach.hands
     ]
     assert len(ends) > len(spots)

@@ -25,7 +25,7 @@ class Bring(Deed):
     did = "brought"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """It may be on the delivery table already."""
+        """Report that it is on the delivery table already; else bring it."""
         situation = context.situation
         yield sequence(
             "is there already",
@@ -47,23 +47,23 @@ class Bring(Deed):
 
 
 class ThereIndeed(Step):
-    """Succeeds if it was put down on the delivery table; else says where it is, and why.
+    """Succeeds if the thing was put down on the delivery table; else says where it is, and why.
 
     Reads hand.put_at and hand.unplaced.
     """
 
     def update(self) -> Status:
-        """What stands elsewhere was not brought."""
+        """Fail if it stands elsewhere: then it was not brought."""
         hand, say = self.situation.hand, self.context.say
         if hand.put_at == DELIVERY:
             return self.succeed()
-        name, why = self.situation.request.object or "", hand.unplaced.get(DELIVERY, "")
+        name, why = self.situation.request.thing, hand.unplaced.get(DELIVERY, "")
         there = f"I could not put {say.it(name)} {say.at(DELIVERY)}"
         return self.fail(f"I put {say.the(name)} {say.at(hand.put_at)}; {there}: {why}")
 
 
 def say_where(context: MissionContext) -> Behaviour:
-    """Tell that it is here, and where it was."""
+    """Report that the thing is here, and where it was."""
     return fallback(
         "say so",
         sequence(
@@ -76,7 +76,7 @@ def say_where(context: MissionContext) -> Behaviour:
 
 
 def deliver(context: MissionContext) -> Behaviour:
-    """Carry it and put it down; what falls on the way, or falls over there, is picked up once."""
+    """Carry the thing and put it down; if it falls on the way or there, pick it up once."""
     return sequence(
         "deliver",
         fallback(

@@ -1,4 +1,4 @@
-"""Clear furniture: see what is on it, and put each thing where it belongs, or where one says."""
+"""Clear furniture: see what is on it, and put each thing where it belongs, or where it was said."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -28,7 +28,7 @@ class Clear(Deed):
     did = "cleared away"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Each thing that is seen there becomes a task of its own."""
+        """See what is there, and make a task of each thing."""
         yield sequence(
             "clear",
             asked_to(context, self.kind),
@@ -49,14 +49,13 @@ class Clear(Deed):
         )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
-        """What was on it is somewhere else: the truth of its parts says so."""
+        """Always: whether each thing was put away is checked for the parts."""
         return True
 
 
 def which_to_clear(context: MissionContext) -> tuple[str, ...]:
-    """The places that the words may mean, if one is meant and they leave open which."""
-    command = context.situation.request.command
-    assert command
+    """The places that the words may mean, if they mean one and it is not clear which."""
+    command = context.situation.request.asked_for
     one = not is_plural(command.source) and may_be_several(context, command.source)
     return places_in(context, command.source) if one else ()
 
@@ -68,40 +67,37 @@ class AskWhichToClear(Ask):
     """
 
     def question(self) -> Question:
-        """Offer them."""
+        """Offer the places."""
         options = which_to_clear(self.context)
         said = self.context.as_said(self._words())
         text = f"Which {said} do you mean: {self.context.say.any_of(options)}?"
         return Question(QuestionKind.WHERE_TO_GO, "", text, options)
 
     def understood(self, answer: str) -> bool:
-        """Any of those that were offered."""
+        """Take any of the places that were offered."""
         request = self.situation.request
         chosen = chosen_of(self.context, answer, which_to_clear(self.context))
-        assert request.command
         if chosen:
-            request.command = replace(request.command, source=" or ".join(chosen))
+            request.command = replace(request.asked_for, source=" or ".join(chosen))
         return bool(chosen)
 
     def unresolved(self) -> str:
-        """It is not known which."""
+        """It may be any of the places."""
         return may_be(self.context, self._words(), which_to_clear(self.context))
 
     def _words(self) -> str:
-        assert self.situation.request.command
-        return self.situation.request.command.source
+        return self.situation.request.asked_for.source
 
 
 class PutEachAway(Step):
-    """Succeeds if there are things; each is to be put where it usually is, but not here.
+    """Succeeds if there are things; a task is made to put each where it usually is.
 
     Reads request.command and survey.seen; writes agenda.wholes and agenda.tasks.
     """
 
     def update(self) -> Status:
-        """What has no other place goes to one that serves for all such things, which is told."""
-        command, found = self.situation.request.command, self.situation.survey.found
-        assert command
+        """Make the tasks; things without a usual place all go to one spare place."""
+        command, found = self.situation.request.asked_for, self.situation.survey.found
         if not found:
             return self.fail(nothing_there(self.context))
         parts = []
@@ -117,12 +113,15 @@ class PutEachAway(Step):
         return self.succeed(", ".join(found))
 
     def _usual(self, name: str) -> list[str]:
-        """Where a thing usually is, but for what is to be cleared."""
+        """The usual places of a thing, without the furniture that is being cleared."""
         seen = self.situation.survey.seen
         return [p for p in self.context.knowledge.usual_places(name) if p not in seen]
 
     def _spare(self, names: Sequence[str]) -> str:
-        """Where things that belong nowhere go: in the same room if possible; empty if nowhere."""
+        """Choose a place for things that belong nowhere, and tell it; empty if there is none.
+
+        It is in the same room if possible.
+        """
         say, seen = self.context.say, self.situation.survey.seen
         rooms = {place.name: place.room for place in self.context.knowledge.places()}
         here = {rooms.get(place) for place in seen}
@@ -138,7 +137,7 @@ class PutEachAway(Step):
 
 
 class NothingThere(Step):
-    """Succeeds if it is clear already, surely.
+    """Succeeds if the furniture is clear already, and all of it was seen.
 
     Reads survey.seen and search.looks; writes ending.reason.
     """

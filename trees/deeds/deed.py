@@ -1,4 +1,4 @@
-"""What there is to know of a verb: a template for one's own, in `docs/examples/own_verb.md`."""
+"""What defines a verb; `docs/examples/own_verb.md` is a template for one of your own."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
@@ -14,36 +14,36 @@ from trees.nodes import Check, Step
 
 
 class Deed(ABC):
-    """How the robot does what a verb asks for. It holds nothing: one serves all missions."""
+    """How the robot does what a verb asks for. It has no state, so that all missions share it."""
 
     kind: CommandKind
     did: str = "did"
-    """As it is told when it was done to several things: "I brought two of three"."""
+    """The verb's past tense, to tell how many things it was done to: "I brought two of three"."""
 
     @abstractmethod
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
         """The subtrees that do it, the best first; each begins with `asked_to`.
 
-        The thing was found by then, if the verb searches (`situation.search.found`; None if it was
-        in the hand all along), and is in the hand, if the verb grasps. One that succeeds has said
-        so; if the verb does not search, it ends with `Conclude`, too.
+        If the verb searches, the thing was found by then (`situation.search.found`; None if it was
+        already in the hand). If the verb grasps, it is in the hand. A subtree that succeeds must
+        have told the person so; if the verb does not search, it must end with `Conclude`, too.
         """
 
     @abstractmethod
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
-        """Whether it was done, where the robot says so: for campaigns, which know the truth.
+        """Whether the deed was really done, if the robot says so: for campaigns.
 
         Args:
             outcome: what the robot says.
-            whereabouts: the furniture that the thing is on in the end, `HAND`, or nothing.
+            whereabouts: where the thing really is in the end: furniture, `HAND`, or empty.
         """
 
     def is_true_of(self, outcome: Outcome | TaskOutcome, where: Callable[[str], str]) -> bool:
-        """The same, for deeds about more than one thing: `where` tells the `whereabouts` of any."""
+        """The same for deeds about several things; `where` tells the `whereabouts` of any thing."""
         return self.is_true(outcome, where(outcome.object or ""))
 
     def how_far(self, context: MissionContext, why: str) -> str:
-        """What came of it although not all was done, which `why` tells; as a clause, too."""
+        """What was done or found out although not all was done, as a clause; `why` says why not."""
         return why
 
 
@@ -51,7 +51,7 @@ class Conclude(Step):
     """Marks the mission as done."""
 
     def update(self) -> Status:
-        """Done."""
+        """Set the status."""
         self.situation.ending.status = MissionStatus.DONE
         return Status.SUCCESS
 
@@ -62,11 +62,10 @@ def asked_to(context: MissionContext, kind: CommandKind) -> Check:
 
 
 def found_at_a_place(context: MissionContext) -> Check:
-    """Whether it was found, and not in the hand all along."""
+    """Whether the thing was found at a place, and was not already in the hand."""
     return Check("found at a place", context, lambda: context.situation.search.found is not None)
 
 
 def meaning(situation: Situation) -> Meaning:
-    """What the verb means that was asked for."""
-    assert situation.request.command
-    return situation.request.command.kind.means
+    """The meaning of the command's verb."""
+    return situation.request.asked_for.kind.means

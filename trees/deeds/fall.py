@@ -1,4 +1,4 @@
-"""What falls from the hand on the way: picked up again if it can be, else told."""
+"""A thing that falls from the hand: the robot picks it up again, or tells that it cannot."""
 
 from collections.abc import Iterator
 
@@ -12,7 +12,10 @@ from trees.nodes import Check, FirstOf, Step, sequence
 
 
 def pick_up_again(context: MissionContext, *spots: str, at_goal: bool = False) -> Behaviour:
-    """Look for what fell from the hand at these spots, `at_goal` first there, and pick it up."""
+    """Look for the fallen thing at these spots, and pick it up.
+
+    With `at_goal`, the robot looks first at the goal of the command.
+    """
     situation = context.situation
 
     def views() -> Iterator[tuple[str, int]]:
@@ -36,10 +39,10 @@ def pick_up_again(context: MissionContext, *spots: str, at_goal: bool = False) -
 
 
 class SayItFell(Step):
-    """Says why it was not brought, and whether it fell or is still in the hand; always fails."""
+    """Says why the thing was not brought, and whether it fell or is in the hand; always fails."""
 
     def update(self) -> Status:
-        """Put the clauses together, if there are two."""
+        """Join the clauses, if there are two."""
         held, lost, why = (
             self.situation.hand.in_hand,
             self.situation.hand.lost,
@@ -49,7 +52,5 @@ class SayItFell(Step):
             return self.fail(f"{lost}, and {why}")
         if held:
             return self.fail(f"{why}; I still hold {self.context.say.the(held)}")
-        gone = (
-            f"{self.context.say.are(self.situation.request.object or '')} not in my hand any more"
-        )
+        gone = f"{self.context.say.are(self.situation.request.thing)} not in my hand any more"
         return self.fail(why if lost else f"{why}; {gone}")

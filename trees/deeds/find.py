@@ -21,7 +21,7 @@ class Find(Deed):
     did = "found"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Come back with the news, unless there is more to do: then it is told on the way."""
+        """Come back and report; with more to do, report at once and go on."""
         agenda = context.situation.agenda
         yield sequence(
             "find on the way",
@@ -39,15 +39,15 @@ class Find(Deed):
         )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
-        """The robot went to the furniture that it names, and the thing is there; or it holds it."""
+        """The thing is in the hand; or on the furniture that was named, and the robot was there."""
         if outcome.location is None:
             return whereabouts == HAND
         return whereabouts == outcome.location and whereabouts in outcome.visited
 
     def how_far(self, context: MissionContext, why: str) -> str:
-        """Who asks where a thing is wants to know it, even if the robot cannot come back."""
+        """Say where the thing is, also if the robot could not come back."""
         found, say = context.situation.search.found, context.say
         if not found:
             return why
-        where = f"{say.are(context.situation.request.object or '')} {say.at_in_full(found.place)}"
+        where = f"{say.are(context.situation.request.thing)} {say.at_in_full(found.place)}"
         return f"{where}, but {why}"

@@ -1,4 +1,4 @@
-"""Put a thing where the person says: on that furniture, or in that room; nowhere else is done."""
+"""Put a thing where the person says: on that furniture or in that room; nowhere else counts."""
 
 from collections.abc import Iterable, Iterator
 
@@ -28,7 +28,7 @@ class Put(Deed):
     report = "I put {the_object} {put}."
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """It may be there already."""
+        """Report that it is there already; else put it there."""
         situation = context.situation
 
         def is_there() -> bool:
@@ -55,9 +55,10 @@ class Put(Deed):
 
 
 def put_at_goal(context: MissionContext) -> Behaviour:
-    """A full hand -> `situation.hand.put_at`, one of the goals; else fails, and says what it did.
+    """Put the held thing down at one of the goals; writes hand.put_at.
 
-    If no goal has room, the person may name another place; it is put there, but that is not done.
+    If no goal has room, the person may name another place. The thing is put there, and it still
+    fails, because that is not what was asked for.
     """
     situation = context.situation
 
@@ -87,7 +88,7 @@ def put_at_goal(context: MissionContext) -> Behaviour:
 
 
 def carry(context: MissionContext) -> Behaviour:
-    """Take it to the goal at hand and put it down; what falls is picked up once."""
+    """Take the thing to the chosen goal and put it down; if it falls, pick it up once."""
     hand = context.situation.hand
 
     def again(step: Behaviour, *, at_goal: bool) -> Behaviour:
@@ -115,26 +116,26 @@ def carry(context: MissionContext) -> Behaviour:
 
 
 class PutElsewhere(Step):
-    """Says that it was put down where the person said then; always fails, since it is not there.
+    """Says that the thing is where the person said instead; always fails: that is not the goal.
 
     Writes hand.elsewhere.
     """
 
     def update(self) -> Status:
-        """That was not what was asked for."""
+        """Note the other place, and say so."""
         hand, say = self.situation.hand, self.context.say
         hand.elsewhere = hand.put_at
-        it = say.it(self.situation.request.object or "")
+        it = say.it(self.situation.request.thing)
         return self.fail(f"I put {it} {say.at(hand.put_at)}")
 
 
 class NotAtGoal(Step):
-    """Says why it is not where it was to go, and where it is now; always fails."""
+    """Says why the thing is not at its goal, and where it is now; always fails."""
 
     def update(self) -> Status:
-        """Put the clauses together."""
+        """Join the clauses."""
         hand, say = self.situation.hand, self.context.say
-        name, why = self.situation.request.object or "", why_not(self.context) or self.why_before()
+        name, why = self.situation.request.thing, why_not(self.context) or self.why_before()
         if hand.elsewhere:
             instead = f"I put {say.it(name)} {say.at(hand.elsewhere)} instead, as you said"
             return self.fail(f"{why}; {instead}")
@@ -148,9 +149,9 @@ class NotAtGoal(Step):
 
 
 def why_not(context: MissionContext) -> str:
-    """Where it could not be put of all the places that were tried, and why; empty if nowhere."""
+    """Where the thing could not be put, and why, as a clause; empty if no place was tried."""
     situation, say = context.situation, context.say
-    it = say.it(situation.request.object or "")
+    it = say.it(situation.request.thing)
     tried = [
         why if say.the(place) in why else f"I could not put {it} {say.at(place)}: {why}"
         for place, why in situation.hand.unplaced.items()

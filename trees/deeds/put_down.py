@@ -1,4 +1,4 @@
-"""Put down what is in the hand: where the robot was just sent, by the person, or where they say."""
+"""Put down what is in the hand: where the robot was sent, near the person, or where they say."""
 
 from collections.abc import Iterable, Iterator
 
@@ -17,7 +17,7 @@ from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut, Report
 
 NEAR = 3
-"""How many pieces of furniture by the person are tried before they are asked."""
+"""How many pieces of furniture near the person are tried before the person is asked."""
 
 
 class PutDown(Deed):
@@ -26,7 +26,7 @@ class PutDown(Deed):
     kind = CommandKind.PUT_DOWN
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Nothing is searched for this."""
+        """Empty the hand; nothing needs to be searched."""
         yield sequence(
             "put down",
             asked_to(context, self.kind),
@@ -40,7 +40,7 @@ class PutDown(Deed):
 
 
 def empty_hand(context: MissionContext) -> Behaviour:
-    """Put down what is in the hand, because the person says so: where they sent it, or by them."""
+    """Put down what is in the hand as the person asks: where they sent the robot, or near them."""
     situation = context.situation
 
     def sent_to() -> Iterator[str]:
@@ -64,7 +64,7 @@ def empty_hand(context: MissionContext) -> Behaviour:
 
 
 def was_sent_here(context: MissionContext) -> bool:
-    """Whether the robot is at furniture to which it was just sent, in this mission or before it."""
+    """Whether the robot is at furniture where the last task or command sent it."""
     situation, at = context.situation, context.situation.dialogue.at
     before = situation.dialogue.spoken
     if last := situation.agenda.ended[-1:]:
@@ -78,7 +78,10 @@ def was_sent_here(context: MissionContext) -> bool:
 
 
 def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behaviour:
-    """A full hand -> `situation.hand.put_at`: the places of `first`, near ones, those asked for."""
+    """Put the held thing down; writes hand.put_at.
+
+    The robot tries the places `first`, then those near the person, then it asks.
+    """
     situation = context.situation
 
     def near() -> Iterator[str]:
@@ -107,7 +110,7 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
 
 
 def go_and_put(context: MissionContext, *before: Behaviour) -> Behaviour:
-    """Take it to the surface at hand, and put it down there; `before` may choose another one."""
+    """Take the thing to the furniture hand.surface and put it down; `before` may change that."""
     return sequence(
         "go and put",
         Check("still in my hand", context, lambda: context.situation.hand.in_hand is not None),
@@ -121,7 +124,7 @@ class NotPutDown(Step):
     """Says where there was no room, and why the person could not help; always fails."""
 
     def update(self) -> Status:
-        """What is in the hand no more has its own reason."""
+        """Say where; if the hand is empty, give the reason of what was tried before."""
         tried, silence = (
             self.situation.hand.not_put_down(self.context.say),
             self.situation.dialogue.no_help,
@@ -132,12 +135,14 @@ class NotPutDown(Step):
 
 
 class HoldsWhatIsMeant(Step):
-    """Succeeds if what is to be put down is in the hand."""
+    """Succeeds if the thing that is to be put down is in the hand.
+
+    Reads hand.in_hand and request.command; writes request.object.
+    """
 
     def update(self) -> Status:
-        """Nobody need say the name of what is held; if they do, it has to be that."""
-        assert self.situation.request.command
-        held, target = self.situation.hand.in_hand, self.situation.request.command.target
+        """Take what is in the hand; if the words name a thing, it must be that one."""
+        held, target = self.situation.hand.in_hand, self.situation.request.asked_for.target
         if held is None:
             return self.fail("my hand is empty")
         named = self.context.knowledge.objects_named(target)
@@ -149,10 +154,10 @@ class HoldsWhatIsMeant(Step):
 
 
 class StillHolds(Step):
-    """Says why the hand is not empty, and that it is not; always fails."""
+    """Says why the thing was not put down, and whether it is still in the hand; always fails."""
 
     def update(self) -> Status:
-        """What fell is no longer held; nor is what was let go of before it went wrong."""
+        """Join the clauses; a thing that fell, or was released, is not in the hand any more."""
         held, why = self.situation.hand.in_hand, self.why_before()
         if held:
             return self.fail(f"{why}; I still hold {self.context.say.the(held)}")

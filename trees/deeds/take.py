@@ -20,7 +20,7 @@ class Take(Deed):
     did = "took"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """It is in the hand already."""
+        """Report it; the thing is in the hand by now."""
         yield sequence(
             "take",
             asked_to(context, self.kind),
@@ -34,8 +34,8 @@ class Take(Deed):
         return whereabouts == HAND
 
     def how_far(self, context: MissionContext, why: str) -> str:
-        """It may have fallen since."""
+        """If it has fallen meanwhile, say that it is not in the hand any more."""
         if context.situation.has_it:
             return why
-        name = context.situation.request.object or ""
+        name = context.situation.request.thing
         return f"{context.say.are(name)} not in my hand any more"

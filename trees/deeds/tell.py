@@ -37,8 +37,7 @@ class TellWhatIsThere(Answer):
 
     def answer(self, context: MissionContext) -> tuple[str, str]:
         """Of one thing, it is the biggest and the smallest."""
-        found, command = context.situation.survey.found, context.situation.request.command
-        assert command
+        found, command = context.situation.survey.found, context.situation.request.asked_for
         why_not = not_seen(context)
         if not found:
             return f"{nothing_there(context)}.", why_not
