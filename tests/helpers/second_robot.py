@@ -97,6 +97,8 @@ class SecondRobot(Beside):
         """Fields of a topic's messages that are told otherwise."""
         self.shut: int | None = None
         """Nobody is let in: what is answered, in HTTP's numbers."""
+        self.sends_to = ""
+        """Who comes is sent on to this address."""
         self.headers: list[dict[str, str]] = []
         self._clients: dict[ServerConnection, dict[str, Subscribe]] = {}
         self._under_way: dict[str, tuple[ServerConnection, SendActionGoal]] = {}
@@ -144,6 +146,10 @@ class SecondRobot(Beside):
             life.cancel()
 
     def _let_in(self, client: ServerConnection, _: Request) -> Response | None:
+        if self.sends_to:
+            away = client.respond(307, "over there")
+            away.headers["Location"] = self.sends_to
+            return away
         return client.respond(self.shut, "not now") if self.shut else None
 
     async def _talk(self, client: ServerConnection) -> None:
