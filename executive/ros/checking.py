@@ -11,11 +11,11 @@ from executive.ros.moveit import SEMANTICS, SEMANTICS_TYPE, planning_groups
 from executive.ros.offers import Offers, likely, same_type
 from executive.ros.profile import COMPRESSED, IMAGE, PATH_TYPE, Profile
 from executive.ros.protocol import Message
+from executive.ros.rosapi import RIGHT
 from executive.ros.senses import Senses
 
 LOOKS = 3
 """What is missing is looked for so often: ROS discovers a graph bit by bit."""
-ROSAPI = "start rosapi: `ros2 launch rosbridge_server rosbridge_websocket_launch.xml` does"
 HEARING_S = 3.0
 """So long a robot may take to say where it is, and whether it rests."""
 
@@ -39,7 +39,7 @@ async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> li
         try:
             offers = await link.offers()
         except LinkError as error:
-            return [InputError(where, str(error), ROSAPI)]
+            return [InputError(where, str(error), RIGHT)]
         found = [*_topics(offers, profile, where), *_actions(offers, profile, where)]
         if not found:
             unheard = await _heard(profile, senses, where)
