@@ -166,6 +166,10 @@ def _unheard(profile: Profile, senses: Senses, where: str) -> list[InputError]:
     if (hand := profile.hand) and hand.joint and senses.holding is None:
         what = f"hand: nobody tells on {hand.topic} where {hand.joint[:80]} is"
         found.append(InputError(where, what, "name a topic, and a joint that it tells of"))
+    if profile.clock and senses.clock is None:
+        what = f"clock: nobody tells the time on {profile.clock.topic}"
+        right = "see that the simulation runs; without [clock] real time counts"
+        found.append(InputError(where, what, right))
     frames = profile.frames
     needed = [frames.base, frames.camera] if profile.camera.in_map else []
     needed += [profile.arm.tip] if profile.arm else []

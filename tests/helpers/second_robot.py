@@ -85,6 +85,8 @@ class SecondRobot(Beside):
         self.graspable = ""
         self.deaf: set[str] = set()
         """Actions that never answer a goal."""
+        self.endless: set[str] = set()
+        """Actions that give feedback of a goal, and never come to its end."""
         self.stubborn: set[str] = set()
         """Actions that do not cancel."""
         self.goals: list[tuple[str, dict[str, Any]]] = []
@@ -235,6 +237,8 @@ class SecondRobot(Beside):
         with suppress(ConnectionClosed):
             await client.send(encode(ActionFeedback(action, {"fine": True}, goal.id)))
         match action:
+            case _ if action in self.endless:
+                self.speed = SPEED_M_S
             case "/acme/way":
                 await self._end(action, GoalStatus.SUCCEEDED, **self._way(goal.args["goal"]))
             case "/acme/go":
