@@ -19,6 +19,7 @@ from executive.ros.messages import FRAMES_TYPE
 from executive.ros.offers import Offers
 from executive.ros.profile import load_profile, packaged_profiles, profile_text
 from executive.ros.proposing import frame_topics, listing, printable_lines, proposal
+from executive.ros.rosapi import RIGHT
 from executive.shell import BAD_INPUT, DONE, entry_point
 from executive.usage import Parser
 
@@ -45,7 +46,7 @@ def _look(address: str) -> int:
     try:
         offers, frames = line.wire.run(_seen(line.link))
     except LinkError as error:
-        raise InputError(f"--robot {address}", str(error), "start rosapi on the robot") from None
+        raise InputError(f"--robot {address}", str(error), RIGHT) from None
     finally:
         line.close()
     print(printable_lines(f"# {one}" for one in listing(offers).splitlines()))

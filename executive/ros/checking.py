@@ -11,11 +11,11 @@ from executive.ros.moveit import SEMANTICS, SEMANTICS_TYPE, planning_groups
 from executive.ros.offers import Offers, likely, same_type
 from executive.ros.profile import COMPRESSED, IMAGE, PATH_TYPE, Profile
 from executive.ros.protocol import Message
+from executive.ros.rosapi import RIGHT
 from executive.ros.senses import Senses
 
 LOOKS = 3
 """What is missing is looked for so often: ROS discovers a graph bit by bit."""
-ROSAPI = "start rosapi: `ros2 launch rosbridge_server rosbridge_websocket_launch.xml` does"
 HEARING_S = 3.0
 """So long a robot may take to say where it is, and whether it rests."""
 
@@ -39,7 +39,7 @@ async def faults(link: Link, profile: Profile, senses: Senses, where: str) -> li
         try:
             offers = await link.offers()
         except LinkError as error:
-            return [InputError(where, str(error), ROSAPI)]
+            return [InputError(where, str(error), RIGHT)]
         found = [*_topics(offers, profile, where), *_actions(offers, profile, where)]
         if not found:
             unheard = await _heard(profile, senses, where)
@@ -166,6 +166,10 @@ def _unheard(profile: Profile, senses: Senses, where: str) -> list[InputError]:
     if (hand := profile.hand) and hand.joint and senses.holding is None:
         what = f"hand: nobody tells on {hand.topic} where {hand.joint[:80]} is"
         found.append(InputError(where, what, "name a topic, and a joint that it tells of"))
+    if profile.clock and senses.clock is None:
+        what = f"clock: nobody tells the time on {profile.clock.topic}"
+        right = "see that the simulation runs; without [clock] real time counts"
+        found.append(InputError(where, what, right))
     frames = profile.frames
     needed = [frames.base, frames.camera] if profile.camera.in_map else []
     needed += [profile.arm.tip] if profile.arm else []

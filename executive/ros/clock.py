@@ -8,8 +8,8 @@ from executive.ros.robot import WireRobot
 from executive.ros.senses import Senses
 
 PACE_S = 0.02
-SILENT_S = 1.0
-"""After so long without a word of the robot's clock, real time counts."""
+STANDING_S = 1.0
+"""After so long in which the robot's clock is silent, or stands still, real time counts."""
 
 
 class RobotClock:
@@ -40,7 +40,7 @@ class RobotClock:
     def _look(self) -> None:
         """Count what has passed; what real time has counted already, the robot's does not again."""
         seen, looked = self._senses.elapsed, time.monotonic()
-        if looked - self._senses.clock_heard > SILENT_S:
+        if looked - self._senses.clock_went_on > STANDING_S:
             self._now += looked - self._looked
             self._ahead += looked - self._looked
         elif seen > self._seen:

@@ -50,6 +50,14 @@ MOST_WAITING = 1000
 log = logging.getLogger(__name__)
 
 
+class _Door(connect):
+    """Goes nowhere else than where it was told: what headers hold is meant for that host alone."""
+
+    def process_redirect(self, exc: Exception) -> Exception:
+        """Why it was not let in; a redirect is not followed."""
+        return exc
+
+
 class _Connection(ClientConnection):
     """Knows when anything was heard of the other side.
 
@@ -108,7 +116,7 @@ class Peer:
             failures += 1
 
     def _connected(self) -> connect:
-        return connect(
+        return _Door(
             self._address.url,
             additional_headers=dict(self._address.headers),
             open_timeout=CONNECTING_S,

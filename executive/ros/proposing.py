@@ -1,5 +1,6 @@
 """A profile for a robot that nobody has described yet, guessed from what it offers."""
 
+import re
 from collections.abc import Iterable, Sequence
 from os.path import commonprefix
 
@@ -50,7 +51,7 @@ def proposal(offers: Offers, frames: Iterable[str]) -> str:
     lines += _frames(tuple(frames), offers)
     for section, kinds in ACTIONS.items():
         lines += _action(offers, section, kinds)
-    if not any(offers.actions_of(kind) for kind in ACTIONS["pick"]):
+    if not any(_serving(offers, kind) for kind in ACTIONS["pick"]):
         lines += _arm(offers)
     lines += _camera(offers)
     lines += ["[odometry]", _line("topic", _topics(offers, "nav_msgs/msg/Odometry")), ""]
@@ -96,9 +97,17 @@ def _shared(one: str, other: str) -> int:
     return len(commonprefix([one.split("/")[:-1], other.split("/")[:-1]]))
 
 
+def _serving(offers: Offers, kind: str) -> tuple[str, ...]:
+    """The actions of this type; of those whose type is not told, such as are called like it."""
+    words = re.sub(r"(?<!^)(?=[A-Z])", "_", kind.rpartition("/")[2]).lower()
+    like = re.compile(rf".*/{words}(_\w+)?")
+    called = (name for name, told in offers.actions.items() if not told and like.fullmatch(name))
+    return offers.actions_of(kind) or tuple(called)
+
+
 def _driver(offers: Offers) -> str:
     """The action that drives the robot; what else it has is near that."""
-    return next(iter(_near(offers.actions_of(ACTIONS["drive"][0]), "")), "")
+    return next(iter(_near(_serving(offers, ACTIONS["drive"][0]), "")), "")
 
 
 def _topics(offers: Offers, kind: str) -> tuple[str, ...]:
@@ -121,7 +130,7 @@ def _frames(names: tuple[str, ...], offers: Offers) -> list[str]:
         lines.append(
             f"{key} = {_quoted(name or usual[0])}" + f"  # not told; there are {there}" * (not name)
         )
-    if len(eyes) == 1 and offers.actions_of(POINT_HEAD):  # others go by what pictures say
+    if len(eyes) == 1 and _serving(offers, POINT_HEAD):  # others go by what pictures say
         lines.append(f"camera = {_quoted(eyes[0])}")
     usual_topics = Frames()
     for key, topic in zip(("tf", "tf_static"), frame_topics(offers), strict=True):
@@ -132,14 +141,15 @@ def _frames(names: tuple[str, ...], offers: Offers) -> list[str]:
 
 def _action(offers: Offers, section: str, kinds: Iterable[str]) -> list[str]:
     for kind in kinds:
-        if names := _near(offers.actions_of(kind), _driver(offers)):
+        if names := _near(_serving(offers, kind), _driver(offers)):
             legs = _legs(offers) if section == "drive" else []
-            return [f"[{section}]", _line("action", names), _line("type", (kind,)), *legs, ""]
-    untold = [name for name, kind in offers.actions.items() if not kind]
+            guessed = "" if offers.actions[names[0]] else "  # not told: by its name"
+            typed = _line("type", (kind,)) + guessed
+            return [f"[{section}]", _line("action", names), typed, *legs, ""]
     if section == "drive":
         there = [f"{name} ({kind or 'type not told'})" for name, kind in offers.actions.items()]
         guessed = _line("type", (next(iter(GOALS)),))
-        return ["[drive]", _line("action", untold[:1], there), guessed, ""]
+        return ["[drive]", _line("action", (), there), guessed, ""]
     return []
 
 
@@ -147,7 +157,7 @@ def _legs(offers: Offers) -> list[str]:
     """A link that is lost then means metres, not rooms; by ways of the same robot's."""
     driver = _driver(offers)
     beside = driver.rpartition("/")[0]
-    ways = [name for name in offers.actions_of(PATH_TYPE) if name.rpartition("/")[0] == beside]
+    ways = [name for name in _serving(offers, PATH_TYPE) if name.rpartition("/")[0] == beside]
     return [_line("path", ways), f"leg_m = {LEG_M}"] if ways else []
 
 

@@ -8,13 +8,14 @@ from websockets.exceptions import (
     InvalidHandshake,
     InvalidMessage,
     InvalidStatus,
-    InvalidURI,
 )
 from websockets.frames import Close, CloseCode
+from websockets.http11 import Response
 
 from executive.guards import in_words
 from executive.ros.address import HEADERS
 from executive.ros.packets import MOST_BYTES
+from executive.servers.address import without_secrets
 from executive.text import printable
 
 WHICH = "does it speak TLS? ws:// is without, wss:// with"
@@ -38,11 +39,9 @@ def why_lost(error: Exception) -> str:
         case ConnectionResetError():
             return f"it hangs up at once ({WHICH})"
         case InvalidStatus():
-            return _why_not_let_in(error.response.status_code)
+            return _why_not_let_in(error.response)
         case InvalidMessage():
             return f"what answers there is no websocket ({WHICH})"
-        case InvalidURI():
-            return f"it sends me on to {printable(error.uri)[:80]}, which is no websocket"
         case InvalidHandshake():
             return f"it was not let in: {in_words(error)}"
         case ssl.SSLCertVerificationError():
@@ -55,14 +54,16 @@ def why_lost(error: Exception) -> str:
             return in_words(error)
 
 
-def _why_not_let_in(status: int) -> str:
+def _why_not_let_in(answer: Response) -> str:
     """By what the door says, in the numbers of HTTP."""
-    match status:
-        case 401 | 403:
+    match answer.status_code:
+        case 301 | 302 | 303 | 307 | 308 if there := answer.headers.get_all("Location"):
+            return f"it sends to {printable(without_secrets(there[0]))[:200]}; give that address"
+        case 401 | 403 as status:
             return f"it was not let in (HTTP {status}): what the door asks for goes into {HEADERS}"
-        case 502 | 503 | 504:
+        case 502 | 503 | 504 as status:
             return f"the door is there, but the robot behind it is not (HTTP {status})"
-        case _:
+        case status:
             return f"there is no websocket at this address (HTTP {status})"
 
 

@@ -41,8 +41,8 @@ class Senses:
         """How much of its own time has passed since it was first heard of (s)."""
         self._counted: float | None = None
         """Up to which time that is."""
-        self.clock_heard = 0.0
-        """When that was (real time, s)."""
+        self.clock_went_on = 0.0
+        """When it last told another time than before (real time, s)."""
         self.joints: frozenset[str] = frozenset()
         """The names of all that were told on the topic of the joints."""
         self._link = link
@@ -143,7 +143,9 @@ class Senses:
         self._framed = self._link.losses
 
     def _take_clock(self, message: Message) -> None:
-        self.clock, self.clock_heard = seconds(message["clock"]), time.monotonic()
+        before, self.clock = self.clock, seconds(message["clock"])
+        if self.clock != before:
+            self.clock_went_on = time.monotonic()
         passed = 0.0 if self._counted is None else self.clock - self._counted
         if -BACK_S <= passed < 0.0:
             return  # it came late, behind what was told after it

@@ -85,6 +85,8 @@ class SecondRobot(Beside):
         self.graspable = ""
         self.deaf: set[str] = set()
         """Actions that never answer a goal."""
+        self.endless: set[str] = set()
+        """Actions that give feedback of a goal, and never come to its end."""
         self.stubborn: set[str] = set()
         """Actions that do not cancel."""
         self.goals: list[tuple[str, dict[str, Any]]] = []
@@ -97,6 +99,8 @@ class SecondRobot(Beside):
         """Fields of a topic's messages that are told otherwise."""
         self.shut: int | None = None
         """Nobody is let in: what is answered, in HTTP's numbers."""
+        self.sends_to = ""
+        """Who comes is sent on to this address."""
         self.headers: list[dict[str, str]] = []
         self._clients: dict[ServerConnection, dict[str, Subscribe]] = {}
         self._under_way: dict[str, tuple[ServerConnection, SendActionGoal]] = {}
@@ -144,6 +148,10 @@ class SecondRobot(Beside):
             life.cancel()
 
     def _let_in(self, client: ServerConnection, _: Request) -> Response | None:
+        if self.sends_to:
+            away = client.respond(307, "over there")
+            away.headers["Location"] = self.sends_to
+            return away
         return client.respond(self.shut, "not now") if self.shut else None
 
     async def _talk(self, client: ServerConnection) -> None:
@@ -229,6 +237,8 @@ class SecondRobot(Beside):
         with suppress(ConnectionClosed):
             await client.send(encode(ActionFeedback(action, {"fine": True}, goal.id)))
         match action:
+            case _ if action in self.endless:
+                self.speed = SPEED_M_S
             case "/acme/way":
                 await self._end(action, GoalStatus.SUCCEEDED, **self._way(goal.args["goal"]))
             case "/acme/go":

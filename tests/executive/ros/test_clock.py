@@ -70,7 +70,7 @@ def test_that_it_is_set_is_told(
 def test_time_in_which_the_clock_was_silent_counts_once(
     wire: Any, senses: Senses, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(clock, "SILENT_S", 0.1)
+    monkeypatch.setattr(clock, "STANDING_S", 0.1)
     wire.tell(0.0)
     mission = clock.RobotClock(Inbox(), senses)
     time.sleep(0.2)
@@ -79,6 +79,19 @@ def test_time_in_which_the_clock_was_silent_counts_once(
     wire.tell(50.0)
     mission.wait(0.0)
     assert mission.now() == pytest.approx(50.0)
+
+
+def test_the_time_of_a_clock_that_stands_still_is_real_time(
+    wire: Any, senses: Senses, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(clock, "STANDING_S", 0.1)
+    wire.tell(5.0)
+    mission = clock.RobotClock(Inbox(), senses)
+    for _ in range(4):
+        time.sleep(0.05)
+        wire.tell(5.0)
+    mission.wait(0.0)
+    assert mission.now() > 0.1
 
 
 def test_only_the_time_at_goals_is_measured(wire: Any, senses: Senses) -> None:

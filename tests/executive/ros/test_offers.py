@@ -9,6 +9,7 @@ from executive.ros import peer, reasons
 from executive.ros.__main__ import main
 
 TOPICS = ["/tf"]
+SERVERS = "/rosapi/action_servers"
 
 
 class Babbler(SecondRobot):
@@ -31,7 +32,7 @@ class Babbler(SecondRobot):
         ("/rosapi/topics", {"topics": TOPICS, "types": []}, "tells 1 topics, but 0 types"),
         ("/rosapi/topics", {"topics": TOPICS}, "/rosapi/topics tells None as types"),
         ("/rosapi/services", {"services": {"a": 1}}, "as services"),
-        ("/rosapi/action_servers", {"action_servers": "/go"}, "tells /go as action_servers"),
+        (SERVERS, {"action_servers": "/go"}, "tells /go as action_servers"),
     ],
 )
 def test_look_says_what_is_wrong_with_what_it_was_told(
@@ -42,6 +43,26 @@ def test_look_says_what_is_wrong_with_what_it_was_told(
     said = capsys.readouterr()
     assert why in said.err
     assert not said.out
+
+
+def test_actions_that_rosapi_cannot_list_are_known_by_their_topics(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with Babbler(SERVERS, {}) as robot:
+        assert main(["look", robot.url]) == 0
+    assert "#   /acme/way  nav2_msgs/action/ComputePathToPose\n" in capsys.readouterr().out
+
+
+def test_a_robot_that_tells_of_no_actions_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+    robot = Babbler(SERVERS, {})
+    robot.actions = {}
+    with robot:
+        assert main(["look", robot.url]) == 2
+    said = capsys.readouterr().err
+    assert (
+        "the robot does not tell which action servers it has: /rosapi/action_servers failed" in said
+    )
+    assert "rosapi runs there, of rosbridge 2.0 or later" in said
 
 
 def test_look_says_that_a_message_is_too_large(

@@ -50,6 +50,19 @@ def test_a_mission_over_the_wire_looks_for_the_thing_and_replays(
     assert {action for action, _ in there.goals} == {"/acme/go"}
 
 
+def test_a_goal_that_never_ends_is_given_up_whatever_is_heard_of_it(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    there.endless.add("/acme/go")
+    hasty = tmp_path / "hasty.toml"
+    hasty.write_text("action_timeout_s = 1.0\n")
+    robot = ("--robot", there.url, "--profile", str(PROFILE), "--config", str(hasty))
+    assert run(*robot, "Go to the desk") == 1
+    assert "I could not get to the desk: it took longer than 1 s" in capsys.readouterr().out
+    assert not there.busy
+    assert not there.speed
+
+
 def test_a_robot_without_an_arm_declines_at_once_to_bring(
     there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
@@ -107,6 +120,16 @@ def test_what_is_of_another_type_is_not_proposed(
     assert look(["check", there.url, "--profile", str(file)]) == 2
     said = capsys.readouterr().err
     assert "drive: the robot has no action /acme/goo; it has nothing of this type" in said
+
+
+def test_a_clock_that_tells_no_time_is_refused(
+    there: SecondRobot, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    there.topics = TOPICS | {"/acme/clock": "rosgraph_msgs/msg/Clock"}
+    file = tmp_path / "clock.toml"
+    file.write_text(f'{PROFILE.read_text()}\n[clock]\ntopic = "/acme/clock"\n')
+    assert look(["check", there.url, "--profile", str(file)]) == 2
+    assert "clock: nobody tells the time on /acme/clock" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("velocity", [[], [math.nan]])

@@ -62,6 +62,20 @@ def test_a_robot_that_plans_ways_is_driven_in_legs() -> None:
     assert (drive["path"], drive["leg_m"]) == ("/ways", 2.0)
 
 
+def test_actions_whose_types_are_not_told_are_known_by_their_names() -> None:
+    """Rosapi tells no types of actions; these are what Nav2 serves, and a head's controller."""
+    names = ("assisted_teleop", "compute_path_through_poses", "compute_path_to_pose", "spinner")
+    names += ("navigate_through_poses", "navigate_to_pose", "head/point_head_action")
+    untold = dict.fromkeys((f"/{name}" for name in names), "")
+    profile = proposed({}, untold)
+    drive = {"action": "/navigate_to_pose", "type": NAVIGATE}
+    assert profile["drive"] == drive | {"path": "/compute_path_to_pose", "leg_m": 2.0}
+    assert profile["look"] == {"action": "/head/point_head_action", "type": HEAD}
+    assert 'action = ""  # not found; there is /a (type not told), /b (' in proposal(
+        Offers({}, (), {"/a": "", "/b": ""}), ()
+    )
+
+
 def test_the_optical_frame_is_named_for_a_head_and_only_if_there_is_one() -> None:
     actions = {"/go": NAVIGATE, "/head": HEAD}
     frames = ("color_optical_frame", "depth_optical_frame")

@@ -8,6 +8,7 @@ from second_robot import PROFILE, SecondRobot
 from tls import certificate, tls_before
 
 from executive.ros.__main__ import main
+from executive.ros.address import HEADERS
 from executive.testing.bench import four_rooms
 
 
@@ -72,6 +73,17 @@ def test_why_a_door_is_shut_is_told(
         robot.shut = answer
         assert main(["check", robot.url, "--profile", str(PROFILE)]) == 2
     assert said in capsys.readouterr().err
+
+
+def test_a_key_goes_to_nobody_to_whom_the_door_sends(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv(HEADERS, '{"Api-Key": "secret"}')
+    with SecondRobot() as robot, SecondRobot() as other:
+        robot.sends_to = f"{other.url}/?key=secret"
+        assert main(["check", robot.url, "--profile", str(PROFILE)]) == 2
+        assert not other.headers
+        assert f"it sends to {other.url}/; give that address" in capsys.readouterr().err
 
 
 def test_a_door_with_tls_that_is_taken_for_one_without_is_told(
