@@ -2,7 +2,7 @@
 
 import { percent, said } from "./chances.js";
 import { drawn, element } from "./elements.js";
-import { spoken, text, textOr } from "./texts.js";
+import { called, spoken, text } from "./texts.js";
 
 const map = document.getElementById("map");
 const list = document.getElementById("places");
@@ -170,7 +170,7 @@ function row({ place, state, chance, sources, why, turn }, chances) {
   const likely = chance === null ? "" : percent(chance);
   return element("tr", { class: state },
     element("th", { scope: "row" }, `${sign(state, turn)} ${labelOf(place)}`,
-      element("small", {}, [textOr(`states.${state}`, state), why].filter(Boolean).join(": "))),
+      element("small", {}, [called("states", state), why].filter(Boolean).join(": "))),
     chances ? element("td", {}, chance === null ? "" : element("meter", {
       value: chance, max: 1, "aria-label": likely }), ` ${likely}`) : null,
     element("td", {}, ...said(sources).flatMap((one) => [element("span", { class: "source" }, one), " "])));

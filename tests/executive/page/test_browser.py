@@ -13,6 +13,8 @@ from playwright.sync_api import Browser, Route, expect
 from executive.events import Inbox
 from executive.page.address import Address
 from executive.page.page import Page
+from executive.records import NodeShape, NodeState, Tick, TreeShape
+from logs.recorder import Stamp
 
 pytestmark = pytest.mark.browser
 
@@ -88,6 +90,27 @@ def test_a_place_may_be_chosen_on_the_map(browser: Browser, talking: Robot) -> N
     assert talking.outcomes[0].location == "high_table"
 
 
+def test_the_header_counts_the_places_of_the_table(browser: Browser) -> None:
+    chances = {"desk": 0.5, "sofa": 0.3, "bed": 0.1, "shelf": 0.05, "cabinet": 0.04}
+    candidates = [{"place": place, "source": "llm"} for place in ("sofa", "bed")]
+    places = [{"place": place, "probability": chance} for place, chance in chances.items()]
+    situation = {
+        "object": "mug",
+        "candidate": candidates[0],
+        "candidates": candidates,
+        "visited": ["desk"],
+        "belief": {"places": places},
+    }
+    node = NodeShape("search", "", "search", "sequence", "Search", activity="searching")
+    tick = Tick(3, "Saw", "search", (NodeState("search", "RUNNING"),), situation, 0.001)
+    with page_alone() as page, opened(browser, page) as tab:
+        for record in (TreeShape((node,)), tick):
+            page.sink.write(Stamp(1.0, 0), record)
+        page.sink.flush()
+        expect(tab.locator("#progress")).to_have_text("Place 2 of 5")
+        expect(tab.locator("#places tbody tr")).to_have_count(5)
+
+
 def test_why_is_told_beside_the_sentence(browser: Browser, talking: Robot) -> None:
     with opened(browser, talking.page) as tab:
         wait_until_ready(tab)
@@ -123,6 +146,7 @@ def test_why_is_told_in_the_persons_words(browser: Browser, tmp_path: Path) -> N
             "51 % (known of homes 49 %, language model 2 %), 9 s away",
         ),
         ("0.41 (my_shelf 0.40, anywhere 0.00)", "41 % (my shelf)"),
+        ("cabinet_kitchen 0.20, sugar_box", "cabinet in the kitchen 20 %, sugar box"),
         ("desk 0.62, sofa 0.00", "desk 62 %, sofa < 1 %"),
         (
             "llm ranks places: the ontology has 3 places for it",

@@ -63,6 +63,12 @@ export class Tree {
     this.choose(place);
   }
 
+  /** None is chosen any more. */
+  drop() {
+    this.rows.get(this.chosen)?.setAttribute("aria-selected", "false");
+    this.chosen = -1;
+  }
+
   /** Scroll the tree, and nothing around it, to a behaviour that is out of sight. */
   reveal(place) {
     const row = this.rows.get(place);
