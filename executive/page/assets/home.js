@@ -9,7 +9,7 @@ const list = document.getElementById("places");
 const MARGIN_M = 0.1;
 const LETTER_M = 0.15;
 const ABOVE_M = 0.36;
-const MARKS = { open: "?", current: "→", empty: "✕", unreached: "!", found: "✓" };
+const MARKS = { open: "?", current: "→", empty: "✕", been: "•", unreached: "!", found: "✓" };
 const layers = {};
 let home = null;
 let robotAt = null;
@@ -147,11 +147,11 @@ function sign(state, turn) {
 }
 
 function table({ thing, places }) {
-  const isFound = places.some((place) => place.state === "found");
+  const about = !thing ? "where_to" : places.some(({ state }) => state === "found") ? "where_found" : "where";
   const chances = places.some((place) => place.chance !== null);
   const heads = ["place", ...(chances ? ["chance"] : []), "source"];
   return element("table", {},
-    element("caption", {}, text(isFound ? "where_found" : "where", { thing: spoken(thing) })),
+    element("caption", {}, text(about, { thing: spoken(thing) })),
     element("thead", {}, element("tr", {},
       ...heads.map((head) => element("th", { scope: "col" }, text(head))))),
     element("tbody", {}, ...places.map((place) => row(place, chances))));

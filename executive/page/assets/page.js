@@ -90,8 +90,13 @@ function showDoing(state) {
   showProgress();
   const ended = ["ready", "rest"].includes(state?.state) && board.outcome;
   last.hidden = !ended;
-  if (ended) last.textContent = called("last", board.outcome.status);
+  if (ended) last.textContent = howItEnded(board.outcome);
   suggest();
+}
+
+/** What nobody told the person is told here: what a robot that was stopped still holds, say. */
+function howItEnded({ status, untold }) {
+  return untold ? text("last_untold", { why: untold }) : called("last", status);
 }
 
 /** At which place a search is, of those in the table. */
@@ -114,9 +119,9 @@ function sentenceOf(state) {
     place: labelOf(state.place ?? ""),
   };
   if (!activity) return text("doing.busy");
-  if (activity === "driving" && state.place) return text("doing.driving_to", values);
+  if (activity === "driving" && state.place) return text(state.thing ? "doing.driving_to" : "doing.driving_to_see", values);
   if (activity === "driving" && state.held) return text("doing.driving_with", values);
-  if (activity === "looking" && state.place) return text("doing.looking_at", values);
+  if (activity === "looking" && state.place) return text(state.thing ? "doing.looking_at" : "doing.looking_around", values);
   if (activity === "handling" && state.held) return text("doing.handling_held", values);
   return textOr(`doing.${activity}`, "") && text(`doing.${activity}`, values) || text("doing.other", values);
 }

@@ -14,6 +14,7 @@ from executive.events import Inbox
 from executive.page.address import Address
 from executive.page.page import Page
 from executive.records import NodeShape, NodeState, Tick, TreeShape
+from executive.testing.bench import run_mission
 from logs.recorder import Stamp
 
 pytestmark = pytest.mark.browser
@@ -111,6 +112,22 @@ def test_the_header_counts_the_places_of_the_table(browser: Browser) -> None:
         expect(tab.locator("#places tbody tr")).to_have_count(5)
 
 
+def test_where_things_are_counted_no_one_thing_is_looked_for(browser: Browser) -> None:
+    records = run_mission("How many fruits are on the desk?", llm=False).notebook.records
+    with page_alone() as page, opened(browser, page) as tab:
+        told: list[str] = []
+        for record in records:
+            page.sink.write(Stamp(1.0, 0), record)
+            if isinstance(record, Tick):
+                page.sink.flush()
+                tab.wait_for_timeout(20)
+                told.append(tab.locator("#doing").inner_text())
+        assert "I am on my way to the desk to have a look." in told
+        assert "I am having a look: desk." in told
+        expect(tab.locator("#places caption")).to_have_text("Places on my way")
+        expect(tab.locator("#places tbody th")).to_have_text("• desk" + "been there")
+
+
 def test_why_is_told_beside_the_sentence(browser: Browser, talking: Robot) -> None:
     with opened(browser, talking.page) as tab:
         wait_until_ready(tab)
@@ -200,7 +217,7 @@ def test_a_question_is_stopped_as_well(browser: Browser, talking: Robot, how: st
             tab.get_by_role("button", name="Stop").click()
         else:
             tab.keyboard.press(how)
-        expect(tab.locator("#last")).to_have_text("Last time: stopped.")
+        expect(tab.locator("#last")).to_have_text("Last time: stopped by the person.")
         expect(tab.locator("#answers")).to_be_hidden()
 
 
@@ -326,6 +343,36 @@ def test_texts_that_are_lost_on_the_way_are_asked_for_again(
         tab.reload()
         wait_until_ready(tab)
     assert lost
+
+
+def test_a_connection_that_falls_silent_is_told_and_made_again(
+    browser: Browser, talking: Robot
+) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        tab.clock.install()
+        tab.route("**/events*", lambda route: None)  # never answered
+        tab.reload()
+        expect(tab.locator("#words")).to_have_attribute("placeholder", "Bring the mug")
+        tab.clock.fast_forward(60_000)
+        expect(tab.get_by_role("alert")).to_contain_text("No connection to the robot.")
+        tab.unroute("**/events*")
+        tab.clock.fast_forward(60_000)
+        wait_until_ready(tab)
+        expect(tab.get_by_role("alert")).to_be_hidden()
+
+
+def test_a_stop_that_nobody_answers_is_told_and_sent_again(
+    browser: Browser, talking: Robot
+) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        tab.route("**/stop*", lambda route: None)
+        tab.keyboard.press("Escape")
+        expect(tab.get_by_role("alert")).to_contain_text("STOP has not reached the robot")
+        tab.unroute("**/stop*")
+        expect(tab.locator("#said .stopped")).to_have_count(1)
+        expect(tab.get_by_role("alert")).to_be_hidden()
 
 
 def test_a_lost_connection_is_told_and_made_again(browser: Browser) -> None:
